@@ -1,0 +1,285 @@
+/* geoidx: geodesic distances on triangle meshes, precomputed once, answered from one file.
+ *
+ * geoidx_build turns a triangle mesh into an index: a hierarchy of patches with precomputed distances
+ * (Aiello, Banterle, Pietroni, Malomo, Cignoni, Scopigno, "Compression and Querying of Arbitrary Geodesic
+ * Distances", 2015). geoidx_save and geoidx_open move it to and from one file. geoidx_sssd and geoidx_msad
+ * answer from it.
+ *
+ * Conventions that hold for every function here:
+ *
+ * - Ids. A vertex id is the caller's own: the position of the vertex in the array given to geoidx_build,
+ *   whatever welding and clean-up did inside. Valid ids are 0 .. vertex_count - 1.
+ * - Distances are in the mesh's own unit. A vertex that cannot be reached is at +INFINITY.
+ * - Ownership. The caller owns every array it passes; the library reads or writes it during the call only and
+ *   keeps no pointer to it. The library owns handles; each create/build/open has its close. Closing NULL is
+ * fine.
+ * - Errors. Functions return a geoidx_status: 0 is success, errors are negative. geoidx_last_error() gives
+ * the detail (what, where, which value) of the calling thread's latest failure. On failure an output handle
+ * is set to NULL and output arrays hold unspecified values. No exception, abort or print crosses this
+ * boundary.
+ * - Threads. A `geoidx` and a `geoidx_solver`'s mesh are immutable: any number of threads may query one index
+ * at once. A `geoidx_query` and a `geoidx_solver` are one thread's scratch: use each from one thread at a
+ * time. Nothing may be in use by another thread while it is closed.
+ * - Structs begin with struct_size, set by the matching *_init function or to sizeof(the struct). A shorter
+ *   struct from an older caller is accepted; the fields it lacks take their defaults.
+ */
+#ifndef GEOIDX_H
+#define GEOIDX_H
+
+#include <stdint.h>
+
+#define GEOIDX_VERSION_MAJOR 0
+#define GEOIDX_VERSION_MINOR 1
+#define GEOIDX_VERSION_PATCH 0
+
+#if defined(_WIN32)
+#if defined(GEOIDX_BUILDING_SHARED)
+#define GEOIDX_API __declspec(dllexport)
+#elif defined(GEOIDX_USING_SHARED)
+#define GEOIDX_API __declspec(dllimport)
+#else
+#define GEOIDX_API
+#endif
+#else
+#define GEOIDX_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* An index: immutable, shared by any number of threads. */
+typedef struct geoidx geoidx;
+
+/* One thread's scratch for queries on one index. */
+typedef struct geoidx_query geoidx_query;
+
+/* A mesh with a metric and one thread's scratch: distances computed from scratch, without an index. */
+typedef struct geoidx_solver geoidx_solver;
+
+/* 0 is success, errors are negative. The numbers never change once released. */
+typedef int32_t geoidx_status;
+
+enum {
+    GEOIDX_OK = 0,
+    GEOIDX_ERROR_INVALID_ARGUMENT = -1,    /* a NULL where none is allowed, an id or an option out of range */
+    GEOIDX_ERROR_IO = -2,                  /* the operating system refused to open, read, write or rename */
+    GEOIDX_ERROR_NOT_AN_INDEX = -3,        /* the data does not begin like a geoidx file */
+    GEOIDX_ERROR_TRUNCATED = -4,           /* the data is shorter than its header says */
+    GEOIDX_ERROR_CORRUPT = -5,             /* the data contradicts the format or itself */
+    GEOIDX_ERROR_CHECKSUM = -6,            /* stored bytes do not match their checksum */
+    GEOIDX_ERROR_UNSUPPORTED_VERSION = -7, /* written by a newer format, or with features unknown here */
+    GEOIDX_ERROR_MESH_MISMATCH = -8,       /* the index belongs to another mesh than the one given */
+    GEOIDX_ERROR_LIMIT = -9,               /* a count is over what the format or the library can hold */
+    GEOIDX_ERROR_OUT_OF_MEMORY = -10,
+    GEOIDX_ERROR_CANCELLED = -11, /* a progress callback returned 0 */
+    GEOIDX_ERROR_BAD_MESH = -12,  /* the mesh cannot be used; geoidx_last_error() names the element */
+    GEOIDX_ERROR_CALLBACK = -13,  /* the caller's metric failed or returned NaN or a negative number */
+    GEOIDX_ERROR_INTERNAL = -14   /* a defect of this library */
+};
+
+/* The release of the library: major * 10000 + minor * 100 + patch. */
+GEOIDX_API uint32_t geoidx_version(void);
+
+/* A short constant English phrase for a status; never NULL, also for numbers unknown here. */
+GEOIDX_API const char* geoidx_status_string(geoidx_status status);
+
+/* The calling thread's latest failure in detail, UTF-8, "" before the first one. Valid until the thread's
+ * next call into the library. */
+GEOIDX_API const char* geoidx_last_error(void);
+
+/* Memory of the caller's choosing. allocate returns `size` bytes aligned to `alignment` (a power of two, at
+ * most 64) or NULL; release gets back exactly what allocate was asked for. Both may be called from several
+ * threads at once and must not call into the library. Both NULL (the default) means the global heap. The
+ * index, its tables and its query scratch come from here; the temporary memory of building and opening does
+ * not. */
+typedef struct geoidx_allocator {
+    void* (*allocate)(void* user, uint64_t size, uint64_t alignment);
+    void (*release)(void* user, void* memory, uint64_t size, uint64_t alignment);
+    void* user;
+} geoidx_allocator;
+
+enum { GEOIDX_POSITION_FLOAT = 0, GEOIDX_POSITION_DOUBLE = 1 };
+
+/* A triangle mesh, as arrays of the caller's. Vertices with equal positions are one vertex (see
+ * weld_tolerance), degenerate and duplicate triangles are dropped, a vertex that no triangle uses keeps its
+ * id and is unreachable. Any number of components, open boundaries, any genus, either orientation, and
+ * vertices where several fans of triangles meet are fine. An edge with more than two triangles, a NaN or
+ * infinite position and an index out of range are GEOIDX_ERROR_BAD_MESH. */
+typedef struct geoidx_mesh {
+    uint32_t struct_size;
+    uint32_t position_type;    /* GEOIDX_POSITION_FLOAT (default) or GEOIDX_POSITION_DOUBLE */
+    const void* positions;     /* x, y, z of each vertex, `position_stride` bytes apart */
+    uint64_t vertex_count;     /* 1 .. 2^32 - 2 */
+    const uint32_t* triangles; /* three vertex ids a triangle */
+    uint64_t triangle_count;   /* 1 .. 2^32 - 2 */
+    uint32_t position_stride;  /* bytes from one vertex to the next; 0: tightly packed */
+    uint32_t reserved;         /* 0 */
+} geoidx_mesh;
+
+GEOIDX_API void geoidx_mesh_init(geoidx_mesh* mesh);
+
+enum {
+    GEOIDX_METRIC_EXACT = 0,   /* exact polyhedral geodesic distance */
+    GEOIDX_METRIC_EDGES = 1,   /* shortest path along edges; edge length, or the caller's cost per edge */
+    GEOIDX_METRIC_CALLBACK = 2 /* metric_callback */
+};
+
+/* The caller's own metric: writes the distance from `source` to each of `targets` (ids of the caller's mesh)
+ * into `distances` and returns GEOIDX_OK; any other value stops the build with GEOIDX_ERROR_CALLBACK.
+ * Distances are symmetric, not negative, obey the triangle inequality, and are +INFINITY where there is no
+ * path. Called from several threads at once unless `threads` is 1. */
+typedef geoidx_status (*geoidx_metric_fn)(void* user, uint32_t source, const uint32_t* targets,
+                                          uint32_t target_count, double* distances);
+
+/* Progress of a build: fraction 0 .. 1, never falling, and a short name of the stage. Return 0 to cancel.
+ * Called from the thread that called geoidx_build only, at least a few times a second. */
+typedef int32_t (*geoidx_progress_fn)(void* user, float fraction, const char* stage);
+
+enum { GEOIDX_MAX_LEVELS = 8 };
+
+typedef struct geoidx_build_options {
+    uint32_t struct_size;
+    uint32_t metric;       /* GEOIDX_METRIC_* */
+    double weld_tolerance; /* vertices at most this far apart are one; 0 (default): equal positions only */
+    double delta;     /* pruning threshold, % of the bounding-box diagonal (paper 3.3); 0 (default): none */
+    uint64_t seed;    /* of every random choice; the same seed gives the same bytes */
+    uint32_t threads; /* 0 (default): one per processor */
+    uint32_t level_count; /* levels below the whole mesh, at most GEOIDX_MAX_LEVELS; 0 (default): automatic */
+    uint32_t patches[8]; /* patches[0]: n1, patches of level 1; patches[i]: patches that each patch of level i
+                            is split into (n2 is patches[1]); 0 (default): in proportion to the vertices */
+    uint32_t lloyd_iterations; /* relaxations of the seeds (paper 3.1); default 4 */
+    uint32_t
+        edge_cost_count; /* GEOIDX_METRIC_EDGES: length of the two arrays below; 0 (default): edge lengths */
+    const uint32_t* edge_cost_vertices; /* two ids an edge; edges not listed keep their length as cost */
+    const double* edge_costs;           /* finite and not negative; an edge given twice takes the smaller */
+    geoidx_metric_fn metric_callback;   /* GEOIDX_METRIC_CALLBACK only */
+    void* metric_user;
+    geoidx_progress_fn progress; /* may be NULL */
+    void* progress_user;
+    geoidx_allocator allocator;
+} geoidx_build_options;
+
+GEOIDX_API void geoidx_build_options_init(geoidx_build_options* options);
+
+typedef struct geoidx_open_options {
+    uint32_t struct_size;
+    uint32_t reserved;                /* 0 */
+    const geoidx_mesh* expected_mesh; /* may be NULL; otherwise the index must have been built from this very
+                                         mesh (same arrays, same numbers), else GEOIDX_ERROR_MESH_MISMATCH */
+    geoidx_allocator allocator;
+} geoidx_open_options;
+
+GEOIDX_API void geoidx_open_options_init(geoidx_open_options* options);
+
+/* What an index is. Errors are of MSAD against the metric itself, |d - exact| / exact over all targets of
+ * `error_sources` seeded random sources, measured when the index was built. */
+typedef struct geoidx_info {
+    uint32_t struct_size;
+    uint32_t metric;              /* GEOIDX_METRIC_* */
+    uint64_t vertex_count;        /* of the caller's array */
+    uint64_t triangle_count;      /* of the caller's array */
+    uint64_t welded_vertex_count; /* distinct vertices after welding that a triangle uses */
+    uint64_t mesh_fingerprint;
+    uint64_t table_entries;       /* floats in all tables */
+    uint64_t border_vertex_count; /* vertices on a border of the last level, after pruning */
+    double bounding_box_diagonal;
+    double delta;
+    uint64_t seed;
+    uint32_t format_major;
+    uint32_t format_minor;
+    uint32_t level_count;
+    uint32_t patch_count[8]; /* of levels 1 .. level_count */
+    uint32_t error_sources;
+    double error_mean;
+    double error_signed_mean;
+    double error_p99;
+    double error_p999;
+    double error_max;
+} geoidx_info;
+
+/* ---- Building, saving, opening
+ * ------------------------------------------------------------------------------ */
+
+/* Builds the index of a mesh (paper section 3). `options` may be NULL for the defaults. *out is the new
+ * index, to be closed with geoidx_close. Deterministic: mesh, options and seed decide every bit, whatever the
+ * threads. */
+GEOIDX_API geoidx_status geoidx_build(const geoidx_mesh* mesh, const geoidx_build_options* options,
+                                      geoidx** out);
+
+/* Writes the index to a file, replacing what is there: a sibling file is written, synced and renamed, so that
+ * a failure leaves neither a partial file nor a damaged old one. */
+GEOIDX_API geoidx_status geoidx_save(const geoidx* index, const char* utf8_path);
+
+/* The same bytes into the caller's buffer. *needed is always set to their number; when capacity is smaller,
+ * nothing is written and GEOIDX_ERROR_INVALID_ARGUMENT is returned, unless buffer is NULL and capacity 0,
+ * which asks for the size and succeeds. */
+GEOIDX_API geoidx_status geoidx_save_memory(const geoidx* index, void* buffer, uint64_t capacity,
+                                            uint64_t* needed);
+
+/* Opens an index. Everything in the file is checked before it is believed. `options` may be NULL. */
+GEOIDX_API geoidx_status geoidx_open(const char* utf8_path, const geoidx_open_options* options, geoidx** out);
+
+/* The same from memory; `data` is not needed after the call. */
+GEOIDX_API geoidx_status geoidx_open_memory(const void* data, uint64_t size,
+                                            const geoidx_open_options* options, geoidx** out);
+
+GEOIDX_API void geoidx_close(geoidx* index);
+
+/* Fills *info up to its struct_size. */
+GEOIDX_API geoidx_status geoidx_get_info(const geoidx* index, geoidx_info* info);
+
+/* Told once for each problem found: its status, the byte offset it concerns, and one line of text that is
+ * valid during the call. Return 0 to stop. */
+typedef int32_t (*geoidx_issue_fn)(void* user, geoidx_status status, uint64_t offset, const char* message);
+
+/* Checks an index in memory as geoidx_open_memory does, but goes on after a problem where it can: each
+ * section's checksum and contents are looked at. Returns GEOIDX_OK when there is none, otherwise the first
+ * problem's status. `issue` may be NULL. */
+GEOIDX_API geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user);
+
+/* ---- Queries (paper section 3.4)
+ * ----------------------------------------------------------------------------- */
+
+/* Single source, single destination. Symmetric bit for bit; 0 for a vertex and itself; exact to float
+ * precision for two vertices of one leaf. Never below the metric by more than float rounding. */
+GEOIDX_API geoidx_status geoidx_sssd(const geoidx* index, uint32_t source, uint32_t target, float* distance);
+
+/* pair_count pairs: source_target_pairs[2 i] and [2 i + 1] give distances[i]. */
+GEOIDX_API geoidx_status geoidx_sssd_batch(const geoidx* index, const uint32_t* source_target_pairs,
+                                           uint64_t pair_count, float* distances);
+
+/* Multiple sources, all destinations: distances[v] is the distance from v to the nearest of 1 or more
+ * sources. distance_count must be the mesh's vertex_count. */
+GEOIDX_API geoidx_status geoidx_msad(const geoidx* index, const uint32_t* sources, uint32_t source_count,
+                                     float* distances, uint32_t distance_count);
+
+/* One thread's scratch, so that a query neither allocates nor locks. The index must outlive it. */
+GEOIDX_API geoidx_status geoidx_query_create(const geoidx* index, geoidx_query** out);
+GEOIDX_API void geoidx_query_close(geoidx_query* query);
+GEOIDX_API geoidx_status geoidx_query_sssd(geoidx_query* query, uint32_t source, uint32_t target,
+                                           float* distance);
+GEOIDX_API geoidx_status geoidx_query_msad(geoidx_query* query, const uint32_t* sources,
+                                           uint32_t source_count, float* distances, uint32_t distance_count);
+
+/* ---- Distances without an index
+ * ------------------------------------------------------------------------------ */
+
+/* A mesh and a metric, ready to compute. Of the options, metric and its parameters and weld_tolerance count;
+ * options may be NULL. To be closed with geoidx_solver_close. */
+GEOIDX_API geoidx_status geoidx_solver_create(const geoidx_mesh* mesh, const geoidx_build_options* options,
+                                              geoidx_solver** out);
+GEOIDX_API void geoidx_solver_close(geoidx_solver* solver);
+
+/* distances[i]: from targets[i] to the nearest of 1 or more sources under the metric itself. The computation
+ * stops when all targets are final. With targets NULL, target_count must be the mesh's vertex_count and every
+ * vertex is a target. */
+GEOIDX_API geoidx_status geoidx_solver_distances(geoidx_solver* solver, const uint32_t* sources,
+                                                 uint32_t source_count, const uint32_t* targets,
+                                                 uint32_t target_count, double* distances);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
