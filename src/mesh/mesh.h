@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace geodesic {
+
+inline constexpr uint32_t NONE = UINT32_MAX;
+
+// Lists of different lengths in one array: list i is items[begin[i]] .. items[begin[i + 1] - 1].
+template <class T>
+struct ListOfLists {
+    std::vector<uint32_t> begin{0};
+    std::vector<T> items;
+
+    std::span<const T> operator[](size_t i) const {
+        return {items.data() + begin[i], items.data() + begin[i + 1]};
+    }
+    std::span<T> operator[](size_t i) { return {items.data() + begin[i], items.data() + begin[i + 1]}; }
+    size_t size() const { return begin.size() - 1; }
+    void close_list() { begin.push_back(static_cast<uint32_t>(items.size())); }
+};
+
+// Groups the numbers 0 .. keys.size() - 1 by their key, keeping their order within a group.
+ListOfLists<uint32_t> group_by(std::span<const uint32_t> keys, uint32_t group_count);
+
+// A clean triangle mesh: every vertex is used, no face is degenerate or there twice.
+struct Mesh {
+    std::vector<Eigen::Vector3d> positions;
+    std::vector<std::array<uint32_t, 3>> faces;
+    std::vector<std::array<uint32_t, 3>> face_edges; // face_edges[f][k] is opposite to faces[f][k]
+    std::vector<std::array<uint32_t, 2>> edges;      // the smaller vertex first
+    ListOfLists<uint32_t> edge_faces;
+    ListOfLists<uint32_t> vertex_faces;
+
+    uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size()); }
+    uint32_t face_count() const { return static_cast<uint32_t>(faces.size()); }
+    uint32_t edge_count() const { return static_cast<uint32_t>(edges.size()); }
+    double edge_length(uint32_t e) const { return (positions[edges[e][0]] - positions[edges[e][1]]).norm(); }
+};
+
+// Derives edges and incidences from positions and faces.
+void connect(Mesh& mesh);
+
+// The edge between two vertices, or NONE.
+uint32_t find_edge(const Mesh& mesh, uint32_t a, uint32_t b);
+
+}

@@ -1,0 +1,157 @@
+#include "src/metric/intrinsic_mesh.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+namespace geodesic {
+
+namespace {
+
+uint32_t corner_at(const Mesh& mesh, uint32_t face, uint32_t vertex) {
+    const auto& f = mesh.faces[face];
+    return 3 * face + (f[0] == vertex ? 0u : f[1] == vertex ? 1u : 2u);
+}
+
+uint32_t other_edge_at(const Mesh& mesh, uint32_t corner, uint32_t edge) {
+    const auto& edges = mesh.face_edges[corner / 3];
+    const uint32_t first = edges[(corner + 1 - corner / 3 * 3) % 3];
+    const uint32_t second = edges[(corner + 2 - corner / 3 * 3) % 3];
+    return first == edge ? second : first;
+}
+
+uint32_t other_face_at(const Mesh& mesh, uint32_t edge, uint32_t face) {
+    const auto faces = mesh.edge_faces[edge];
+    if (faces.size() != 2) return NONE;
+    return faces[0] == face ? faces[1] : faces[0];
+}
+
+double angle_at(const Mesh& mesh, uint32_t corner) {
+    const auto& f = mesh.faces[corner / 3];
+    const uint32_t k = corner % 3;
+    const Eigen::Vector3d a = mesh.positions[f[(k + 1) % 3]] - mesh.positions[f[k]];
+    const Eigen::Vector3d b = mesh.positions[f[(k + 2) % 3]] - mesh.positions[f[k]];
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+Side unfold(const Mesh& mesh, uint32_t edge, uint32_t face) {
+    const auto [first, second] = mesh.edges[edge];
+    const auto& f = mesh.faces[face];
+    uint32_t k = 0;
+    while (f[k] == first || f[k] == second) ++k;
+    const Eigen::Vector3d along = (mesh.positions[second] - mesh.positions[first]).normalized();
+    const Eigen::Vector3d to_apex = mesh.positions[f[k]] - mesh.positions[first];
+    Side side{to_apex.dot(along), to_apex.cross(along).norm(), f[k], face, {}};
+    for (uint32_t i = 0; i < 2; ++i) {
+        const uint32_t from = mesh.edges[edge][i];
+        const uint32_t opposite = f[(k + 1) % 3] == from ? (k + 2) % 3 : (k + 1) % 3;
+        const uint32_t e = mesh.face_edges[face][opposite];
+        side.tagged_edge[i] = e << 1 | (mesh.edges[e][0] == f[k] ? 1u : 0u);
+    }
+    return side;
+}
+
+void add_sides(const Mesh& mesh, IntrinsicMesh& out) {
+    out.edge_vertices = mesh.edges;
+    out.side_of_corner.resize(mesh.faces.size() * 3);
+    for (const auto& edges : mesh.face_edges)
+        out.edge_of_corner.insert(out.edge_of_corner.end(), edges.begin(), edges.end());
+    for (uint32_t e = 0; e < mesh.edge_count(); ++e) {
+        out.edge_length.push_back(mesh.edge_length(e));
+        for (uint32_t face : mesh.edge_faces[e]) {
+            const Side side = unfold(mesh, e, face);
+            const uint32_t corner = corner_at(mesh, face, side.apex);
+            out.side_of_corner[corner] = static_cast<uint32_t>(out.sides.items.size());
+            out.corner_of_side.push_back(corner);
+            out.sides.items.push_back(side);
+        }
+        out.sides.close_list();
+    }
+}
+
+void add_spokes(const Mesh& mesh, IntrinsicMesh& out) {
+    std::vector<uint32_t> ends;
+    for (const auto& edge : mesh.edges) ends.insert(ends.end(), edge.begin(), edge.end());
+    const auto by_vertex = group_by(ends, mesh.vertex_count());
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        for (uint32_t end : by_vertex[v])
+            out.spokes.items.push_back(
+                {out.edge_length[end / 2], end / 2, mesh.edges[end / 2][1 - end % 2]});
+        out.spokes.close_list();
+    }
+}
+
+// Where to begin going around a vertex: at a boundary edge if there is one, else anywhere.
+std::pair<uint32_t, uint32_t> fan_start(const Mesh& mesh, uint32_t vertex) {
+    for (uint32_t face : mesh.vertex_faces[vertex]) {
+        const uint32_t corner = corner_at(mesh, face, vertex);
+        for (uint32_t k = 1; k < 3; ++k) {
+            const uint32_t edge = mesh.face_edges[face][(corner % 3 + k) % 3];
+            if (mesh.edge_faces[edge].size() != 2) return {corner, edge};
+        }
+    }
+    const uint32_t corner = corner_at(mesh, mesh.vertex_faces[vertex][0], vertex);
+    return {corner, mesh.face_edges[corner / 3][(corner % 3 + 1) % 3]};
+}
+
+// Walks the faces around a vertex and lays their angles side by side.
+void add_fan(const Mesh& mesh, uint32_t vertex, IntrinsicMesh& out) {
+    const auto faces = mesh.vertex_faces[vertex];
+    for (uint32_t face : faces) out.corners.items.push_back(corner_at(mesh, face, vertex));
+    out.corners.close_list();
+
+    auto [corner, edge] = fan_start(mesh, vertex);
+    const uint32_t first_edge = edge;
+    const bool open = mesh.edge_faces[edge].size() == 1;
+    bool simple = mesh.edge_faces[edge].size() <= 2;
+    double angle = 0;
+    size_t visited = 0;
+    while (corner != NONE && visited < faces.size()) {
+        out.corner_begin[corner] = angle;
+        out.corner_first_edge[corner] = edge;
+        angle += out.corner_angle[corner];
+        ++visited;
+        edge = other_edge_at(mesh, corner, edge);
+        simple = simple && mesh.edge_faces[edge].size() <= 2;
+        if (edge == first_edge) break;
+        const uint32_t face = other_face_at(mesh, edge, corner / 3);
+        corner = face == NONE ? NONE : corner_at(mesh, face, vertex);
+    }
+    out.total_angle[vertex] = angle;
+    if (!simple || visited < faces.size())
+        out.fan[vertex] = Fan::Irregular;
+    else
+        out.fan[vertex] = open ? Fan::Open : Fan::Closed;
+}
+
+bool can_bend(const IntrinsicMesh& mesh, uint32_t vertex) {
+    constexpr double ROUNDING = 1e-12;
+    switch (mesh.fan[vertex]) {
+    case Fan::Closed: return mesh.total_angle[vertex] > 2 * std::numbers::pi + ROUNDING;
+    case Fan::Open: return mesh.total_angle[vertex] > std::numbers::pi + ROUNDING;
+    case Fan::Irregular: break;
+    }
+    return true;
+}
+
+}
+
+IntrinsicMesh::IntrinsicMesh(const Mesh& mesh) {
+    add_sides(mesh, *this);
+    add_spokes(mesh, *this);
+    const size_t corner_count = mesh.faces.size() * 3;
+    corner_begin.resize(corner_count);
+    corner_angle.resize(corner_count);
+    corner_first_edge.resize(corner_count);
+    for (uint32_t c = 0; c < corner_count; ++c) corner_angle[c] = angle_at(mesh, c);
+    total_angle.resize(mesh.vertex_count());
+    fan.resize(mesh.vertex_count());
+    can_bend.resize(mesh.vertex_count());
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        add_fan(mesh, v, *this);
+        can_bend[v] = geodesic::can_bend(*this, v);
+    }
+}
+
+}

@@ -1,0 +1,79 @@
+#include "src/metric/window.h"
+
+namespace geodesic {
+
+namespace {
+
+// A difference of distances below this share of the distance is rounding.
+constexpr double RELATIVE_ROUNDING = 1e-12;
+
+double difference(const Window& a, const Window& b, double t) { return a.distance_at(t) - b.distance_at(t); }
+
+// Halves the bracket: slow, but cannot fail.
+double bisect(const Window& a, const Window& b, double low, double high) {
+    const bool low_sign = difference(a, b, low) < 0;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        ((difference(a, b, middle) < 0) == low_sign ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+// The t in [low, high] with a(t) = b(t), where a - b changes its sign once. Points whose distances to two sources
+// differ by a constant lie on a hyperbola; this is where it meets the edge. Written so that nothing cancels when
+// the constant is small.
+double crossing(const Window& a, const Window& b, double low, double high) {
+    const double ax = a.x - low, bx = b.x - low;
+    const double lag = b.sigma - a.sigma;
+    const double slope = 2 * (bx - ax);
+    const double offset = ax * ax + a.y * a.y - bx * bx - b.y * b.y - lag * lag;
+    const double square = slope * slope - 4 * lag * lag;
+    const double half_linear = slope * offset + 4 * lag * lag * bx;
+    const double at_source = offset + slope * bx;
+    const double root =
+        2 * std::abs(lag) * std::sqrt(std::max(0.0, at_source * at_source + b.y * b.y * square));
+    const double constant = offset * offset - 4 * lag * lag * (bx * bx + b.y * b.y);
+    const double q = -(half_linear + std::copysign(root, half_linear));
+    const double width = high - low;
+    const double candidates[2] = {q / square, constant / q};
+    for (double t : candidates)
+        if (t >= 0 && t <= width && (slope * t + offset) * lag >= 0) {
+            const double crossed = low + t;
+            if (std::abs(difference(a, b, crossed)) <= 1e-11 * a.distance_at(crossed)) return crossed;
+        }
+    return bisect(a, b, low, high);
+}
+
+}
+
+// The difference of two windows has at most one extremum on the edge, where the line through both sources meets it.
+// Between the ends and that point it is monotonic, so that the signs there tell everything.
+Advantage advantage(const Window& challenger, const Window& holder, double s, double t) {
+    const double holder_s = s == holder.begin ? holder.begin_distance : holder.distance_at(s);
+    const double holder_t = t == holder.end ? holder.end_distance : holder.distance_at(t);
+    const double highest = std::max(holder_s, holder_t);
+    if (challenger.smallest_distance() >= highest) return {s, s, false};
+    const double at_s = (s == challenger.begin ? challenger.begin_distance : challenger.distance_at(s)) - holder_s;
+    const double at_t = (t == challenger.end ? challenger.end_distance : challenger.distance_at(t)) - holder_t;
+    const double rounding = RELATIVE_ROUNDING * highest;
+    const double extremum =
+        (challenger.x * holder.y - holder.x * challenger.y) / (holder.y - challenger.y);
+    if (!(extremum > s && extremum < t)) { // also where the line runs along the edge
+        if (at_s >= -rounding && at_t >= -rounding) return {s, s, false};
+        const double begin = at_s <= 0 ? s : crossing(challenger, holder, s, t);
+        const double end = at_t <= 0 ? t : crossing(challenger, holder, s, t);
+        return {begin, end, false};
+    }
+    const double between = difference(challenger, holder, extremum);
+    if (at_s >= -rounding && at_t >= -rounding && between >= -rounding) return {s, s, false};
+    if (between < 0) {
+        const double begin = at_s <= 0 ? s : crossing(challenger, holder, s, extremum);
+        const double end = at_t <= 0 ? t : crossing(challenger, holder, extremum, t);
+        return {begin, end, false};
+    }
+    const double first_end = at_s < 0 ? crossing(challenger, holder, s, extremum) : s;
+    const double second_begin = at_t < 0 ? crossing(challenger, holder, extremum, t) : t;
+    return {first_end, second_begin, true};
+}
+
+}

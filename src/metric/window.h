@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace geodesic {
+
+// The part of an edge that straight paths from one (pseudo-)source reach through one sequence of faces. In the
+// plane of the edge (first vertex at 0, on the x axis) the source lies at (x, y), y >= 0; the distance at t is
+// sigma + |(t, 0) - (x, y)|.
+struct Window {
+    double begin, end; // on the edge, begin < end
+    double x, y;
+    double sigma;                        // distance of the pseudo-source
+    double begin_distance, end_distance; // at the two ends
+    uint32_t from_face;                  // the paths arrive through this face and go on into the others
+    uint32_t nearest : 31;               // position of the source among the sources of the solve
+    uint32_t pending : 1;                // not propagated yet
+
+    double distance_at(double t) const { return sigma + std::sqrt((t - x) * (t - x) + y * y); }
+
+    double smallest_distance() const {
+        if (x < begin) return begin_distance;
+        if (x > end) return end_distance;
+        return sigma + y;
+    }
+};
+
+// Where a window is lower than another on an interval: on [begin, end], empty if begin >= end.
+struct Advantage {
+    double begin, end;
+    bool inside_out; // lower outside of (begin, end) instead
+};
+
+inline constexpr uint32_t MAX_NEAREST = UINT32_MAX >> 1;
+
+// Compares two windows on [s, t], which both cover. `challenger` must be lower by more than rounding to win.
+Advantage advantage(const Window& challenger, const Window& holder, double s, double t);
+
+}
