@@ -5,7 +5,9 @@
 
 #include "geoidx.h"
 
-namespace geoidx {
+// The C++ namespace of this repository is `geodesic` (`geodesic::format`, `geodesic::tools`): in C++ the C
+// type `geoidx` takes the name geoidx at global scope.
+namespace geodesic {
 
 // The one exception type of the library; capi turns it into a status and geoidx_last_error().
 struct Error : std::runtime_error {

@@ -1,0 +1,129 @@
+#include "format/container.h"
+
+#include <algorithm>
+
+#include "format/bytes.h"
+#include "format/layout.h"
+#include "format/matrix_png.h"
+#include "format/zstd_codec.h"
+
+namespace geodesic::format {
+namespace {
+
+[[noreturn]] void fail_corrupt(std::uint32_t tag, const std::string& what) {
+    throw Error(GEOIDX_ERROR_CORRUPT, "section " + tag_text(tag) + ": " + what);
+}
+
+std::uint64_t raw_size_of(std::span<const MatrixTarget> matrices) {
+    std::uint64_t size = 0;
+    for (const MatrixTarget& matrix : matrices) size += matrix.values.size_bytes();
+    return size;
+}
+
+void decode_matrix(std::uint32_t tag, std::size_t index, std::span<const std::byte> png,
+                   const MatrixTarget& matrix) {
+    try {
+        decode_png(png, matrix.rows, matrix.cols, matrix.values);
+    } catch (const Error& error) {
+        throw Error(error.status,
+                    "section " + tag_text(tag) + ", matrix " + std::to_string(index) + ": " + error.what());
+    }
+}
+
+}
+
+std::string tag_text(std::uint32_t tag) {
+    constexpr char DIGITS[] = "0123456789abcdef";
+    std::string text = "'";
+    for (int i = 0; i < 4; ++i) {
+        const std::uint32_t byte = tag >> (8 * i) & 0xFF;
+        if (byte >= 0x20 && byte < 0x7F) {
+            text += static_cast<char>(byte);
+        } else {
+            text += {'\\', 'x', DIGITS[byte >> 4], DIGITS[byte & 15]};
+        }
+    }
+    return text + "'";
+}
+
+Container Container::parse(std::span<const std::byte> file, std::span<const std::uint32_t> known_tags) {
+    Layout layout = examine(file, known_tags, [](const Issue& issue) {
+        throw Error(issue.status, issue.message + " (byte " + std::to_string(issue.offset) + ")");
+    });
+    Container container;
+    container.file_ = file;
+    container.version_major_ = layout.header.version_major;
+    container.version_minor_ = layout.header.version_minor;
+    container.mesh_fingerprint_ = layout.header.mesh_fingerprint;
+    container.sections_ = std::move(layout.sections);
+    return container;
+}
+
+std::vector<Issue> inspect(std::span<const std::byte> file, std::span<const std::uint32_t> known_tags) {
+    std::vector<Issue> issues;
+    examine(file, known_tags, [&](Issue issue) { issues.push_back(std::move(issue)); });
+    return issues;
+}
+
+const Section* Container::find(std::uint32_t tag) const {
+    const auto found = std::ranges::find(sections_, tag, &Section::tag);
+    return found == sections_.end() ? nullptr : &*found;
+}
+
+const Section& Container::section(std::uint32_t tag) const {
+    const Section* found = find(tag);
+    if (found == nullptr) fail_corrupt(tag, "missing");
+    return *found;
+}
+
+std::span<const std::byte> Container::stored_bytes(const Section& section) const {
+    return file_.subspan(static_cast<std::size_t>(section.offset),
+                         static_cast<std::size_t>(section.stored_size));
+}
+
+std::vector<std::byte> Container::read_bytes(std::uint32_t tag, std::uint64_t max_raw_size) const {
+    const Section& found = section(tag);
+    if (found.raw_size > max_raw_size) {
+        fail_corrupt(tag, std::to_string(found.raw_size) + " raw bytes, the limit here is " +
+                              std::to_string(max_raw_size));
+    }
+    const auto stored = stored_bytes(found);
+    if (found.codec == Codec::Raw) return {stored.begin(), stored.end()};
+    if (found.codec == Codec::Zstd)
+        return decompress_zstd(stored, found.raw_size, "section " + tag_text(tag));
+    fail_corrupt(tag, "it holds images, expected bytes");
+}
+
+void Container::read_matrices(std::uint32_t tag, std::span<const MatrixTarget> matrices) const {
+    const Section& found = section(tag);
+    if (found.raw_size != raw_size_of(matrices)) {
+        fail_corrupt(tag, std::to_string(found.raw_size) + " raw bytes, expected matrices of " +
+                              std::to_string(raw_size_of(matrices)));
+    }
+    if (found.codec == Codec::Png) {
+        const auto streams = png_streams(tag, matrices.size());
+        for (std::size_t i = 0; i < streams.size(); ++i) decode_matrix(tag, i, streams[i], matrices[i]);
+        return;
+    }
+    const std::vector<std::byte> raw = read_bytes(tag, found.raw_size);
+    ByteReader reader(raw, "section " + tag_text(tag));
+    for (const MatrixTarget& matrix : matrices) reader.f32_array(matrix.values);
+}
+
+std::vector<std::span<const std::byte>> Container::png_streams(std::uint32_t tag, std::uint64_t count) const {
+    const Section& found = section(tag);
+    if (found.codec != Codec::Png) fail_corrupt(tag, "it does not hold images");
+    ByteReader reader(stored_bytes(found), "section " + tag_text(tag));
+    const std::uint32_t stored_count = reader.u32();
+    if (stored_count != count) {
+        fail_corrupt(tag, std::to_string(stored_count) + " matrices, expected " + std::to_string(count));
+    }
+    ByteReader lengths(reader.bytes(8 * std::uint64_t{stored_count}), "section " + tag_text(tag));
+    std::vector<std::span<const std::byte>> streams;
+    streams.reserve(stored_count);
+    for (std::uint32_t i = 0; i < stored_count; ++i) streams.push_back(reader.bytes(lengths.u64()));
+    reader.expect_end();
+    return streams;
+}
+
+}

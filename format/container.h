@@ -1,0 +1,138 @@
+#pragma once
+
+// The file as a container: a header, a table of sections and the sections' stored bytes. SPEC.md is the norm.
+// Nothing here knows what a section means.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "format/error.h"
+
+namespace geodesic::format {
+
+inline constexpr std::uint16_t FORMAT_MAJOR = 1;
+inline constexpr std::uint16_t FORMAT_MINOR = 0;
+inline constexpr std::uint32_t MAX_SECTIONS = 1024;
+
+// The tag of four characters as it stands in the file, the first character first.
+constexpr std::uint32_t make_tag(const char (&name)[5]) {
+    std::uint32_t tag = 0;
+    for (int i = 3; i >= 0; --i) tag = tag << 8 | static_cast<unsigned char>(name[i]);
+    return tag;
+}
+
+// A tag for messages: 'HEAD', with bytes that are not printable as \xNN.
+std::string tag_text(std::uint32_t tag);
+
+enum class Codec : std::uint32_t {
+    Raw = 0,  // the raw bytes themselves
+    Zstd = 1, // one zstd frame
+    Png = 2   // u32 count, count u64 byte lengths, as many PNG streams back to back: one matrix each
+};
+
+// Flags of a section. A reader that does not know the tag of an optional section skips it.
+inline constexpr std::uint32_t SECTION_OPTIONAL = 1;
+
+struct Section {
+    std::uint32_t tag = 0;
+    Codec codec = Codec::Raw; // of a section that the reader does not know, perhaps none of the above
+    std::uint32_t flags = 0;
+    std::uint64_t offset = 0;      // bytes from the start of the file
+    std::uint64_t stored_size = 0; // bytes in the file
+    std::uint64_t raw_size = 0;    // bytes after decoding; of matrices 4 an entry
+    std::uint64_t checksum = 0;    // of the stored bytes
+};
+
+// A matrix, row by row; values.size() is rows x cols, neither of them 0.
+struct MatrixView {
+    std::span<const float> values;
+    std::uint32_t rows = 0;
+    std::uint32_t cols = 0;
+};
+
+struct MatrixTarget {
+    std::span<float> values;
+    std::uint32_t rows = 0;
+    std::uint32_t cols = 0;
+};
+
+// Collects sections, in the order in which they shall stand in the file. A tag added twice is
+// GEOIDX_ERROR_INTERNAL.
+class ContainerWriter {
+public:
+    explicit ContainerWriter(std::uint64_t mesh_fingerprint) : mesh_fingerprint_(mesh_fingerprint) {}
+
+    // Compressed by zstd. `flags` is 0 or SECTION_OPTIONAL.
+    void add_bytes(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags = 0);
+    // As they are, for a reader that maps the file.
+    void add_raw(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags = 0);
+    void add_matrices(std::uint32_t tag, std::span<const MatrixView> matrices, std::uint32_t flags = 0);
+    // The same with the work done: each matrix as encode_png gave it, `raw_size` the sum of rows x cols x 4.
+    void add_encoded_matrices(std::uint32_t tag, std::span<const std::vector<std::byte>> pngs,
+                              std::uint64_t raw_size, std::uint32_t flags = 0);
+
+    // The bytes of the file. Call it once, last.
+    std::vector<std::byte> finish();
+
+private:
+    void add(std::uint32_t tag, Codec codec, std::uint32_t flags, std::vector<std::byte> stored,
+             std::uint64_t raw_size);
+
+    std::uint64_t mesh_fingerprint_;
+    std::vector<Section> sections_;
+    std::vector<std::vector<std::byte>> stored_;
+};
+
+// A problem of a file: what, where (bytes from the start of the file), and one line of text.
+struct Issue {
+    geoidx_status status;
+    std::uint64_t offset;
+    std::string message;
+};
+
+// A checked file. Once parse has returned, every byte of the file is covered by a check that it passed; what
+// the sections mean is still to be checked by who reads them.
+class Container {
+public:
+    // `file` is not copied and must outlive the container. `known_tags` are the sections that the caller
+    // understands: any other is refused unless it is optional. Throws the first problem found.
+    static Container parse(std::span<const std::byte> file, std::span<const std::uint32_t> known_tags);
+
+    std::uint16_t version_major() const { return version_major_; }
+    std::uint16_t version_minor() const { return version_minor_; }
+    std::uint64_t mesh_fingerprint() const { return mesh_fingerprint_; }
+    // In the order of the file, those that the caller does not know included.
+    std::span<const Section> sections() const { return sections_; }
+    bool has(std::uint32_t tag) const { return find(tag) != nullptr; }
+    // Throws GEOIDX_ERROR_CORRUPT when there is none.
+    const Section& section(std::uint32_t tag) const;
+
+    // The raw bytes of a section that is Raw or Zstd. Throws GEOIDX_ERROR_CORRUPT, before it allocates, for a
+    // missing section and for one that is larger than `max_raw_size`.
+    std::vector<std::byte> read_bytes(std::uint32_t tag, std::uint64_t max_raw_size) const;
+    // Fills the matrices, which must be those of the section, all of them, in their order, whatever its
+    // codec. Throws GEOIDX_ERROR_CORRUPT otherwise, with unspecified values in the matrices.
+    void read_matrices(std::uint32_t tag, std::span<const MatrixTarget> matrices) const;
+    // The streams of a section that is Png, to decode them in parallel. They must be `count`.
+    std::vector<std::span<const std::byte>> png_streams(std::uint32_t tag, std::uint64_t count) const;
+
+private:
+    Container() = default;
+    const Section* find(std::uint32_t tag) const;
+    std::span<const std::byte> stored_bytes(const Section& section) const;
+
+    std::span<const std::byte> file_;
+    std::uint16_t version_major_ = 0;
+    std::uint16_t version_minor_ = 0;
+    std::uint64_t mesh_fingerprint_ = 0;
+    std::vector<Section> sections_;
+};
+
+// Every problem that Container::parse would throw, and those behind it: after a problem that leaves the rest
+// readable, the checks go on. Empty when parse would succeed.
+std::vector<Issue> inspect(std::span<const std::byte> file, std::span<const std::uint32_t> known_tags);
+
+}

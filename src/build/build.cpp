@@ -1,0 +1,125 @@
+#include "src/build/build.h"
+
+#include <cmath>
+#include <string>
+
+#include "format/error.h"
+#include "src/build/measure.h"
+#include "src/metric/callback.h"
+#include "src/metric/edge_graph.h"
+#include "src/metric/window_propagation.h"
+#include "src/partition/hierarchy.h"
+#include "src/tables/borders.h"
+#include "src/tables/fill.h"
+#include "src/tables/layout.h"
+#include "src/tables/pruning.h"
+
+namespace geodesic {
+
+namespace {
+
+[[noreturn]] void invalid(const std::string& detail) { throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail); }
+
+void check_options(const geoidx_build_options& options) {
+    if (!(options.delta >= 0 && options.delta <= 100))
+        invalid("delta is " + std::to_string(options.delta) + ", not in 0 .. 100 %");
+    if (options.level_count > GEOIDX_MAX_LEVELS)
+        invalid("level_count is " + std::to_string(options.level_count) + ", more than " +
+                std::to_string(GEOIDX_MAX_LEVELS));
+    if (options.threads > 1024) invalid("threads is " + std::to_string(options.threads) + ", more than 1024");
+    if (options.lloyd_iterations > 1000)
+        invalid("lloyd_iterations is " + std::to_string(options.lloyd_iterations) + ", more than 1000");
+}
+
+uint32_t vertex_of_id(const Intake& intake, uint32_t id) {
+    if (id >= intake.vertex_of_id.size()) invalid("an edge cost names vertex " + std::to_string(id));
+    return intake.vertex_of_id[id];
+}
+
+// The edge lengths, lowered or raised to the caller's costs.
+std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options& options) {
+    std::vector<double> costs = edge_lengths(intake.mesh);
+    if (options.edge_cost_count == 0) return costs;
+    if (!options.edge_cost_vertices || !options.edge_costs)
+        invalid("edge_cost_count is set, but not its arrays");
+    std::vector<uint8_t> given(costs.size(), 0);
+    for (uint32_t i = 0; i < options.edge_cost_count; ++i) {
+        const uint32_t a = options.edge_cost_vertices[2 * size_t{i}];
+        const uint32_t b = options.edge_cost_vertices[2 * size_t{i} + 1];
+        const std::string name =
+            "the edge between vertices " + std::to_string(a) + " and " + std::to_string(b);
+        const double cost = options.edge_costs[i];
+        if (!(cost >= 0) || !std::isfinite(cost)) invalid(name + " has the cost " + std::to_string(cost));
+        const uint32_t from = vertex_of_id(intake, a), to = vertex_of_id(intake, b);
+        const uint32_t edge = from == NONE || to == NONE ? NONE : find_edge(intake.mesh, from, to);
+        if (edge == NONE) invalid(name + " is given a cost, but is no edge of the mesh");
+        costs[edge] = given[edge] ? std::min(costs[edge], cost) : cost;
+        given[edge] = 1;
+    }
+    return costs;
+}
+
+HierarchyOptions hierarchy_options(const Intake& intake, const geoidx_build_options& options) {
+    HierarchyOptions result;
+    result.split = automatic_split(intake.mesh.vertex_count(), options.level_count, options.patches);
+    result.lloyd_iterations = options.lloyd_iterations;
+    result.seed = options.seed;
+    return result;
+}
+
+void describe(const Intake& intake, const geoidx_build_options& options, Index& index) {
+    index.id_count = intake.vertex_of_id.size();
+    index.triangle_count = intake.triangle_count;
+    index.mesh_fingerprint = intake.fingerprint;
+    index.bounding_box_diagonal = intake.bounding_box_diagonal;
+    index.seed = options.seed;
+    index.metric = options.metric;
+    index.delta = options.delta;
+}
+
+ProgressFunction progress_function(const geoidx_build_options& options) {
+    if (!options.progress) return {};
+    return [&options](double fraction, const char* stage) {
+        return options.progress(options.progress_user, static_cast<float>(fraction), stage) != 0;
+    };
+}
+
+}
+
+std::unique_ptr<Metric> make_metric(const Intake& intake, const geoidx_build_options& options) {
+    switch (options.metric) {
+    case GEOIDX_METRIC_EXACT:
+        return std::make_unique<ExactMetric>(intake.mesh);
+    case GEOIDX_METRIC_EDGES:
+        return std::make_unique<EdgeGraphMetric>(intake.mesh, edge_costs(intake, options));
+    case GEOIDX_METRIC_CALLBACK:
+        if (!options.metric_callback)
+            invalid("metric is GEOIDX_METRIC_CALLBACK, but metric_callback is NULL");
+        return std::make_unique<CallbackMetric>(options.metric_callback, options.metric_user,
+                                                intake.id_of_vertex);
+    default:
+        invalid("metric " + std::to_string(options.metric) + " is not a GEOIDX_METRIC_*");
+    }
+}
+
+void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, Index& index) {
+    check_options(options);
+    const Intake intake = take_in(mesh, options.weld_tolerance);
+    describe(intake, options, index);
+    const auto metric = make_metric(intake, options);
+    Workers workers(*metric, options.threads, progress_function(options));
+
+    workers.begin_stage("patches", 0.1);
+    const Hierarchy hierarchy = build_hierarchy(intake.mesh, hierarchy_options(intake, options), workers);
+    workers.begin_stage("borders", 0.13);
+    const auto leaves_at_vertex = leaves_at_vertices(intake.mesh, hierarchy);
+    const auto is_border = merge_border_vertices(intake.mesh, leaves_at_vertex,
+                                                 options.delta / 100 * intake.bounding_box_diagonal, workers);
+    const auto vertex_of_number = lay_out(intake, hierarchy, leaves_at_vertex, is_border, workers, index);
+    workers.begin_stage("tables", 0.98);
+    fill_tables(index, vertex_of_number, workers);
+    workers.begin_stage("accuracy", 1);
+    index.error = measure_error(index, vertex_of_number, intake.id_of_vertex, workers);
+}
+
+}

@@ -1,0 +1,332 @@
+#include <cstring>
+#include <new>
+
+#include "format/file_io.h"
+#include "geoidx.h"
+#include "src/build/build.h"
+#include "src/capi/handles.h"
+#include "src/capi/status.h"
+#include "src/capi/structs.h"
+#include "src/index/index_file.h"
+
+using namespace geodesic;
+
+namespace {
+
+void check_allocator(const geoidx_allocator& allocator) {
+    require(!allocator.allocate == !allocator.release, "an allocator needs both allocate and release");
+}
+
+struct CloseIndex {
+    void operator()(geoidx* index) const { geoidx_close(index); }
+};
+using OwnedIndex = std::unique_ptr<geoidx, CloseIndex>;
+
+// The handle itself lies in the caller's memory too, so it is made by a CallerMemory that lives only here;
+// the one inside the handle then serves the rest and, in geoidx_close, a copy of it frees the handle.
+OwnedIndex make_index(const geoidx_allocator& allocator) {
+    check_allocator(allocator);
+    CallerMemory memory(allocator);
+    return OwnedIndex(std::pmr::polymorphic_allocator<>(&memory).new_object<geoidx>(allocator));
+}
+
+void check_mesh_matches(const geoidx_mesh* expected, const Index& index) {
+    if (!expected) return;
+    const geoidx_mesh mesh = whole(*expected, geoidx_mesh_init);
+    if (mesh.vertex_count != index.id_count || mesh.triangle_count != index.triangle_count)
+        throw Error(GEOIDX_ERROR_MESH_MISMATCH,
+                    "the index was built from a mesh of " + std::to_string(index.id_count) +
+                        " vertices and " + std::to_string(index.triangle_count) +
+                        " triangles, this one has " + std::to_string(mesh.vertex_count) + " and " +
+                        std::to_string(mesh.triangle_count));
+    if (mesh_fingerprint(mesh) != index.mesh_fingerprint)
+        throw Error(GEOIDX_ERROR_MESH_MISMATCH,
+                    "the index was built from a mesh with other positions or triangles");
+}
+
+void open_bytes(std::span<const std::byte> file, const geoidx_open_options* given, geoidx** out) {
+    const geoidx_open_options options = whole_or_default(given, geoidx_open_options_init);
+    OwnedIndex index = make_index(options.allocator);
+    read_index(file, index->index);
+    check_mesh_matches(options.expected_mesh, index->index);
+    *out = index.release();
+}
+
+std::span<const std::byte> bytes_at(const void* data, uint64_t size) {
+    require(data || size == 0, "data is NULL");
+    return {static_cast<const std::byte*>(data), static_cast<size_t>(size)};
+}
+
+// Borrows scratch of the index for one call.
+class BorrowedQuery {
+public:
+    explicit BorrowedQuery(const geoidx& index) : pool_(index.queries), query_(pool_.take()) {}
+    ~BorrowedQuery() { pool_.give_back(query_); }
+    BorrowedQuery(const BorrowedQuery&) = delete;
+    BorrowedQuery& operator=(const BorrowedQuery&) = delete;
+
+    Query* operator->() const { return query_; }
+
+private:
+    QueryPool& pool_;
+    Query* query_;
+};
+
+void check_msad(const uint32_t* sources, const float* distances) {
+    require(sources, "sources is NULL");
+    require(distances, "distances is NULL");
+}
+
+void fill_info(const Index& index, geoidx_info& info) {
+    info.metric = index.metric;
+    info.vertex_count = index.id_count;
+    info.triangle_count = index.triangle_count;
+    info.welded_vertex_count = index.vertex_count();
+    info.mesh_fingerprint = index.mesh_fingerprint;
+    info.table_entries =
+        index.border_tables.size() + index.crossing_tables.size() + index.internal_tables.size();
+    info.border_vertex_count = index.border_vertex_count();
+    info.bounding_box_diagonal = index.bounding_box_diagonal;
+    info.delta = index.delta;
+    info.seed = index.seed;
+    info.format_major = format::FORMAT_MAJOR;
+    info.format_minor = format::FORMAT_MINOR;
+    info.level_count = index.level_count();
+    for (uint32_t l = 1; l <= index.level_count(); ++l)
+        info.patch_count[l - 1] = index.level_begin[l + 1] - index.level_begin[l];
+    info.error_sources = index.error.sources;
+    info.error_mean = index.error.mean;
+    info.error_signed_mean = index.error.signed_mean;
+    info.error_p99 = index.error.p99;
+    info.error_p999 = index.error.p999;
+    info.error_max = index.error.max;
+}
+
+uint32_t solver_vertex(const geoidx_solver& solver, uint32_t id) {
+    if (id >= solver.intake.vertex_of_id.size())
+        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
+                    "vertex " + std::to_string(id) + " is out of range: the mesh has " +
+                        std::to_string(solver.intake.vertex_of_id.size()) + " vertices");
+    return solver.intake.vertex_of_id[id];
+}
+
+std::vector<uint32_t> used_vertices(const geoidx_solver& solver, std::span<const uint32_t> ids) {
+    std::vector<uint32_t> vertices;
+    for (uint32_t id : ids)
+        if (const uint32_t vertex = solver_vertex(solver, id); vertex != NONE) vertices.push_back(vertex);
+    return vertices;
+}
+
+void solve(geoidx_solver& solver, std::span<const uint32_t> sources, std::span<const uint32_t> targets,
+           bool all_targets, double* distances) {
+    const auto source_vertices = used_vertices(solver, sources);
+    const auto target_vertices = used_vertices(solver, targets);
+    if (!source_vertices.empty() && (all_targets || !target_vertices.empty()))
+        solver.solver->solve(source_vertices, target_vertices);
+    const auto distance_of = [&](uint32_t id) {
+        const uint32_t vertex = solver_vertex(solver, id);
+        return vertex == NONE || source_vertices.empty() ? UNREACHABLE : solver.solver->distance(vertex);
+    };
+    const size_t count = all_targets ? solver.intake.vertex_of_id.size() : targets.size();
+    for (size_t i = 0; i < count; ++i) {
+        const uint32_t id = all_targets ? static_cast<uint32_t>(i) : targets[i];
+        const bool is_source = std::find(sources.begin(), sources.end(), id) != sources.end();
+        distances[i] = is_source ? 0 : distance_of(id);
+    }
+}
+
+}
+
+uint32_t geoidx_version(void) {
+    return GEOIDX_VERSION_MAJOR * 10000 + GEOIDX_VERSION_MINOR * 100 + GEOIDX_VERSION_PATCH;
+}
+
+void geoidx_mesh_init(geoidx_mesh* mesh) {
+    if (!mesh) return;
+    *mesh = {};
+    mesh->struct_size = sizeof *mesh;
+}
+
+void geoidx_build_options_init(geoidx_build_options* options) {
+    if (!options) return;
+    *options = {};
+    options->struct_size = sizeof *options;
+    options->lloyd_iterations = 4;
+}
+
+void geoidx_open_options_init(geoidx_open_options* options) {
+    if (!options) return;
+    *options = {};
+    options->struct_size = sizeof *options;
+}
+
+geoidx_status geoidx_build(const geoidx_mesh* mesh, const geoidx_build_options* options, geoidx** out) {
+    if (out) *out = nullptr;
+    return guarded([&] {
+        require(out, "out is NULL");
+        require(mesh, "mesh is NULL");
+        const auto all_options = whole_or_default(options, geoidx_build_options_init);
+        OwnedIndex index = make_index(all_options.allocator);
+        build_index(whole(*mesh, geoidx_mesh_init), all_options, index->index);
+        *out = index.release();
+    });
+}
+
+geoidx_status geoidx_save(const geoidx* index, const char* utf8_path) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        require(utf8_path, "utf8_path is NULL");
+        format::write_file_atomically(utf8_path, write_index(index->index));
+    });
+}
+
+geoidx_status geoidx_save_memory(const geoidx* index, void* buffer, uint64_t capacity, uint64_t* needed) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        require(needed, "needed is NULL");
+        require(buffer || capacity == 0, "buffer is NULL, but capacity is not 0");
+        const auto bytes = write_index(index->index);
+        *needed = bytes.size();
+        if (!buffer) return;
+        require(bytes.size() <= capacity, "the buffer is too small");
+        std::memcpy(buffer, bytes.data(), bytes.size());
+    });
+}
+
+geoidx_status geoidx_open(const char* utf8_path, const geoidx_open_options* options, geoidx** out) {
+    if (out) *out = nullptr;
+    return guarded([&] {
+        require(out, "out is NULL");
+        require(utf8_path, "utf8_path is NULL");
+        open_bytes(format::read_file(utf8_path), options, out);
+    });
+}
+
+geoidx_status geoidx_open_memory(const void* data, uint64_t size, const geoidx_open_options* options,
+                                 geoidx** out) {
+    if (out) *out = nullptr;
+    return guarded([&] {
+        require(out, "out is NULL");
+        open_bytes(bytes_at(data, size), options, out);
+    });
+}
+
+void geoidx_close(geoidx* index) {
+    if (!index) return;
+    CallerMemory memory = index->memory;
+    std::pmr::polymorphic_allocator<>(&memory).delete_object(index);
+}
+
+geoidx_status geoidx_get_info(const geoidx* index, geoidx_info* info) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        require(info, "info is NULL");
+        require(info->struct_size >= sizeof(uint32_t), "struct_size is not set");
+        geoidx_info whole_info{};
+        fill_info(index->index, whole_info);
+        whole_info.struct_size = info->struct_size;
+        std::memcpy(info, &whole_info, std::min<size_t>(info->struct_size, sizeof whole_info));
+    });
+}
+
+geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user) {
+    geoidx_status first = GEOIDX_OK;
+    const geoidx_status failure = guarded([&] {
+        for (const auto& found : inspect_index(bytes_at(data, size))) {
+            if (first == GEOIDX_OK) first = fail(found.status, found.message.c_str());
+            if (issue && !issue(user, found.status, found.offset, found.message.c_str())) break;
+        }
+    });
+    return failure == GEOIDX_OK ? first : failure;
+}
+
+geoidx_status geoidx_sssd(const geoidx* index, uint32_t source, uint32_t target, float* distance) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        require(distance, "distance is NULL");
+        *distance = BorrowedQuery(*index)->sssd(source, target);
+    });
+}
+
+geoidx_status geoidx_sssd_batch(const geoidx* index, const uint32_t* source_target_pairs, uint64_t pair_count,
+                                float* distances) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        require(pair_count == 0 || source_target_pairs, "source_target_pairs is NULL");
+        require(pair_count == 0 || distances, "distances is NULL");
+        const BorrowedQuery query(*index);
+        for (uint64_t i = 0; i < pair_count; ++i)
+            distances[i] = query->sssd(source_target_pairs[2 * i], source_target_pairs[2 * i + 1]);
+    });
+}
+
+geoidx_status geoidx_msad(const geoidx* index, const uint32_t* sources, uint32_t source_count,
+                          float* distances, uint32_t distance_count) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        check_msad(sources, distances);
+        BorrowedQuery(*index)->msad({sources, source_count}, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_create(const geoidx* index, geoidx_query** out) {
+    if (out) *out = nullptr;
+    return guarded([&] {
+        require(out, "out is NULL");
+        require(index, "index is NULL");
+        auto& memory =
+            const_cast<geoidx*>(index)->memory; // a memory resource is not part of the index's value
+        *out = std::pmr::polymorphic_allocator<>(&memory).new_object<geoidx_query>(*index, memory);
+    });
+}
+
+void geoidx_query_close(geoidx_query* query) {
+    if (query) std::pmr::polymorphic_allocator<>(&query->memory).delete_object(query);
+}
+
+geoidx_status geoidx_query_sssd(geoidx_query* query, uint32_t source, uint32_t target, float* distance) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(distance, "distance is NULL");
+        *distance = query->query.sssd(source, target);
+    });
+}
+
+geoidx_status geoidx_query_msad(geoidx_query* query, const uint32_t* sources, uint32_t source_count,
+                                float* distances, uint32_t distance_count) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        check_msad(sources, distances);
+        query->query.msad({sources, source_count}, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_solver_create(const geoidx_mesh* mesh, const geoidx_build_options* options,
+                                   geoidx_solver** out) {
+    if (out) *out = nullptr;
+    return guarded([&] {
+        require(out, "out is NULL");
+        require(mesh, "mesh is NULL");
+        const auto all_options = whole_or_default(options, geoidx_build_options_init);
+        auto solver = std::make_unique<geoidx_solver>();
+        solver->intake = take_in(whole(*mesh, geoidx_mesh_init), all_options.weld_tolerance);
+        solver->metric = make_metric(solver->intake, all_options);
+        solver->solver = solver->metric->make_solver();
+        *out = solver.release();
+    });
+}
+
+void geoidx_solver_close(geoidx_solver* solver) { delete solver; }
+
+geoidx_status geoidx_solver_distances(geoidx_solver* solver, const uint32_t* sources, uint32_t source_count,
+                                      const uint32_t* targets, uint32_t target_count, double* distances) {
+    return guarded([&] {
+        require(solver, "solver is NULL");
+        require(sources, "sources is NULL");
+        require(source_count > 0, "there is no source");
+        require(distances || target_count == 0, "distances is NULL");
+        require(targets || target_count == solver->intake.vertex_of_id.size(),
+                "targets is NULL, but target_count is not the mesh's vertex_count");
+        solve(*solver, {sources, source_count}, {targets, targets ? target_count : 0}, !targets, distances);
+    });
+}

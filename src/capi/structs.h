@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "format/error.h"
+
+namespace geodesic {
+
+// A whole struct from one that an older caller may have made shorter: what it lacks keeps its default.
+template <class Struct>
+Struct whole(const Struct& given, void (*init)(Struct*)) {
+    Struct result;
+    init(&result);
+    if (given.struct_size < sizeof(uint32_t))
+        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "struct_size is " + std::to_string(given.struct_size) +
+                                                       ": the struct was not initialized");
+    const auto size = std::min<size_t>(given.struct_size, sizeof(Struct));
+    std::memcpy(&result, &given, size);
+    result.struct_size = sizeof(Struct);
+    return result;
+}
+
+template <class Struct>
+Struct whole_or_default(const Struct* given, void (*init)(Struct*)) {
+    if (given) return whole(*given, init);
+    Struct result;
+    init(&result);
+    return result;
+}
+
+}

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "src/metric/metric.h"
+
+namespace geodesic {
+
+// Told how far the work is, 0 .. 1, and the name of the stage; returns false to cancel.
+using ProgressFunction = std::function<bool(double fraction, const char* stage)>;
+
+// The threads of one build. Each has a solver of the metric of its own.
+class Workers {
+public:
+    Workers(const Metric& metric, uint32_t thread_count, ProgressFunction progress);
+
+    // Names the stage that follows and the share of the whole work it ends at.
+    void begin_stage(const char* name, double end_fraction);
+
+    // Calls task(solver, i) for i in 0 .. count - 1 on all threads, in no particular order. Meanwhile the
+    // calling thread reports progress. Rethrows the error of the task with the smallest number that failed;
+    // throws Error CANCELLED when the progress function says so.
+    void run(size_t count, const std::function<void(FieldSolver&, size_t)>& task);
+
+    // For long tasks: throws when the work was cancelled.
+    void check_cancelled() const;
+
+private:
+    struct Failure;
+    void work(uint32_t thread, size_t count, const std::function<void(FieldSolver&, size_t)>& task,
+              Failure& failure);
+    void report();
+
+    std::vector<std::unique_ptr<FieldSolver>> solvers_;
+    ProgressFunction progress_;
+    const char* stage_ = "";
+    double stage_begin_ = 0, stage_end_ = 0, reported_ = 0;
+    std::atomic<size_t> next_ = 0, done_ = 0;
+    size_t count_ = 0;
+    std::atomic<bool> cancelled_ = false;
+};
+
+}

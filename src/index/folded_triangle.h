@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace geodesic {
+
+// The entries below the diagonal of a symmetric matrix of `size` rows, folded into a rectangle without a gap:
+// line r is row size - 1 - r followed by row r (of an even size) or r + 1 (of an odd one). As the file stores
+// them.
+struct FoldedShape {
+    uint32_t rows, cols;
+};
+
+inline FoldedShape folded_shape(uint32_t size) {
+    if (size < 2) return {0, 0};
+    return {size / 2, size - 1 + size % 2};
+}
+
+// entry(i, j), i > j, is visited in the order of the folded rectangle.
+template <class Entry>
+void for_each_folded(uint32_t size, const Entry& entry) {
+    for (uint32_t r = 0; r < folded_shape(size).rows; ++r) {
+        const uint32_t upper = size - 1 - r, lower = r + size % 2;
+        for (uint32_t j = 0; j < upper; ++j) entry(upper, j);
+        for (uint32_t j = 0; j < lower; ++j) entry(lower, j);
+    }
+}
+
+}

@@ -1,0 +1,93 @@
+#include "src/index/index.h"
+
+#include <string>
+
+#include "format/error.h"
+
+namespace geodesic {
+
+Index::Index(std::pmr::memory_resource* memory)
+    : level_begin(memory), parent(memory), child_begin(memory), number_of_id(memory), positions(memory),
+      owned_begin(memory), internal_begin(memory), border_begin(memory), border(memory),
+      border_table_begin(memory), crossing_table_begin(memory), internal_table_begin(memory),
+      border_tables(memory), crossing_tables(memory), internal_tables(memory), overlay_position(memory),
+      place_begin(memory), places(memory), leaf_of_internal(memory), owner(memory) {}
+
+void allocate_tables(Index& index) {
+    index.border_table_begin.assign(1, 0);
+    for (uint32_t p = 0; p < index.patch_count(); ++p) {
+        const uint64_t size = index.border_size(p);
+        index.border_table_begin.push_back(index.border_table_begin.back() + size * size);
+    }
+    index.crossing_table_begin.assign(1, 0);
+    index.internal_table_begin.assign(1, 0);
+    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf) {
+        const uint64_t border = index.border_size(leaf), internal = index.internal_size(leaf);
+        index.crossing_table_begin.push_back(index.crossing_table_begin.back() + border * internal);
+        index.internal_table_begin.push_back(index.internal_table_begin.back() +
+                                             (internal ? internal * (internal - 1) / 2 : 0));
+    }
+    constexpr uint64_t MOST = uint64_t{1} << 40;
+    for (uint64_t entries : {index.border_table_begin.back(), index.crossing_table_begin.back(),
+                             index.internal_table_begin.back()})
+        if (entries > MOST)
+            throw Error(GEOIDX_ERROR_LIMIT, "the tables would have " + std::to_string(entries) + " entries");
+    index.border_tables.resize(index.border_table_begin.back());
+    index.crossing_tables.resize(index.crossing_table_begin.back());
+    index.internal_tables.resize(index.internal_table_begin.back());
+}
+
+namespace {
+
+void derive_owners(Index& index) {
+    index.owner.resize(index.border_vertex_count());
+    for (uint32_t p = 0; p < index.patch_count(); ++p)
+        for (uint32_t v = index.owned_begin[p]; v < index.owned_begin[p + 1]; ++v) index.owner[v] = p;
+}
+
+void derive_overlay_positions(Index& index) {
+    index.overlay_position.assign(index.border.size(), NONE);
+    std::vector<uint32_t> position(index.border_vertex_count(), NONE); // in the overlay of one parent
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) {
+        const auto outer = index.border_of(p);
+        for (uint32_t i = 0; i < outer.size(); ++i) position[outer[i]] = i;
+        const auto size = static_cast<uint32_t>(outer.size());
+        for (uint32_t v = index.owned_begin[p]; v < index.owned_begin[p + 1]; ++v)
+            position[v] = size + v - index.owned_begin[p];
+        for (uint32_t i = index.border_begin[index.child_begin[p]];
+             i < index.border_begin[index.child_begin[p + 1]]; ++i) {
+            index.overlay_position[i] = position[index.border[i]];
+            if (index.overlay_position[i] == NONE)
+                throw Error(GEOIDX_ERROR_CORRUPT, "border vertex " + std::to_string(index.border[i]) +
+                                                      " is not in the overlay of patch " + std::to_string(p));
+        }
+        for (uint32_t v : outer) position[v] = NONE;
+        for (uint32_t v = index.owned_begin[p]; v < index.owned_begin[p + 1]; ++v) position[v] = NONE;
+    }
+}
+
+void derive_places(Index& index) {
+    index.place_begin.assign(size_t{index.border_vertex_count()} + 1, 0);
+    for (uint32_t v : index.border) ++index.place_begin[v + 1];
+    for (size_t v = 1; v < index.place_begin.size(); ++v) index.place_begin[v] += index.place_begin[v - 1];
+    index.places.resize(index.border.size());
+    std::vector<uint32_t> next(index.place_begin.begin(), index.place_begin.end() - 1);
+    for (uint32_t p = 0; p < index.patch_count(); ++p) {
+        const auto border = index.border_of(p);
+        for (uint32_t i = 0; i < border.size(); ++i) index.places[next[border[i]]++] = {p, i};
+    }
+}
+
+}
+
+void derive(Index& index) {
+    derive_owners(index);
+    derive_overlay_positions(index);
+    derive_places(index);
+    index.leaf_of_internal.resize(index.vertex_count() - index.border_vertex_count());
+    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf)
+        for (uint32_t i = 0; i < index.internal_size(leaf); ++i)
+            index.leaf_of_internal[index.first_internal(leaf) - index.border_vertex_count() + i] = leaf;
+}
+
+}

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "geoidx.h"
+#include "src/mesh/mesh.h"
+
+namespace geodesic {
+
+template <class T>
+using Array = std::pmr::vector<T>;
+
+// Accuracy against the metric, relative, over all targets of some random sources.
+struct MeasuredError {
+    uint32_t sources = 0;
+    double mean = 0, signed_mean = 0, p99 = 0, p999 = 0, max = 0;
+};
+
+// A border vertex's place in a patch's border.
+struct BorderPlace {
+    uint32_t patch;
+    uint32_t position;
+};
+
+// Everything that queries read. Vertices are numbered anew: first the border vertices, grouped by their
+// *owner*, the patch on whose children's borders they first appear, then the internal vertices, grouped by
+// leaf and sorted by distance to its border. Patches are numbered as in Hierarchy.
+//
+// The overlay of an inner patch P is the union of its children's borders: the border of P itself, in its
+// order, then the vertices that P owns. Positions in it are called overlay positions.
+struct Index {
+    explicit Index(std::pmr::memory_resource* memory);
+
+    // What the mesh and the options were.
+    uint64_t id_count = 0, triangle_count = 0, mesh_fingerprint = 0, seed = 0;
+    uint32_t metric = 0;
+    double delta = 0, bounding_box_diagonal = 0;
+    MeasuredError error;
+    // distance(a, b) >= bound_scale * |a - b|: what keeps A* admissible under any metric.
+    float bound_scale = 0;
+
+    // The hierarchy.
+    Array<uint32_t> level_begin, parent, child_begin;
+
+    // Vertices.
+    Array<uint32_t> number_of_id;          // per caller's id; NONE: unreachable
+    Array<std::array<float, 3>> positions; // per number
+    Array<uint32_t> owned_begin;    // numbers owned by patch p: owned_begin[p] .. owned_begin[p + 1] - 1
+    Array<uint32_t> internal_begin; // internal vertices of leaf first_leaf() + i: likewise; [0] is the
+                                    // number of border vertices
+    Array<uint32_t> border_begin;   // the border of patch p: border[border_begin[p]] ..
+    Array<uint32_t> border;         // numbers, sorted along the border ring
+
+    // Tables of distances.
+    Array<uint64_t> border_table_begin;   // per patch: Bv x Bv, full, rows and columns in border order
+    Array<uint64_t> crossing_table_begin; // per leaf: Bv x Iv, a row per border vertex
+    Array<uint64_t> internal_table_begin; // per leaf: Iv x Iv below the diagonal, row by row
+    Array<float> border_tables, crossing_tables, internal_tables;
+
+    // Derived from the above by derive().
+    Array<uint32_t> overlay_position; // parallel to border: position in the overlay of the patch's parent
+    Array<uint32_t> place_begin;      // per border vertex: its places, in ascending order of patches
+    Array<BorderPlace> places;
+    Array<uint32_t> leaf_of_internal; // [number - border_vertex_count()]
+    Array<uint32_t> owner;            // per border vertex
+
+    uint32_t level_count() const { return static_cast<uint32_t>(level_begin.size()) - 2; }
+    uint32_t patch_count() const { return static_cast<uint32_t>(parent.size()); }
+    uint32_t first_leaf() const { return level_begin[level_count()]; }
+    uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size()); }
+    uint32_t border_vertex_count() const { return internal_begin[0]; }
+    bool is_border(uint32_t number) const { return number < border_vertex_count(); }
+    uint32_t leaf_of(uint32_t internal) const { return leaf_of_internal[internal - border_vertex_count()]; }
+
+    std::span<const uint32_t> border_of(uint32_t patch) const {
+        return {border.data() + border_begin[patch], border.data() + border_begin[patch + 1]};
+    }
+    uint32_t border_size(uint32_t patch) const { return border_begin[patch + 1] - border_begin[patch]; }
+    uint32_t internal_size(uint32_t leaf) const {
+        return internal_begin[leaf - first_leaf() + 1] - internal_begin[leaf - first_leaf()];
+    }
+    uint32_t first_internal(uint32_t leaf) const { return internal_begin[leaf - first_leaf()]; }
+    uint32_t overlay_size(uint32_t patch) const {
+        return border_size(patch) + owned_begin[patch + 1] - owned_begin[patch];
+    }
+    std::span<const BorderPlace> places_of(uint32_t border_vertex) const {
+        return {places.data() + place_begin[border_vertex], places.data() + place_begin[border_vertex + 1]};
+    }
+
+    const float* border_row(uint32_t patch, uint32_t position) const {
+        return border_tables.data() + border_table_begin[patch] + uint64_t{position} * border_size(patch);
+    }
+    const float* crossing_row(uint32_t leaf, uint32_t position) const {
+        return crossing_tables.data() + crossing_table_begin[leaf - first_leaf()] +
+               uint64_t{position} * internal_size(leaf);
+    }
+    // Place of the pair i > j in a table below the diagonal.
+    static uint64_t below_diagonal(uint64_t i, uint64_t j) { return i * (i - 1) / 2 + j; }
+    // Distance of two internal vertices of a leaf, given by their positions in it.
+    float internal_distance(uint32_t leaf, uint32_t i, uint32_t j) const {
+        if (i == j) return 0;
+        return internal_tables[internal_table_begin[leaf - first_leaf()] +
+                               (i > j ? below_diagonal(i, j) : below_diagonal(j, i))];
+    }
+};
+
+// Sizes of tables follow from the numbers of vertices: fills the *_table_begin and sizes the tables. Throws
+// Error LIMIT when they would not fit.
+void allocate_tables(Index& index);
+
+// Fills what is derived; throws Error CORRUPT where a border vertex is on the border of a patch but not in
+// its parent's overlay.
+void derive(Index& index);
+
+}

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "format/container.h"
+
+namespace geodesic {
+
+// The sections of an index; format/SPEC.md describes their content.
+inline constexpr uint32_t TAG_META = format::make_tag("META");
+inline constexpr uint32_t TAG_HIERARCHY = format::make_tag("HIER");
+inline constexpr uint32_t TAG_VERTICES = format::make_tag("VERT");
+inline constexpr uint32_t TAG_POSITIONS = format::make_tag("POSI");
+inline constexpr uint32_t TAG_BORDERS = format::make_tag("BORD");
+inline constexpr uint32_t TAG_BORDER_TABLES = format::make_tag("BVBV");
+inline constexpr uint32_t TAG_CROSSING_TABLES = format::make_tag("BVIV");
+inline constexpr uint32_t TAG_INTERNAL_TABLES = format::make_tag("IVIV");
+
+inline constexpr std::array INDEX_TAGS{
+    TAG_META,    TAG_HIERARCHY,     TAG_VERTICES,        TAG_POSITIONS,
+    TAG_BORDERS, TAG_BORDER_TABLES, TAG_CROSSING_TABLES, TAG_INTERNAL_TABLES};
+
+}

@@ -1,0 +1,229 @@
+#include <cmath>
+#include <string>
+
+#include "format/bytes.h"
+#include "src/index/folded_triangle.h"
+#include "src/index/index_file.h"
+#include "src/index/index_sections.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr uint64_t MAX_BYTES = uint64_t{1} << 40; // of one section of numbers
+
+[[noreturn]] void corrupt(const std::string& detail) { throw Error(GEOIDX_ERROR_CORRUPT, detail); }
+
+void read_meta(const format::Container& container, Index& index) {
+    const auto bytes = container.read_bytes(TAG_META, MAX_BYTES);
+    format::ByteReader reader(bytes, "section META");
+    index.mesh_fingerprint = container.mesh_fingerprint();
+    index.id_count = reader.u64();
+    index.triangle_count = reader.u64();
+    index.seed = reader.u64();
+    index.metric = reader.u32();
+    index.bound_scale = reader.f32();
+    index.delta = reader.f64();
+    index.bounding_box_diagonal = reader.f64();
+    index.error.sources = reader.u32();
+    for (double* value :
+         {&index.error.mean, &index.error.signed_mean, &index.error.p99, &index.error.p999, &index.error.max})
+        *value = reader.f64();
+    reader.expect_end();
+    if (index.id_count == 0 || index.id_count > UINT32_MAX - 1)
+        corrupt("section META: the mesh has " + std::to_string(index.id_count) + " vertices");
+    if (!(index.bound_scale >= 0 && index.bound_scale <= 1))
+        corrupt("section META: the bound scale is " + std::to_string(index.bound_scale) + ", not in 0 .. 1");
+}
+
+// Patches level by level from the numbers of children.
+void read_hierarchy(const format::Container& container, Index& index) {
+    const auto bytes = container.read_bytes(TAG_HIERARCHY, MAX_BYTES);
+    format::ByteReader reader(bytes, "section HIER");
+    const uint32_t level_count = reader.u32();
+    if (level_count == 0 || level_count > GEOIDX_MAX_LEVELS)
+        corrupt("section HIER: " + std::to_string(level_count) + " levels");
+    const uint64_t inner_count = reader.count(UINT32_MAX - 1, sizeof(uint32_t));
+    index.parent.assign(1, NONE);
+    index.level_begin.assign({0, 1});
+    for (uint32_t l = 0; l < level_count; ++l) {
+        for (uint32_t p = index.level_begin[l]; p < index.level_begin[l + 1]; ++p) {
+            const uint32_t children = reader.u32();
+            // Every patch but the leaves has a record of its own, and a leaf holds at least one entry of 4
+            // bytes in the section BORD.
+            const uint64_t room = container.section(TAG_BORDERS).raw_size / sizeof(uint32_t);
+            if (children == 0 || children > room || index.parent.size() + children > room + 1)
+                corrupt("section HIER: patch " + std::to_string(p) + " has " + std::to_string(children) +
+                        " children");
+            index.child_begin.push_back(static_cast<uint32_t>(index.parent.size()));
+            index.parent.insert(index.parent.end(), children, p);
+        }
+        index.level_begin.push_back(static_cast<uint32_t>(index.parent.size()));
+    }
+    reader.expect_end();
+    if (index.first_leaf() != inner_count)
+        corrupt("section HIER: " + std::to_string(inner_count) + " inner patches are named, but there are " +
+                std::to_string(index.first_leaf()));
+    index.child_begin.resize(size_t{index.patch_count()} + 1, index.patch_count());
+}
+
+void read_vertices(const format::Container& container, Index& index) {
+    const auto bytes =
+        container.read_bytes(TAG_VERTICES, sizeof(uint64_t) + index.id_count * sizeof(uint32_t));
+    format::ByteReader reader(bytes, "section VERT");
+    const uint64_t vertex_count = reader.u64();
+    if (reader.remaining() != index.id_count * sizeof(uint32_t))
+        corrupt("section VERT does not hold " + std::to_string(index.id_count) + " numbers");
+    if (vertex_count > index.id_count)
+        corrupt("section VERT: " + std::to_string(vertex_count) + " distinct vertices of " +
+                std::to_string(index.id_count));
+    index.number_of_id.resize(index.id_count);
+    reader.u32_array(index.number_of_id);
+    for (uint32_t number : index.number_of_id)
+        if (number != NONE && number >= vertex_count)
+            corrupt("section VERT: vertex number " + std::to_string(number) + " of " +
+                    std::to_string(vertex_count));
+    index.positions.resize(vertex_count);
+}
+
+void read_positions(const format::Container& container, Index& index) {
+    const uint64_t size = uint64_t{index.vertex_count()} * 3 * sizeof(float);
+    const auto bytes = container.read_bytes(TAG_POSITIONS, size);
+    format::ByteReader reader(bytes, "section POSI");
+    for (auto& position : index.positions) {
+        reader.f32_array(position);
+        for (float coordinate : position)
+            if (!std::isfinite(coordinate)) corrupt("section POSI: a position is not finite");
+    }
+    reader.expect_end();
+}
+
+// Reads `count` sizes of consecutive ranges and fills begin[0 .. count].
+void read_ranges(format::ByteReader& reader, uint32_t count, uint64_t first, Array<uint32_t>& begin) {
+    uint64_t end = first;
+    begin.assign(1, static_cast<uint32_t>(end));
+    for (uint32_t i = 0; i < count; ++i) {
+        end += reader.u32();
+        if (end >= NONE) corrupt("section BORD: counts add up to more than 2^32 - 2");
+        begin.push_back(static_cast<uint32_t>(end));
+    }
+}
+
+void read_borders(const format::Container& container, Index& index) {
+    const auto bytes = container.read_bytes(TAG_BORDERS, MAX_BYTES);
+    format::ByteReader reader(bytes, "section BORD");
+    read_ranges(reader, index.first_leaf(), 0, index.owned_begin);
+    index.owned_begin.resize(size_t{index.patch_count()} + 1, index.owned_begin.back());
+    read_ranges(reader, index.patch_count() - index.first_leaf(), index.owned_begin.back(),
+                index.internal_begin);
+    if (index.internal_begin.back() != index.vertex_count())
+        corrupt("section BORD: borders and leaves hold " + std::to_string(index.internal_begin.back()) +
+                " vertices of " + std::to_string(index.vertex_count()));
+    read_ranges(reader, index.patch_count() - 1, 0, index.border_begin);
+    index.border_begin.insert(index.border_begin.begin(), 0); // the root has no border
+    if (reader.remaining() != uint64_t{index.border_begin.back()} * sizeof(uint32_t))
+        corrupt("section BORD does not hold " + std::to_string(index.border_begin.back()) +
+                " border vertices");
+    index.border.resize(index.border_begin.back());
+    reader.u32_array(index.border);
+    for (uint32_t v : index.border)
+        if (v >= index.border_vertex_count())
+            corrupt("section BORD: vertex number " + std::to_string(v) + " is no border vertex");
+}
+
+// Where the matrices of one section go. The section's size is compared before anything is allocated.
+class MatrixReader {
+public:
+    void add(uint32_t rows, uint32_t cols) {
+        if (rows == 0 || cols == 0) return;
+        shapes_.push_back({rows, cols});
+        entries_ += uint64_t{rows} * cols;
+    }
+
+    std::vector<float> read(const format::Container& container, uint32_t tag) const {
+        if (container.section(tag).raw_size != entries_ * sizeof(float))
+            corrupt("section " + format::tag_text(tag) + " does not hold " + std::to_string(entries_) +
+                    " table entries");
+        std::vector<float> values(entries_);
+        std::vector<format::MatrixTarget> targets;
+        size_t next = 0;
+        for (const auto& [rows, cols] : shapes_) {
+            const size_t size = size_t{rows} * cols;
+            targets.push_back({std::span(values).subspan(next, size), rows, cols});
+            next += size;
+        }
+        container.read_matrices(tag, targets);
+        for (float value : values)
+            if (!(value >= 0))
+                corrupt("section " + format::tag_text(tag) + " holds a distance that is negative or NaN");
+        return values;
+    }
+
+private:
+    std::vector<FoldedShape> shapes_;
+    uint64_t entries_ = 0;
+};
+
+void read_tables(const format::Container& container, Index& index) {
+    MatrixReader border, crossing, internal;
+    for (uint32_t p = 1; p < index.patch_count(); ++p) {
+        const FoldedShape shape = folded_shape(index.border_size(p));
+        border.add(shape.rows, shape.cols);
+    }
+    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf) {
+        crossing.add(index.border_size(leaf), index.internal_size(leaf));
+        const FoldedShape shape = folded_shape(index.internal_size(leaf));
+        internal.add(shape.rows, shape.cols);
+    }
+    const auto border_values = border.read(container, TAG_BORDER_TABLES);
+    const auto crossing_values = crossing.read(container, TAG_CROSSING_TABLES);
+    const auto internal_values = internal.read(container, TAG_INTERNAL_TABLES);
+
+    allocate_tables(index);
+    size_t next = 0;
+    for (uint32_t p = 1; p < index.patch_count(); ++p) {
+        const uint32_t size = index.border_size(p);
+        float* table = index.border_tables.data() + index.border_table_begin[p];
+        for_each_folded(size, [&](uint32_t i, uint32_t j) {
+            table[size_t{i} * size + j] = table[size_t{j} * size + i] = border_values[next++];
+        });
+    }
+    index.crossing_tables.assign(crossing_values.begin(), crossing_values.end());
+    next = 0;
+    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf) {
+        float* table = index.internal_tables.data() + index.internal_table_begin[leaf - index.first_leaf()];
+        for_each_folded(index.internal_size(leaf), [&](uint32_t i, uint32_t j) {
+            table[Index::below_diagonal(i, j)] = internal_values[next++];
+        });
+    }
+}
+
+void read_content(const format::Container& container, Index& index) {
+    read_meta(container, index);
+    read_hierarchy(container, index);
+    read_vertices(container, index);
+    read_positions(container, index);
+    read_borders(container, index);
+    derive(index);
+    read_tables(container, index);
+}
+
+}
+
+void read_index(std::span<const std::byte> file, Index& index) {
+    read_content(format::Container::parse(file, INDEX_TAGS), index);
+}
+
+std::vector<format::Issue> inspect_index(std::span<const std::byte> file) {
+    auto issues = format::inspect(file, INDEX_TAGS);
+    if (!issues.empty()) return issues;
+    try {
+        Index index(std::pmr::get_default_resource());
+        read_index(file, index);
+    } catch (const Error& error) {
+        issues.push_back({error.status, 0, error.what()});
+    }
+    return issues;
+}
+
+}

@@ -1,0 +1,64 @@
+#include "src/metric/edge_graph.h"
+
+#include "src/metric/event_queue.h"
+
+namespace geodesic {
+
+namespace {
+
+class Dijkstra final : public FieldSolver {
+public:
+    Dijkstra(std::shared_ptr<const ListOfLists<EdgeGraphMetric::Arc>> arcs)
+        : FieldSolver(static_cast<uint32_t>(arcs->size())), arcs_(std::move(arcs)), pending_(vertex_count()) {
+    }
+
+private:
+    void run(std::span<const uint32_t> sources, std::span<const uint32_t> targets, double radius) override {
+        queue_.clear();
+        pending_.begin(targets);
+        for (uint32_t i = 0; i < sources.size(); ++i) reach(sources[i], 0, i);
+        while (!queue_.empty()) {
+            const auto event = queue_.pop();
+            if (event.distance > radius) break;
+            if (event.distance != distance(event.item)) continue;
+            if (pending_.settle(event.item)) break;
+            for (const auto& arc : (*arcs_)[event.item])
+                reach(arc.to, event.distance + arc.cost, nearest(event.item));
+        }
+    }
+
+    void reach(uint32_t vertex, double distance, uint32_t nearest) {
+        if (improve(vertex, distance, nearest)) queue_.push(distance, vertex);
+    }
+
+    std::shared_ptr<const ListOfLists<EdgeGraphMetric::Arc>> arcs_;
+    EventQueue queue_;
+    PendingTargets pending_;
+};
+
+}
+
+EdgeGraphMetric::EdgeGraphMetric(const Mesh& mesh, std::span<const double> cost) {
+    std::vector<uint32_t> ends;
+    for (const auto& edge : mesh.edges) ends.insert(ends.end(), edge.begin(), edge.end());
+    const auto by_vertex = group_by(ends, mesh.vertex_count());
+    auto arcs = std::make_shared<ListOfLists<Arc>>();
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        for (uint32_t end : by_vertex[v])
+            arcs->items.push_back({cost[end / 2], mesh.edges[end / 2][1 - end % 2]});
+        arcs->close_list();
+    }
+    arcs_ = std::move(arcs);
+}
+
+std::unique_ptr<FieldSolver> EdgeGraphMetric::make_solver() const {
+    return std::make_unique<Dijkstra>(arcs_);
+}
+
+std::vector<double> edge_lengths(const Mesh& mesh) {
+    std::vector<double> lengths(mesh.edges.size());
+    for (uint32_t e = 0; e < mesh.edge_count(); ++e) lengths[e] = mesh.edge_length(e);
+    return lengths;
+}
+
+}

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/concurrency/workers.h"
+#include "src/mesh/mesh.h"
+
+namespace geodesic {
+
+// The mesh split into patches, each split again. Patches of all levels are numbered through: level by level,
+// and within a level by parent, so that a patch's children are consecutive. Patch 0 is the root, the whole
+// mesh.
+struct Hierarchy {
+    std::vector<uint32_t> level_begin; // level l: patches level_begin[l] .. level_begin[l + 1] - 1
+    std::vector<uint32_t> parent;      // per patch; the root's is NONE
+    std::vector<uint32_t>
+        child_begin; // children of p: child_begin[p] .. child_begin[p + 1] - 1; none of a leaf
+    std::vector<uint32_t> leaf_of_face;
+
+    uint32_t level_count() const { return static_cast<uint32_t>(level_begin.size()) - 2; } // below the root
+    uint32_t patch_count() const { return static_cast<uint32_t>(parent.size()); }
+    uint32_t first_leaf() const { return level_begin[level_count()]; }
+};
+
+struct HierarchyOptions {
+    std::vector<uint32_t> split; // split[l]: how many patches each patch of level l is split into
+    uint32_t lloyd_iterations = 4;
+    uint64_t seed = 0;
+};
+
+// How many levels, and how many patches each patch is split into, for a mesh of this size; counts given by
+// the caller (not 0) are kept.
+std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_count,
+                                      std::span<const uint32_t> given);
+
+// The paper's section 3.1. Every patch hangs together over edges and has at most one border ring, so that a
+// level can have more patches than asked for.
+Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Workers& workers);
+
+}

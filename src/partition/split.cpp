@@ -1,0 +1,142 @@
+#include "src/partition/split.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+
+#include "src/partition/patch.h"
+#include "src/partition/poisson_disk.h"
+#include "src/partition/voronoi.h"
+
+namespace geodesic {
+
+namespace {
+
+using Faces = std::vector<uint32_t>;
+
+// What one call of split_patch works with.
+struct Splitter {
+    const Mesh& mesh;
+    uint32_t lloyd_iterations;
+    FieldSolver& solver;
+    Random& random;
+    const Workers& workers;
+    std::vector<uint8_t> inside; // per face of the mesh, scratch of has_one_ring
+};
+
+std::vector<uint32_t> relaxed_cells(Splitter& splitter, std::span<const uint32_t> faces, uint32_t count) {
+    if (count == 1) return std::vector<uint32_t>(faces.size(), 0);
+    const auto vertices = vertices_of(splitter.mesh, faces);
+    auto seeds = poisson_disk_samples(splitter.solver, vertices, count, splitter.random);
+    auto cell = voronoi_cells(splitter.solver, splitter.mesh, faces, seeds);
+    for (uint32_t i = 0; i < splitter.lloyd_iterations; ++i) {
+        splitter.workers.check_cancelled();
+        relax_seeds(splitter.solver, splitter.mesh, faces, cell, seeds);
+        cell = voronoi_cells(splitter.solver, splitter.mesh, faces, seeds);
+    }
+    return cell;
+}
+
+// The component that most edges of a small component lead to, or NONE if none lead to another one.
+uint32_t best_neighbour(const Mesh& mesh, std::span<const uint32_t> faces, const Components& components,
+                        const std::unordered_map<uint32_t, uint32_t>& position, uint32_t component,
+                        std::span<const uint32_t> members) {
+    std::map<uint32_t, uint32_t> shared_edges;
+    for (uint32_t i : members)
+        for (uint32_t e : mesh.face_edges[faces[i]])
+            for (uint32_t g : mesh.edge_faces[e])
+                if (const auto found = position.find(g); found != position.end())
+                    if (const uint32_t other = components.of_face[found->second]; other != component)
+                        ++shared_edges[other];
+    uint32_t best = NONE, most = 0;
+    for (const auto& [other, edges] : shared_edges)
+        if (edges > most) {
+            most = edges;
+            best = other;
+        }
+    return best;
+}
+
+// Groups faces by cell. A cell's largest connected component is its patch; a smaller one joins the neighbour
+// it shares most edges with, or is a patch of its own where it has none.
+std::vector<Faces> connected_patches(const Mesh& mesh, std::span<const uint32_t> faces,
+                                     std::span<const uint32_t> cell) {
+    Components components = connected_components(mesh, faces, cell);
+    const auto members = group_by(components.of_face, components.count);
+    std::unordered_map<uint32_t, uint32_t> largest_of_cell, position;
+    for (uint32_t c = 0; c < components.count; ++c) {
+        const auto [entry, added] = largest_of_cell.try_emplace(cell[members[c][0]], c);
+        if (!added && members[c].size() > members[entry->second].size()) entry->second = c;
+    }
+    for (uint32_t i = 0; i < faces.size(); ++i) position.emplace(faces[i], i);
+
+    std::vector<uint32_t> order(
+        components.count); // small ones first: they may join one that then joins another
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return members[a].size() < members[b].size(); });
+    std::vector<Faces> merged(components.count);
+    for (uint32_t c = 0; c < components.count; ++c) merged[c].assign(members[c].begin(), members[c].end());
+    for (uint32_t c : order) {
+        const uint32_t seed = cell[members[c][0]];
+        if (seed != NONE && largest_of_cell[seed] == c) continue;
+        const uint32_t target = best_neighbour(mesh, faces, components, position, c, merged[c]);
+        if (target == NONE) continue;
+        for (uint32_t i : merged[c]) components.of_face[i] = target;
+        merged[target].insert(merged[target].end(), merged[c].begin(), merged[c].end());
+        merged[c].clear();
+    }
+    std::vector<Faces> patches;
+    for (Faces& patch : merged) {
+        if (patch.empty()) continue;
+        for (uint32_t& i : patch) i = faces[i];
+        std::sort(patch.begin(), patch.end());
+        patches.push_back(std::move(patch));
+    }
+    return patches;
+}
+
+bool has_one_ring(Splitter& splitter, const Faces& faces) {
+    for (uint32_t f : faces) splitter.inside[f] = 1;
+    const uint32_t rings = count_border_rings(splitter.mesh, faces, splitter.inside);
+    for (uint32_t f : faces) splitter.inside[f] = 0;
+    return rings <= 1;
+}
+
+// Cuts off the first face: the way out where cells cannot divide a patch any more.
+std::vector<Faces> cut_off_one_face(const Mesh& mesh, const Faces& faces) {
+    std::vector<uint32_t> cell(faces.size(), 1);
+    cell[0] = 0;
+    const Components components = connected_components(mesh, faces, cell);
+    std::vector<Faces> patches(components.count);
+    for (size_t i = 0; i < faces.size(); ++i) patches[components.of_face[i]].push_back(faces[i]);
+    return patches;
+}
+
+// Three cells around an annulus are discs.
+void split_until_one_ring(Splitter& splitter, Faces faces, std::vector<Faces>& done) {
+    splitter.workers.check_cancelled();
+    if (faces.size() == 1 || has_one_ring(splitter, faces)) {
+        done.push_back(std::move(faces));
+        return;
+    }
+    auto parts = connected_patches(splitter.mesh, faces, relaxed_cells(splitter, faces, 3));
+    if (parts.size() == 1) parts = cut_off_one_face(splitter.mesh, faces);
+    for (Faces& part : parts) split_until_one_ring(splitter, std::move(part), done);
+}
+
+}
+
+std::vector<std::vector<uint32_t>> split_patch(const Mesh& mesh, std::span<const uint32_t> faces,
+                                               uint32_t count, uint32_t lloyd_iterations, FieldSolver& solver,
+                                               Random& random, const Workers& workers) {
+    Splitter splitter{mesh, lloyd_iterations, solver, random, workers, {}};
+    splitter.inside.assign(mesh.face_count(), 0);
+    std::vector<Faces> patches;
+    for (Faces& part : connected_patches(mesh, faces, relaxed_cells(splitter, faces, count)))
+        split_until_one_ring(splitter, std::move(part), patches);
+    return patches;
+}
+
+}

@@ -1,0 +1,72 @@
+#include "src/partition/voronoi.h"
+
+#include <unordered_map>
+
+#include "src/partition/patch.h"
+
+namespace geodesic {
+
+namespace {
+
+uint32_t cell_of_face(const FieldSolver& solver, const std::array<uint32_t, 3>& face) {
+    const uint32_t a = solver.nearest(face[0]), b = solver.nearest(face[1]), c = solver.nearest(face[2]);
+    if (a == b || a == c) return a;
+    if (b == c) return b;
+    uint32_t closest = face[0];
+    for (uint32_t v : face)
+        if (solver.distance(v) < solver.distance(closest)) closest = v;
+    return solver.nearest(closest);
+}
+
+// The cell that all faces around a vertex within the patch belong to, or NONE on a border of cells or of the
+// patch.
+std::unordered_map<uint32_t, uint32_t> only_cells(const Mesh& mesh, std::span<const uint32_t> faces,
+                                                  std::span<const uint32_t> cell) {
+    struct Seen {
+        uint32_t cell;
+        uint32_t faces;
+    };
+    std::unordered_map<uint32_t, Seen> seen;
+    for (size_t i = 0; i < faces.size(); ++i)
+        for (uint32_t v : mesh.faces[faces[i]]) {
+            Seen& entry = seen.try_emplace(v, Seen{cell[i], 0}).first->second;
+            if (entry.cell != cell[i]) entry.cell = NONE;
+            ++entry.faces;
+        }
+    std::unordered_map<uint32_t, uint32_t> only;
+    for (const auto& [v, entry] : seen)
+        only[v] = entry.faces == mesh.vertex_faces[v].size() ? entry.cell : NONE;
+    return only;
+}
+
+}
+
+std::vector<uint32_t> voronoi_cells(FieldSolver& solver, const Mesh& mesh, std::span<const uint32_t> faces,
+                                    std::span<const uint32_t> seeds) {
+    const auto vertices = vertices_of(mesh, faces);
+    solver.solve(seeds, vertices);
+    std::vector<uint32_t> cell;
+    cell.reserve(faces.size());
+    for (uint32_t f : faces) cell.push_back(cell_of_face(solver, mesh.faces[f]));
+    return cell;
+}
+
+void relax_seeds(FieldSolver& solver, const Mesh& mesh, std::span<const uint32_t> faces,
+                 std::span<const uint32_t> cell, std::span<uint32_t> seeds) {
+    const auto only = only_cells(mesh, faces, cell);
+    const auto vertices = vertices_of(mesh, faces);
+    std::vector<uint32_t> border;
+    for (uint32_t v : vertices)
+        if (only.at(v) == NONE) border.push_back(v);
+    if (border.empty()) return;
+    solver.solve(border, vertices);
+    std::vector<double> farthest(seeds.size(), 0);
+    for (uint32_t v : vertices) {
+        const uint32_t c = only.at(v);
+        if (c == NONE || !(solver.distance(v) > farthest[c]) || solver.distance(v) == UNREACHABLE) continue;
+        farthest[c] = solver.distance(v);
+        seeds[c] = v;
+    }
+}
+
+}

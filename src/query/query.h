@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+
+#include "src/index/index.h"
+#include "src/query/arc_queue.h"
+
+namespace geodesic {
+
+// One thread's scratch for queries on one index; the index must outlive it. Ids are checked: Error
+// INVALID_ARGUMENT names one that is out of range.
+class Query {
+public:
+    Query(const Index& index, std::pmr::memory_resource* memory);
+
+    // Single source, single destination (paper 3.4): symmetric bit for bit.
+    float sssd(uint32_t source_id, uint32_t target_id);
+
+    // Multiple sources, all destinations (paper 3.4): distances[id] to the nearest source.
+    void msad(std::span<const uint32_t> source_ids, std::span<float> distances);
+
+private:
+    uint32_t number_of(uint32_t id) const;
+
+    // msad.cpp
+    void start_from(uint32_t source);
+    void start_from_internal(uint32_t source);
+    void climb();
+    void descend();
+    void cross_overlay(uint32_t patch, uint32_t first_position, uint32_t last_position);
+    void fill_leaf(uint32_t leaf);
+
+    // sssd.cpp
+    float same_leaf_distance(uint32_t a, uint32_t b) const;
+    float search(uint32_t source, uint32_t target);
+    void allow_ancestors(uint32_t source, uint32_t target);
+    void open(uint32_t node, float distance, uint32_t target);
+    void relax_border_vertex(uint32_t node, float distance, uint32_t target);
+
+    const Index& index_;
+    ArcQueue queue_;
+
+    // MSAD: distances by number; which inner patches have sources below them; one overlay at a time.
+    Array<float> distance_;
+    Array<uint8_t> has_sources_;
+    Array<float> overlay_distance_;
+    Array<uint32_t>
+        overlay_arrival_; // the child over whose table a distance came, so that it is not crossed again
+    Array<uint32_t> overlay_node_; // numbers
+
+    // SSSD: distances of border vertices, valid where the epoch is the current one; likewise allowed patches.
+    Array<float> search_distance_;
+    Array<uint32_t> search_epoch_, allowed_epoch_;
+    uint32_t epoch_ = 0;
+};
+
+}

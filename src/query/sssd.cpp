@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/query/query.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
+
+// The patch whose overlay a vertex enters the search in.
+uint32_t entry_patch(const Index& index, uint32_t number) {
+    return index.is_border(number) ? index.owner[number] : index.parent[index.leaf_of(number)];
+}
+
+uint32_t level_of(const Index& index, uint32_t patch) {
+    return static_cast<uint32_t>(std::upper_bound(index.level_begin.begin(), index.level_begin.end(), patch) -
+                                 index.level_begin.begin() - 1);
+}
+
+float crossing_distance(const Index& index, uint32_t border_vertex, uint32_t internal_vertex) {
+    const uint32_t leaf = index.leaf_of(internal_vertex);
+    for (const BorderPlace& place : index.places_of(border_vertex))
+        if (place.patch == leaf)
+            return index.crossing_row(leaf, place.position)[internal_vertex - index.first_internal(leaf)];
+    return INFINITE;
+}
+
+}
+
+// A lower bound that no table entry undercuts (paper 3.4), which makes the search A*.
+static float bound(const Index& index, uint32_t a, uint32_t b) {
+    const auto& p = index.positions[a];
+    const auto& q = index.positions[b];
+    const float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+    return index.bound_scale * std::sqrt(x * x + y * y + z * z);
+}
+
+float Query::sssd(uint32_t source_id, uint32_t target_id) {
+    const uint32_t a = number_of(source_id), b = number_of(target_id);
+    if (source_id == target_id) return 0;
+    if (a == NONE || b == NONE) return INFINITE;
+    const auto [low, high] = std::minmax(a, b);
+    const float direct = same_leaf_distance(low, high);
+    return direct < INFINITE ? direct : search(low, high);
+}
+
+// The table's distance of two vertices that a leaf or a border has in common; infinity if there is none.
+float Query::same_leaf_distance(uint32_t low, uint32_t high) const {
+    if (low == high) return 0;
+    if (index_.is_border(high)) {
+        for (const BorderPlace& a : index_.places_of(low))
+            for (const BorderPlace& b : index_.places_of(high))
+                if (a.patch == b.patch) return index_.border_row(a.patch, a.position)[b.position];
+        return INFINITE;
+    }
+    if (index_.is_border(low)) return crossing_distance(index_, low, high);
+    const uint32_t leaf = index_.leaf_of(low);
+    if (index_.leaf_of(high) != leaf) return INFINITE;
+    const uint32_t first = index_.first_internal(leaf);
+    return index_.internal_distance(leaf, low - first, high - first);
+}
+
+// The search may cross the overlays of both vertices' ancestors up to the first common one, and no others.
+void Query::allow_ancestors(uint32_t source, uint32_t target) {
+    if (++epoch_ == 0) {
+        std::fill(search_epoch_.begin(), search_epoch_.end(), 0u);
+        std::fill(allowed_epoch_.begin(), allowed_epoch_.end(), 0u);
+        epoch_ = 1;
+    }
+    uint32_t a = entry_patch(index_, source), b = entry_patch(index_, target);
+    uint32_t level_a = level_of(index_, a), level_b = level_of(index_, b);
+    allowed_epoch_[a] = allowed_epoch_[b] = epoch_;
+    while (a != b) {
+        if (level_a >= level_b) {
+            allowed_epoch_[a = index_.parent[a]] = epoch_;
+            --level_a;
+        } else {
+            allowed_epoch_[b = index_.parent[b]] = epoch_;
+            --level_b;
+        }
+    }
+}
+
+void Query::open(uint32_t node, float distance, uint32_t target) {
+    if (search_epoch_[node] == epoch_ && !(distance < search_distance_[node])) return;
+    search_epoch_[node] = epoch_;
+    search_distance_[node] = distance;
+    queue_.push(distance + bound(index_, node, target), node);
+}
+
+void Query::relax_border_vertex(uint32_t node, float distance, uint32_t target) {
+    for (const BorderPlace& place : index_.places_of(node)) {
+        if (allowed_epoch_[index_.parent[place.patch]] != epoch_) continue;
+        const auto border = index_.border_of(place.patch);
+        const float* row = index_.border_row(place.patch, place.position);
+        for (size_t i = 0; i < border.size(); ++i) open(border[i], distance + row[i], target);
+    }
+}
+
+float Query::search(uint32_t source, uint32_t target) {
+    allow_ancestors(source, target);
+    queue_.clear();
+    if (index_.is_border(source)) {
+        open(source, 0, target);
+    } else {
+        const uint32_t leaf = index_.leaf_of(source), own = source - index_.first_internal(leaf);
+        const auto border = index_.border_of(leaf);
+        for (uint32_t i = 0; i < border.size(); ++i)
+            open(border[i], index_.crossing_row(leaf, i)[own], target);
+    }
+    float best = INFINITE;
+    while (!queue_.empty()) {
+        const auto [key, node] = queue_.pop();
+        if (key >= best) break;
+        const float d = search_distance_[node];
+        if (key > d + bound(index_, node, target)) continue;
+        if (node == target) return d;
+        if (!index_.is_border(target)) best = std::min(best, d + crossing_distance(index_, node, target));
+        relax_border_vertex(node, d, target);
+    }
+    return best;
+}
+
+}

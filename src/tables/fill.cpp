@@ -1,0 +1,121 @@
+#include "src/tables/fill.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geodesic {
+
+namespace {
+
+// Each pair of vertices is measured once, from the smaller number, and written to both of its places.
+class RowFiller {
+public:
+    RowFiller(Index& index, std::span<const uint32_t> vertex_of_number)
+        : index_(index), vertex_of_number_(vertex_of_number) {}
+
+    void fill(FieldSolver& solver, uint32_t number) {
+        index_.is_border(number) ? fill_border(solver, number) : fill_internal(solver, number);
+    }
+
+private:
+    std::vector<uint32_t> vertices_of(std::span<const uint32_t> numbers) const {
+        std::vector<uint32_t> vertices;
+        for (uint32_t n : numbers) vertices.push_back(vertex_of_number_[n]);
+        return vertices;
+    }
+
+    float distance_to(const FieldSolver& solver, uint32_t number) const {
+        return static_cast<float>(solver.distance(vertex_of_number_[number]));
+    }
+
+    void fill_border(FieldSolver& solver, uint32_t number) {
+        std::vector<uint32_t> targets;
+        for (const BorderPlace& place : index_.places_of(number))
+            for (uint32_t other : index_.border_of(place.patch))
+                if (other > number) targets.push_back(other);
+        if (targets.empty()) return;
+        solver.solve({&vertex_of_number_[number], 1}, vertices_of(targets));
+        for (const BorderPlace& place : index_.places_of(number)) {
+            const auto border = index_.border_of(place.patch);
+            float* table = index_.border_tables.data() + index_.border_table_begin[place.patch];
+            for (size_t i = 0; i < border.size(); ++i) {
+                if (border[i] <= number) continue;
+                const float d = distance_to(solver, border[i]);
+                table[place.position * border.size() + i] = d;
+                table[i * border.size() + place.position] = d;
+            }
+        }
+    }
+
+    void fill_internal(FieldSolver& solver, uint32_t number) {
+        const uint32_t leaf = index_.leaf_of(number);
+        const uint32_t first = index_.first_internal(leaf), size = index_.internal_size(leaf);
+        const auto border = index_.border_of(leaf);
+        std::vector<uint32_t> targets(border.begin(), border.end());
+        for (uint32_t other = number + 1; other < first + size; ++other) targets.push_back(other);
+        if (targets.empty()) return;
+        solver.solve({&vertex_of_number_[number], 1}, vertices_of(targets));
+
+        const uint32_t own = number - first;
+        float* crossing =
+            index_.crossing_tables.data() + index_.crossing_table_begin[leaf - index_.first_leaf()];
+        for (size_t i = 0; i < border.size(); ++i) crossing[i * size + own] = distance_to(solver, border[i]);
+        float* internal =
+            index_.internal_tables.data() + index_.internal_table_begin[leaf - index_.first_leaf()];
+        for (uint32_t i = own + 1; i < size; ++i)
+            internal[Index::below_diagonal(i, own)] = distance_to(solver, first + i);
+    }
+
+    Index& index_;
+    std::span<const uint32_t> vertex_of_number_;
+};
+
+double straight(const Index& index, uint32_t a, uint32_t b) {
+    double square = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const double difference = double{index.positions[a][k]} - double{index.positions[b][k]};
+        square += difference * difference;
+    }
+    return std::sqrt(square);
+}
+
+double smallest_ratio_of_patch(const Index& index, uint32_t patch) {
+    double smallest = 1;
+    const auto border = index.border_of(patch);
+    const auto compare = [&](float distance, uint32_t a, uint32_t b) {
+        const double line = straight(index, a, b);
+        if (line > 0 && double{distance} < smallest * line) smallest = double{distance} / line;
+    };
+    for (uint32_t i = 0; i < border.size(); ++i) {
+        const float* row = index.border_row(patch, i);
+        for (uint32_t j = 0; j < i; ++j) compare(row[j], border[i], border[j]);
+        if (patch < index.first_leaf()) continue;
+        const float* crossing = index.crossing_row(patch, i);
+        const uint32_t first = index.first_internal(patch);
+        for (uint32_t j = 0; j < index.internal_size(patch); ++j) compare(crossing[j], border[i], first + j);
+    }
+    return smallest;
+}
+
+// The largest scale that keeps every table entry above its straight line, less float rounding.
+void set_bound_scale(Index& index, Workers& workers) {
+    std::vector<double> smallest(index.patch_count());
+    workers.run(index.patch_count(), [&](FieldSolver&, size_t p) {
+        smallest[p] = smallest_ratio_of_patch(index, static_cast<uint32_t>(p));
+    });
+    constexpr double FLOAT_ROUNDING = 1e-6;
+    index.bound_scale =
+        static_cast<float>(*std::min_element(smallest.begin(), smallest.end()) * (1 - FLOAT_ROUNDING));
+}
+
+}
+
+void fill_tables(Index& index, std::span<const uint32_t> vertex_of_number, Workers& workers) {
+    RowFiller filler(index, vertex_of_number);
+    workers.run(index.vertex_count(), [&](FieldSolver& solver, size_t number) {
+        filler.fill(solver, static_cast<uint32_t>(number));
+    });
+    set_bound_scale(index, workers);
+}
+
+}

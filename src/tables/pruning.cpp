@@ -1,0 +1,113 @@
+#include "src/tables/pruning.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace geodesic {
+
+namespace {
+
+// Border vertices of one set of leaves that hang together over edges, with all distances among them.
+struct Chain {
+    std::vector<uint32_t> vertices;
+    std::vector<std::array<uint32_t, 2>> adjacent; // positions in vertices
+    std::vector<double> distance;                  // square
+
+    double at(uint32_t i, uint32_t j) const { return distance[size_t{i} * vertices.size() + j]; }
+};
+
+std::vector<Chain> find_chains(const Mesh& mesh, const ListOfLists<uint32_t>& leaves_at_vertex) {
+    std::map<std::vector<uint32_t>, uint32_t> number;
+    std::vector<Chain> chains;
+    std::vector<uint32_t> chain_of(mesh.vertex_count(), NONE), position(mesh.vertex_count(), 0);
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        const auto leaves = leaves_at_vertex[v];
+        if (leaves.size() < 2) continue;
+        const auto [entry, added] =
+            number.try_emplace({leaves.begin(), leaves.end()}, static_cast<uint32_t>(chains.size()));
+        if (added) chains.emplace_back();
+        chain_of[v] = entry->second;
+        position[v] = static_cast<uint32_t>(chains[entry->second].vertices.size());
+        chains[entry->second].vertices.push_back(v);
+    }
+    for (const auto& [a, b] : mesh.edges)
+        if (chain_of[a] != NONE && chain_of[a] == chain_of[b])
+            chains[chain_of[a]].adjacent.push_back({position[a], position[b]});
+    return chains;
+}
+
+void measure(Chain& chain, FieldSolver& solver) {
+    if (chain.adjacent.empty()) return;
+    for (uint32_t source : chain.vertices) {
+        solver.solve({&source, 1}, chain.vertices);
+        for (uint32_t target : chain.vertices) chain.distance.push_back(solver.distance(target));
+    }
+}
+
+struct Group {
+    std::vector<uint32_t> members; // positions in the chain
+    uint32_t representative = 0;
+};
+
+struct Merge {
+    double error = std::numeric_limits<double>::infinity();
+    uint32_t representative = 0;
+};
+
+// Of the two representatives, the one nearer to its farthest member stays.
+Merge merge_of(const Chain& chain, const Group& a, const Group& b) {
+    Merge best;
+    for (uint32_t candidate : {a.representative, b.representative}) {
+        double error = 0;
+        for (const Group* group : {&a, &b})
+            for (uint32_t member : group->members) error = std::max(error, chain.at(candidate, member));
+        if (error < best.error) best = {error, candidate};
+    }
+    return best;
+}
+
+void merge_chain(const Chain& chain, double largest_error, std::vector<uint8_t>& stands) {
+    std::vector<Group> groups(chain.vertices.size());
+    std::vector<uint32_t> group_of(chain.vertices.size());
+    for (uint32_t i = 0; i < groups.size(); ++i) groups[i] = {{i}, i};
+    std::iota(group_of.begin(), group_of.end(), 0u);
+    for (;;) {
+        Merge best;
+        uint32_t into = NONE, from = NONE;
+        for (const auto& [i, j] : chain.adjacent) {
+            if (group_of[i] == group_of[j]) continue;
+            const Merge merge = merge_of(chain, groups[group_of[i]], groups[group_of[j]]);
+            if (!(merge.error < best.error)) continue;
+            best = merge;
+            into = group_of[i];
+            from = group_of[j];
+        }
+        if (!(best.error <= largest_error)) break;
+        groups[into].representative = best.representative;
+        for (uint32_t member : groups[from].members) {
+            group_of[member] = into;
+            groups[into].members.push_back(member);
+        }
+        groups[from].members.clear();
+    }
+    for (uint32_t i = 0; i < groups.size(); ++i)
+        stands[chain.vertices[i]] = groups[group_of[i]].representative == i;
+}
+
+}
+
+std::vector<uint8_t> merge_border_vertices(const Mesh& mesh, const ListOfLists<uint32_t>& leaves_at_vertex,
+                                           double largest_error, Workers& workers) {
+    std::vector<uint8_t> stands(mesh.vertex_count(), 1);
+    if (!(largest_error > 0)) return stands;
+    auto chains = find_chains(mesh, leaves_at_vertex);
+    workers.run(chains.size(), [&](FieldSolver& solver, size_t i) {
+        measure(chains[i], solver);
+        if (!chains[i].adjacent.empty()) merge_chain(chains[i], largest_error, stands);
+    });
+    return stands;
+}
+
+}
