@@ -125,13 +125,13 @@ void solve(geoidx_solver& solver, std::span<const uint32_t> sources, std::span<c
         solver.solver->solve(source_vertices, target_vertices);
     const auto distance_of = [&](uint32_t id) {
         const uint32_t vertex = solver_vertex(solver, id);
-        return vertex == NONE || source_vertices.empty() ? UNREACHABLE : solver.solver->distance(vertex);
+        if (vertex != NONE) return source_vertices.empty() ? UNREACHABLE : solver.solver->distance(vertex);
+        return std::find(sources.begin(), sources.end(), id) == sources.end() ? UNREACHABLE : 0.0;
     };
     const size_t count = all_targets ? solver.intake.vertex_of_id.size() : targets.size();
     for (size_t i = 0; i < count; ++i) {
         const uint32_t id = all_targets ? static_cast<uint32_t>(i) : targets[i];
-        const bool is_source = std::find(sources.begin(), sources.end(), id) != sources.end();
-        distances[i] = is_source ? 0 : distance_of(id);
+        distances[i] = distance_of(id);
     }
 }
 

@@ -1,5 +1,7 @@
 #include "src/index/index.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "format/error.h"
@@ -11,7 +13,8 @@ Index::Index(std::pmr::memory_resource* memory)
       owned_begin(memory), internal_begin(memory), border_begin(memory), border(memory),
       border_table_begin(memory), crossing_table_begin(memory), internal_table_begin(memory),
       border_tables(memory), crossing_tables(memory), internal_tables(memory), overlay_position(memory),
-      place_begin(memory), places(memory), leaf_of_internal(memory), owner(memory) {}
+      patch_of_slot(memory), overlay_begin(memory), slot_begin(memory), slots(memory), place_begin(memory),
+      places(memory), leaf_of_internal(memory), owner(memory), reach(memory) {}
 
 void allocate_tables(Index& index) {
     index.border_table_begin.assign(1, 0);
@@ -66,6 +69,25 @@ void derive_overlay_positions(Index& index) {
     }
 }
 
+void derive_slots(Index& index) {
+    index.patch_of_slot.resize(index.border.size());
+    for (uint32_t p = 0; p < index.patch_count(); ++p)
+        std::fill(index.patch_of_slot.begin() + index.border_begin[p],
+                  index.patch_of_slot.begin() + index.border_begin[p + 1], p);
+    index.overlay_begin.assign(1, 0);
+    for (uint32_t p = 0; p < index.first_leaf(); ++p)
+        index.overlay_begin.push_back(index.overlay_begin.back() + index.overlay_size(p));
+    const auto overlay_of = [&](size_t slot) {
+        return index.overlay_begin[index.parent[index.patch_of_slot[slot]]] + index.overlay_position[slot];
+    };
+    index.slot_begin.assign(size_t{index.overlay_begin.back()} + 1, 0);
+    for (size_t slot = 0; slot < index.border.size(); ++slot) ++index.slot_begin[overlay_of(slot) + 1];
+    for (size_t i = 1; i < index.slot_begin.size(); ++i) index.slot_begin[i] += index.slot_begin[i - 1];
+    index.slots.resize(index.border.size());
+    std::vector<uint32_t> next(index.slot_begin.begin(), index.slot_begin.end() - 1);
+    for (uint32_t slot = 0; slot < index.border.size(); ++slot) index.slots[next[overlay_of(slot)]++] = slot;
+}
+
 void derive_places(Index& index) {
     index.place_begin.assign(size_t{index.border_vertex_count()} + 1, 0);
     for (uint32_t v : index.border) ++index.place_begin[v + 1];
@@ -83,11 +105,37 @@ void derive_places(Index& index) {
 void derive(Index& index) {
     derive_owners(index);
     derive_overlay_positions(index);
+    derive_slots(index);
     derive_places(index);
     index.leaf_of_internal.resize(index.vertex_count() - index.border_vertex_count());
     for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf)
         for (uint32_t i = 0; i < index.internal_size(leaf); ++i)
             index.leaf_of_internal[index.first_internal(leaf) - index.border_vertex_count() + i] = leaf;
+}
+
+namespace {
+
+Index::Reach reach_of(const Index& index, uint32_t patch) {
+    float longest = 0;
+    double steps = 0;
+    uint64_t count = 0;
+    for (uint32_t child = index.child_begin[patch]; child < index.child_begin[patch + 1]; ++child)
+        for (uint32_t i = 0; i < index.border_size(child); ++i) {
+            const float* row = index.border_row(child, i);
+            for (uint32_t j = 0; j < i; ++j)
+                if (std::isfinite(row[j])) longest = std::max(longest, row[j]);
+            if (i == 0 || !std::isfinite(row[i - 1])) continue;
+            steps += double{row[i - 1]};
+            ++count;
+        }
+    return {longest, count ? static_cast<float>(steps / static_cast<double>(count)) : 0};
+}
+
+}
+
+void derive_reach(Index& index) {
+    index.reach.clear();
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) index.reach.push_back(reach_of(index, p));
 }
 
 }

@@ -62,11 +62,22 @@ struct Index {
     Array<float> border_tables, crossing_tables, internal_tables;
 
     // Derived from the above by derive().
-    Array<uint32_t> overlay_position; // parallel to border: position in the overlay of the patch's parent
-    Array<uint32_t> place_begin;      // per border vertex: its places, in ascending order of patches
+    // A slot is an index in `border`: a place of a vertex in one patch's border.
+    Array<uint32_t> overlay_position; // per slot: position in the overlay of the patch's parent
+    Array<uint32_t> patch_of_slot;
+    Array<uint32_t> overlay_begin; // per inner patch: where its overlay positions begin in slot_begin
+    Array<uint32_t>
+        slot_begin; // slots of overlay position i of patch p: from slot_begin[overlay_begin[p] + i]
+    Array<uint32_t> slots;
+    Array<uint32_t> place_begin; // per border vertex: its places, in ascending order of patches
     Array<BorderPlace> places;
     Array<uint32_t> leaf_of_internal; // [number - border_vertex_count()]
     Array<uint32_t> owner;            // per border vertex
+    // Of the tables of an inner patch's children: the longest distance and a typical one of neighbours.
+    struct Reach {
+        float longest, step;
+    };
+    Array<Reach> reach; // by derive_reach()
 
     uint32_t level_count() const { return static_cast<uint32_t>(level_begin.size()) - 2; }
     uint32_t patch_count() const { return static_cast<uint32_t>(parent.size()); }
@@ -86,6 +97,10 @@ struct Index {
     uint32_t first_internal(uint32_t leaf) const { return internal_begin[leaf - first_leaf()]; }
     uint32_t overlay_size(uint32_t patch) const {
         return border_size(patch) + owned_begin[patch + 1] - owned_begin[patch];
+    }
+    std::span<const uint32_t> slots_of(uint32_t patch, uint32_t overlay_position) const {
+        const uint32_t* begin = slot_begin.data() + overlay_begin[patch] + overlay_position;
+        return {slots.data() + begin[0], slots.data() + begin[1]};
     }
     std::span<const BorderPlace> places_of(uint32_t border_vertex) const {
         return {places.data() + place_begin[border_vertex], places.data() + place_begin[border_vertex + 1]};
@@ -115,5 +130,8 @@ void allocate_tables(Index& index);
 // Fills what is derived; throws Error CORRUPT where a border vertex is on the border of a patch but not in
 // its parent's overlay.
 void derive(Index& index);
+
+// Fills `reach` from the tables.
+void derive_reach(Index& index);
 
 }

@@ -206,6 +206,7 @@ void read_content(const format::Container& container, Index& index) {
     read_borders(container, index);
     derive(index);
     read_tables(container, index);
+    derive_reach(index);
 }
 
 }

@@ -30,8 +30,8 @@ size_t position_stride(const geoidx_mesh& mesh) {
     const size_t scalar = mesh.position_type == GEOIDX_POSITION_DOUBLE ? sizeof(double) : sizeof(float);
     if (mesh.position_stride == 0) return 3 * scalar;
     if (mesh.position_stride < 3 * scalar)
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
-                    "position_stride " + std::to_string(mesh.position_stride) + " is less than three coordinates");
+        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "position_stride " + std::to_string(mesh.position_stride) +
+                                                       " is less than three coordinates");
     return mesh.position_stride;
 }
 
@@ -55,8 +55,7 @@ Eigen::Vector3d position_at(const std::byte* address) {
 std::vector<Eigen::Vector3d> read_positions(const geoidx_mesh& mesh) {
     const size_t stride = position_stride(mesh);
     const auto* bytes = static_cast<const std::byte*>(mesh.positions);
-    const auto read =
-        mesh.position_type == GEOIDX_POSITION_DOUBLE ? position_at<double> : position_at<float>;
+    const auto read = mesh.position_type == GEOIDX_POSITION_DOUBLE ? position_at<double> : position_at<float>;
     std::vector<Eigen::Vector3d> positions(mesh.vertex_count);
     for (size_t i = 0; i < positions.size(); ++i) {
         positions[i] = read(bytes + i * stride);
@@ -77,9 +76,7 @@ std::vector<std::array<uint32_t, 3>> read_triangles(const geoidx_mesh& mesh) {
     return triangles;
 }
 
-bool is_degenerate(const std::array<uint32_t, 3>& t) {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
+bool is_degenerate(const std::array<uint32_t, 3>& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 // The triangles that remain, in the caller's order: not degenerate after welding, each once.
 std::vector<std::array<uint32_t, 3>> clean_triangles(const std::vector<std::array<uint32_t, 3>>& triangles,

@@ -8,7 +8,8 @@ namespace geodesic {
 // The caller's mesh after checking, welding and clean-up.
 struct Intake {
     Mesh mesh;
-    std::vector<uint32_t> vertex_of_id; // per caller's id: its vertex in `mesh`, NONE where no triangle uses it
+    std::vector<uint32_t>
+        vertex_of_id; // per caller's id: its vertex in `mesh`, NONE where no triangle uses it
     std::vector<uint32_t> id_of_vertex; // per vertex of `mesh`: the first caller's id welded into it
     uint64_t triangle_count = 0;        // of the caller's array
     uint64_t fingerprint = 0;

@@ -53,7 +53,8 @@ void connect(Mesh& mesh) {
 
     std::vector<uint32_t> corner_vertices;
     corner_vertices.reserve(mesh.faces.size() * 3);
-    for (const auto& face : mesh.faces) corner_vertices.insert(corner_vertices.end(), face.begin(), face.end());
+    for (const auto& face : mesh.faces)
+        corner_vertices.insert(corner_vertices.end(), face.begin(), face.end());
     mesh.vertex_faces = group_by(corner_vertices, mesh.vertex_count());
     for (uint32_t& corner : mesh.vertex_faces.items) corner /= 3;
 }

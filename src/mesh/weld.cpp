@@ -31,13 +31,15 @@ std::vector<uint32_t> weld_equal(const std::vector<Eigen::Vector3d>& positions) 
     for (size_t i = 0; i < positions.size(); ++i) {
         Key key;
         // Adding 0 makes -0 and +0 the same bits.
-        for (int k = 0; k < 3; ++k) key[static_cast<size_t>(k)] = std::bit_cast<int64_t>(positions[i][k] + 0.0);
+        for (int k = 0; k < 3; ++k)
+            key[static_cast<size_t>(k)] = std::bit_cast<int64_t>(positions[i][k] + 0.0);
         representative[i] = first.try_emplace(key, static_cast<uint32_t>(i)).first->second;
     }
     return representative;
 }
 
-// Representatives by the cell of a grid whose cells are one tolerance wide: a neighbour is at most one cell away.
+// Representatives by the cell of a grid whose cells are one tolerance wide: a neighbour is at most one cell
+// away.
 class RepresentativeGrid {
 public:
     RepresentativeGrid(const std::vector<Eigen::Vector3d>& positions, double tolerance)

@@ -76,8 +76,7 @@ void add_spokes(const Mesh& mesh, IntrinsicMesh& out) {
     const auto by_vertex = group_by(ends, mesh.vertex_count());
     for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         for (uint32_t end : by_vertex[v])
-            out.spokes.items.push_back(
-                {out.edge_length[end / 2], end / 2, mesh.edges[end / 2][1 - end % 2]});
+            out.spokes.items.push_back({out.edge_length[end / 2], end / 2, mesh.edges[end / 2][1 - end % 2]});
         out.spokes.close_list();
     }
 }
@@ -128,9 +127,12 @@ void add_fan(const Mesh& mesh, uint32_t vertex, IntrinsicMesh& out) {
 bool can_bend(const IntrinsicMesh& mesh, uint32_t vertex) {
     constexpr double ROUNDING = 1e-12;
     switch (mesh.fan[vertex]) {
-    case Fan::Closed: return mesh.total_angle[vertex] > 2 * std::numbers::pi + ROUNDING;
-    case Fan::Open: return mesh.total_angle[vertex] > std::numbers::pi + ROUNDING;
-    case Fan::Irregular: break;
+    case Fan::Closed:
+        return mesh.total_angle[vertex] > 2 * std::numbers::pi + ROUNDING;
+    case Fan::Open:
+        return mesh.total_angle[vertex] > std::numbers::pi + ROUNDING;
+    case Fan::Irregular:
+        break;
     }
     return true;
 }

@@ -14,14 +14,14 @@ struct Spoke {
     uint32_t other; // the vertex at its far end
 };
 
-// One face at one edge, unfolded into the plane: the edge lies on the x axis, its first vertex at 0, its second at
-// `length`, and the face below it with its third vertex, the apex, at (apex_x, -apex_depth).
+// One face at one edge, unfolded into the plane: the edge lies on the x axis, its first vertex at 0, its
+// second at `length`, and the face below it with its third vertex, the apex, at (apex_x, -apex_depth).
 struct Side {
     double apex_x, apex_depth;
     uint32_t apex;
     uint32_t face;
-    // The two other edges of the face: [0] from the first vertex to the apex, [1] from the second. The lowest bit
-    // is set where that edge's own first vertex is the apex.
+    // The two other edges of the face: [0] from the first vertex to the apex, [1] from the second. The lowest
+    // bit is set where that edge's own first vertex is the apex.
     uint32_t tagged_edge[2];
 };
 
@@ -52,8 +52,8 @@ struct IntrinsicMesh {
     std::vector<double> total_angle; // per vertex
     std::vector<Fan> fan;            // per vertex
 
-    // Whether a shortest path can bend at a vertex: it can where there is more than a straight angle on both of
-    // its sides, so at saddles, at reflex boundary vertices and where several fans meet.
+    // Whether a shortest path can bend at a vertex: it can where there is more than a straight angle on both
+    // of its sides, so at saddles, at reflex boundary vertices and where several fans meet.
     std::vector<uint8_t> can_bend;
 };
 

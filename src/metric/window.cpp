@@ -19,9 +19,9 @@ double bisect(const Window& a, const Window& b, double low, double high) {
     return 0.5 * (low + high);
 }
 
-// The t in [low, high] with a(t) = b(t), where a - b changes its sign once. Points whose distances to two sources
-// differ by a constant lie on a hyperbola; this is where it meets the edge. Written so that nothing cancels when
-// the constant is small.
+// The t in [low, high] with a(t) = b(t), where a - b changes its sign once. Points whose distances to two
+// sources differ by a constant lie on a hyperbola; this is where it meets the edge. Written so that nothing
+// cancels when the constant is small.
 double crossing(const Window& a, const Window& b, double low, double high) {
     const double ax = a.x - low, bx = b.x - low;
     const double lag = b.sigma - a.sigma;
@@ -46,18 +46,19 @@ double crossing(const Window& a, const Window& b, double low, double high) {
 
 }
 
-// The difference of two windows has at most one extremum on the edge, where the line through both sources meets it.
-// Between the ends and that point it is monotonic, so that the signs there tell everything.
+// The difference of two windows has at most one extremum on the edge, where the line through both sources
+// meets it. Between the ends and that point it is monotonic, so that the signs there tell everything.
 Advantage advantage(const Window& challenger, const Window& holder, double s, double t) {
     const double holder_s = s == holder.begin ? holder.begin_distance : holder.distance_at(s);
     const double holder_t = t == holder.end ? holder.end_distance : holder.distance_at(t);
     const double highest = std::max(holder_s, holder_t);
     if (challenger.smallest_distance() >= highest) return {s, s, false};
-    const double at_s = (s == challenger.begin ? challenger.begin_distance : challenger.distance_at(s)) - holder_s;
-    const double at_t = (t == challenger.end ? challenger.end_distance : challenger.distance_at(t)) - holder_t;
+    const double at_s =
+        (s == challenger.begin ? challenger.begin_distance : challenger.distance_at(s)) - holder_s;
+    const double at_t =
+        (t == challenger.end ? challenger.end_distance : challenger.distance_at(t)) - holder_t;
     const double rounding = RELATIVE_ROUNDING * highest;
-    const double extremum =
-        (challenger.x * holder.y - holder.x * challenger.y) / (holder.y - challenger.y);
+    const double extremum = (challenger.x * holder.y - holder.x * challenger.y) / (holder.y - challenger.y);
     if (!(extremum > s && extremum < t)) { // also where the line runs along the edge
         if (at_s >= -rounding && at_t >= -rounding) return {s, s, false};
         const double begin = at_s <= 0 ? s : crossing(challenger, holder, s, t);

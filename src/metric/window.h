@@ -6,9 +6,9 @@
 
 namespace geodesic {
 
-// The part of an edge that straight paths from one (pseudo-)source reach through one sequence of faces. In the
-// plane of the edge (first vertex at 0, on the x axis) the source lies at (x, y), y >= 0; the distance at t is
-// sigma + |(t, 0) - (x, y)|.
+// The part of an edge that straight paths from one (pseudo-)source reach through one sequence of faces. In
+// the plane of the edge (first vertex at 0, on the x axis) the source lies at (x, y), y >= 0; the distance at
+// t is sigma + |(t, 0) - (x, y)|.
 struct Window {
     double begin, end; // on the edge, begin < end
     double x, y;

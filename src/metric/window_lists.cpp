@@ -55,9 +55,8 @@ void WindowLists::replace(List& list, uint32_t begin, uint32_t end, std::span<co
 
 // Appends a part of a window to the merged run, joined to the part before it where it goes on.
 void WindowLists::emit(const Window& window, double begin, double end) {
-    const bool continues = !merged_.empty() && merged_.back().end == begin &&
-                           merged_.back().x == window.x && merged_.back().y == window.y &&
-                           merged_.back().sigma == window.sigma &&
+    const bool continues = !merged_.empty() && merged_.back().end == begin && merged_.back().x == window.x &&
+                           merged_.back().y == window.y && merged_.back().sigma == window.sigma &&
                            merged_.back().from_face == window.from_face &&
                            merged_.back().pending == window.pending;
     if (continues) {

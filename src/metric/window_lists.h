@@ -10,8 +10,8 @@
 
 namespace geodesic {
 
-// The lower envelope of the windows on every edge: per edge a list sorted along it, without overlaps. Memory is
-// kept from solve to solve; forgetting all lists costs nothing.
+// The lower envelope of the windows on every edge: per edge a list sorted along it, without overlaps. Memory
+// is kept from solve to solve; forgetting all lists costs nothing.
 class WindowLists {
 public:
     explicit WindowLists(uint32_t edge_count) : lists_(edge_count) {}
@@ -23,8 +23,8 @@ public:
         return list.epoch == epoch_ ? std::span(pool_.data() + list.first, list.count) : std::span<Window>();
     }
 
-    // Puts the parts of a window where it is the lowest into the edge's list and returns the smallest distance on
-    // them; infinity if there are none.
+    // Puts the parts of a window where it is the lowest into the edge's list and returns the smallest
+    // distance on them; infinity if there are none.
     double insert(uint32_t edge, const Window& window);
 
 private:

@@ -17,12 +17,13 @@ constexpr double ANGLE_SLACK = 1e-6;
 
 double norm(double x, double y) { return std::sqrt(x * x + y * y); }
 
-// A window on its way through a face, seen from the end of the entry edge that the exit edge starts at: that end
-// is the origin, the other end of the entry edge at (length, 0), the apex at (apex_x, -apex_depth).
+// A window on its way through a face, seen from the end of the entry edge that the exit edge starts at: that
+// end is the origin, the other end of the entry edge at (length, 0), the apex at (apex_x, -apex_depth).
 struct Passage {
     double length, apex_x, apex_depth;
     double x, y; // the source
-    double near, far; // the part of the entry edge whose rays leave through the exit edge; near is closer to 0
+    double near,
+        far; // the part of the entry edge whose rays leave through the exit edge; near is closer to 0
     bool far_is_apex; // the far ray passes through the apex
     uint32_t near_vertex, far_vertex, apex;
     uint32_t tagged_exit;
@@ -61,7 +62,7 @@ private:
 
     std::shared_ptr<const IntrinsicMesh> mesh_;
     WindowLists lists_;
-    EventQueue queue_; // vertices by number, edges by vertex_count() + number
+    EventQueue queue_;                    // vertices by number, edges by vertex_count() + number
     std::vector<double> queued_distance_; // of the edge's live event
     std::vector<uint32_t> queued_edges_;
     std::vector<Arrival> arrival_;
@@ -116,8 +117,8 @@ double WindowPropagation::arrival_angle(uint32_t vertex) const {
     return mesh_->total_angle[vertex]; // the last edge of an open fan begins no corner
 }
 
-// A path that bends at a vertex has at least a straight angle on both sides; only the faces that such paths enter
-// get windows.
+// A path that bends at a vertex has at least a straight angle on both sides; only the faces that such paths
+// enter get windows.
 void WindowPropagation::spawn(uint32_t vertex) {
     constexpr double STRAIGHT = std::numbers::pi - ANGLE_SLACK;
     const Fan fan = mesh_->fan[vertex];
@@ -138,7 +139,8 @@ void WindowPropagation::spawn_into(uint32_t corner, uint32_t vertex) {
     const uint32_t edge = mesh_->edge_of_corner[corner];
     const double length = mesh_->edge_length[edge];
     const double d = distance(vertex);
-    Window window{0, length, side.apex_x, side.apex_depth, d, 0, 0, side.face, nearest(vertex) & MAX_NEAREST, 1};
+    Window window{0, length, side.apex_x, side.apex_depth, d, 0, 0, side.face, nearest(vertex) & MAX_NEAREST,
+                  1};
     window.begin_distance = window.distance_at(0);
     window.end_distance = window.distance_at(length);
     insert(edge, window);
@@ -175,7 +177,8 @@ void WindowPropagation::reach_apex(const Window& window, const Side& side) {
     reach(side.apex, d, window.nearest, arrival);
 }
 
-// Carries a window over its edge into a face: to the apex if that is in its light, and to the two other edges.
+// Carries a window over its edge into a face: to the apex if that is in its light, and to the two other
+// edges.
 void WindowPropagation::propagate(const Window& window, const Side& side, uint32_t edge) {
     const double height = window.y + side.apex_depth;
     if (!(window.y > 0) || !(height > 0)) return; // along the edge: its vertices carry that on
@@ -190,8 +193,8 @@ void WindowPropagation::propagate(const Window& window, const Side& side, uint32
                       side.tagged_edge[0], side.face});
     if (window.end > split)
         pass(window, {length, length - side.apex_x, side.apex_depth, length - window.x, window.y,
-                      length - window.end, length - std::max(window.begin, split), split >= window.begin, second,
-                      first, side.apex, side.tagged_edge[1], side.face});
+                      length - window.end, length - std::max(window.begin, split), split >= window.begin,
+                      second, first, side.apex, side.tagged_edge[1], side.face});
 }
 
 void WindowPropagation::pass(const Window& window, const Passage& p) {

@@ -7,9 +7,9 @@
 
 namespace geodesic {
 
-// The exact polyhedral geodesic distance. A continuous Dijkstra over windows (Mitchell, Mount, Papadimitriou 1987;
-// Surazhsky et al. 2005) that propagates all pending windows of an edge at once and drops early what a vertex
-// already beats (Xin and Wang 2009).
+// The exact polyhedral geodesic distance. A continuous Dijkstra over windows (Mitchell, Mount, Papadimitriou
+// 1987; Surazhsky et al. 2005) that propagates all pending windows of an edge at once and drops early what a
+// vertex already beats (Xin and Wang 2009).
 class ExactMetric final : public Metric {
 public:
     explicit ExactMetric(const Mesh& mesh) : mesh_(std::make_shared<IntrinsicMesh>(mesh)) {}

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <experimental/simd>
 #include <limits>
 #include <string>
 
@@ -8,6 +9,10 @@
 namespace geodesic {
 
 namespace {
+
+namespace simd = std::experimental;
+using Floats = simd::native_simd<float>;
+constexpr auto WIDTH = static_cast<uint32_t>(Floats::size());
 
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
@@ -65,48 +70,94 @@ void Query::start_from_internal(uint32_t source) {
 void Query::climb() {
     for (uint32_t p = index_.first_leaf(); p-- > 0;) {
         if (!has_sources_[p]) continue;
-        cross_overlay(p, 0, index_.overlay_size(p));
+        cross_overlay(p, index_.overlay_size(p));
         if (p > 0) has_sources_[index_.parent[p]] = 1;
     }
 }
 
 void Query::descend() {
-    for (uint32_t p = 1; p < index_.first_leaf(); ++p) cross_overlay(p, 0, index_.border_size(p));
+    for (uint32_t p = 1; p < index_.first_leaf(); ++p) cross_overlay(p, index_.border_size(p));
 }
 
-// Dijkstra over the tables of a patch's children, from the overlay positions [first, last) that have a
-// distance. Tables hold whole-surface distances, so a distance that came over a child's table needs not cross
-// it again.
-void Query::cross_overlay(uint32_t patch, uint32_t first_position, uint32_t last_position) {
+// Fills the overlay with the distances known so far and queues the first start_count positions of it.
+void Query::load_overlay(uint32_t patch, uint32_t start_count) {
     const auto outer = index_.border_of(patch);
     const auto outer_size = static_cast<uint32_t>(outer.size());
-    const uint32_t size = index_.overlay_size(patch), owned = index_.owned_begin[patch];
-    for (uint32_t i = 0; i < size; ++i) {
-        overlay_node_[i] = i < outer_size ? outer[i] : owned + i - outer_size;
-        overlay_distance_[i] = distance_[overlay_node_[i]];
-    }
-    std::fill_n(overlay_arrival_.begin(), size, NONE);
-    queue_.clear();
-    for (uint32_t i = first_position; i < last_position; ++i)
-        if (overlay_distance_[i] < INFINITE) queue_.push(overlay_distance_[i], i);
-    while (!queue_.empty()) {
-        const auto [d, position] = queue_.pop();
-        if (d > overlay_distance_[position]) continue;
-        for (const BorderPlace& place : index_.places_of(overlay_node_[position])) {
-            const uint32_t child = place.patch;
-            if (index_.parent[child] != patch || overlay_arrival_[position] == child) continue;
-            const float* row = index_.border_row(child, place.position);
-            const uint32_t* to = index_.overlay_position.data() + index_.border_begin[child];
-            for (uint32_t k = 0; k < index_.border_size(child); ++k) {
-                const float through = d + row[k];
-                if (!(through < overlay_distance_[to[k]])) continue;
-                overlay_distance_[to[k]] = through;
-                overlay_arrival_[to[k]] = child;
-                queue_.push(through, to[k]);
-            }
+    float smallest = INFINITE, largest = 0;
+    for (uint32_t i = 0; i < index_.overlay_size(patch); ++i) {
+        const uint32_t number = i < outer_size ? outer[i] : index_.owned_begin[patch] + i - outer_size;
+        const float d = distance_[number];
+        overlay_[i] = {d, INFINITE, NONE, number};
+        if (i < start_count && d < INFINITE) {
+            smallest = std::min(smallest, d);
+            largest = std::max(largest, d);
         }
     }
-    for (uint32_t i = 0; i < size; ++i) distance_[overlay_node_[i]] = overlay_distance_[i];
+    const uint32_t first_slot = index_.border_begin[index_.child_begin[patch]];
+    const uint32_t last_slot = index_.border_begin[index_.child_begin[patch + 1]];
+    for (uint32_t slot = first_slot; slot < last_slot; ++slot)
+        slot_distance_[slot] = overlay_[index_.overlay_position[slot]].distance;
+    const Index::Reach& reach = index_.reach[patch];
+    buckets_.begin(smallest, largest - smallest + reach.longest, reach.step);
+    for (uint32_t i = 0; i < start_count; ++i)
+        if (overlay_[i].distance < INFINITE) buckets_.push(overlay_[i].distance, i);
+}
+
+// Dijkstra over the tables of a patch's children, from the first start_count overlay positions. Tables hold
+// whole-surface distances, so a distance that came over a child's table needs not cross it again.
+void Query::cross_overlay(uint32_t patch, uint32_t start_count) {
+    load_overlay(patch, start_count);
+    for (auto step = buckets_.pop_step(); !step.empty(); step = buckets_.pop_step()) {
+        for (uint32_t i : step) fetch_rows(patch, i);
+        for (uint32_t i : step) {
+            OverlayNode& node = overlay_[i];
+            if (node.distance == node.crossed_distance) continue;
+            node.crossed_distance = node.distance;
+            for (uint32_t slot : index_.slots_of(patch, i))
+                if (index_.patch_of_slot[slot] != node.arrival) cross_child(patch, slot);
+        }
+    }
+    for (uint32_t i = 0; i < index_.overlay_size(patch); ++i)
+        distance_[overlay_[i].number] = overlay_[i].distance;
+}
+
+// Asks for the table rows of an overlay position before they are needed: reading them is mostly waiting for
+// memory.
+void Query::fetch_rows(uint32_t patch, uint32_t overlay_position) const {
+    constexpr uint32_t FLOATS_PER_LINE = 16;
+    for (uint32_t slot : index_.slots_of(patch, overlay_position)) {
+        const uint32_t child = index_.patch_of_slot[slot];
+        if (child == overlay_[overlay_position].arrival) continue;
+        const float* row = index_.border_row(child, slot - index_.border_begin[child]);
+        for (uint32_t k = 0; k < index_.border_size(child); k += FLOATS_PER_LINE) __builtin_prefetch(row + k);
+    }
+}
+
+// Almost no entry of a row lowers anything: entries are looked at singly only where one of a few side by side
+// does.
+void Query::cross_child(uint32_t patch, uint32_t slot) {
+    const uint32_t child = index_.patch_of_slot[slot];
+    const uint32_t first = index_.border_begin[child], size = index_.border_size(child);
+    const float d = slot_distance_[slot];
+    const float* row = index_.border_row(child, slot - first);
+    const float* known = slot_distance_.data() + first;
+    uint32_t k = 0;
+    for (; k + WIDTH <= size; k += WIDTH) {
+        const Floats through = d + Floats(row + k, simd::element_aligned);
+        if (simd::none_of(through < Floats(known + k, simd::element_aligned))) continue;
+        for (uint32_t j = k; j < k + WIDTH; ++j)
+            if (d + row[j] < known[j]) lower(patch, first + j, d + row[j]);
+    }
+    for (; k < size; ++k)
+        if (d + row[k] < known[k]) lower(patch, first + k, d + row[k]);
+}
+
+void Query::lower(uint32_t patch, uint32_t slot, float distance) {
+    const uint32_t position = index_.overlay_position[slot];
+    overlay_[position].distance = distance;
+    overlay_[position].arrival = index_.patch_of_slot[slot];
+    for (uint32_t copy : index_.slots_of(patch, position)) slot_distance_[copy] = distance;
+    buckets_.push(distance, position);
 }
 
 void Query::fill_leaf(uint32_t leaf) {

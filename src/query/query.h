@@ -4,6 +4,7 @@
 
 #include "src/index/index.h"
 #include "src/query/arc_queue.h"
+#include "src/query/bucket_queue.h"
 
 namespace geodesic {
 
@@ -27,7 +28,11 @@ private:
     void start_from_internal(uint32_t source);
     void climb();
     void descend();
-    void cross_overlay(uint32_t patch, uint32_t first_position, uint32_t last_position);
+    void cross_overlay(uint32_t patch, uint32_t start_count);
+    void load_overlay(uint32_t patch, uint32_t start_count);
+    void fetch_rows(uint32_t patch, uint32_t overlay_position) const;
+    void cross_child(uint32_t patch, uint32_t slot);
+    void lower(uint32_t patch, uint32_t slot, float distance);
     void fill_leaf(uint32_t leaf);
 
     // sssd.cpp
@@ -38,15 +43,20 @@ private:
     void relax_border_vertex(uint32_t node, float distance, uint32_t target);
 
     const Index& index_;
-    ArcQueue queue_;
+    ArcQueue queue_; // of SSSD
 
     // MSAD: distances by number; which inner patches have sources below them; one overlay at a time.
     Array<float> distance_;
     Array<uint8_t> has_sources_;
-    Array<float> overlay_distance_;
-    Array<uint32_t>
-        overlay_arrival_; // the child over whose table a distance came, so that it is not crossed again
-    Array<uint32_t> overlay_node_; // numbers
+    struct OverlayNode {
+        float distance;
+        float crossed_distance; // at which it was last passed on; infinity before
+        uint32_t arrival; // the child over whose table the distance came, so that it is not crossed again
+        uint32_t number;
+    };
+    Array<OverlayNode> overlay_;
+    Array<float> slot_distance_; // copies of overlay distances, so that a table row meets them side by side
+    BucketQueue buckets_;
 
     // SSSD: distances of border vertices, valid where the epoch is the current one; likewise allowed patches.
     Array<float> search_distance_;
