@@ -1,0 +1,355 @@
+#!/bin/bash
+# Tests of the command line tool: command_line_test.sh TOOL SCRATCH_FOLDER
+# Prints what failed and exits with 1 if anything did.
+set -u
+
+tool=$(realpath "$1")
+mkdir -p "$2" || exit 1
+work=$(mktemp -d "$(realpath "$2")/command_line.XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+checks=0
+
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+# run ARGUMENTS...: fills out.txt, err.txt and $status
+run() {
+    "$tool" "$@" >out.txt 2>err.txt
+    status=$?
+    checks=$((checks + 1))
+}
+
+succeeds() {
+    run "$@"
+    [ $status -eq 0 ] || fail "'$*' exited with $status: $(head -c 300 err.txt)"
+    [ ! -s err.txt ] || fail "'$*' is not quiet: $(head -c 300 err.txt)"
+}
+
+# fails_with PATTERN ARGUMENTS...: exit status 1 and one line on stderr that matches
+fails_with() {
+    local pattern=$1
+    shift
+    run "$@"
+    [ $status -eq 1 ] || fail "'$*' exited with $status, not 1: $(head -c 300 err.txt)"
+    [ "$(wc -l <err.txt)" -eq 1 ] || fail "'$*' has $(wc -l <err.txt) lines on stderr"
+    grep -q "^geoidx: " err.txt || fail "'$*' does not say who speaks: $(head -c 300 err.txt)"
+    grep -qiE -- "$pattern" err.txt || fail "'$*' does not say '$pattern': $(head -c 300 err.txt)"
+}
+
+# misuse ARGUMENTS...: exit status 2 and at most two lines on stderr
+misuse() {
+    run "$@"
+    [ $status -eq 2 ] || fail "'$*' exited with $status, not 2: $(head -c 300 err.txt)"
+    local lines
+    lines=$(wc -l <err.txt)
+    [ "$lines" -ge 1 ] && [ "$lines" -le 2 ] || fail "'$*' has $lines lines on stderr"
+}
+
+absent() {
+    for file in "$@"; do
+        [ ! -e "$file" ] || fail "$file was left behind"
+    done
+}
+
+no_leftovers() {
+    local found
+    found=$(find . -name '*.tmp*' -o -name '*~')
+    [ -z "$found" ] || fail "temporary files were left behind: $found"
+}
+
+same() { cmp -s "$1" "$2" || fail "$1 and $2 differ"; }
+
+# near A B: equal up to 1e-5 of their size
+near() { awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(d <= 1e-5 * (1 + b)) }' ||
+    fail "$1 is not near $2"; }
+
+float_at() { od -An -tf4 -j $((4 * $2)) -N 4 "$1" | tr -d ' '; }
+
+# ---- Meshes
+
+make_grid() { # SIDE: vertex y * (SIDE + 1) + x at (x, y, 0)
+    awk -v n="$1" 'BEGIN {
+        for (y = 0; y <= n; ++y) for (x = 0; x <= n; ++x) print "v", x, y, 0
+        for (y = 0; y < n; ++y) for (x = 0; x < n; ++x) {
+            a = y * (n + 1) + x + 1; b = a + 1; c = b + n + 1; d = a + n + 1
+            print "f", a, b, c; print "f", a, c, d
+        }
+    }'
+}
+
+make_sphere() { # RINGS SECTORS: closed, the poles are the last two vertices
+    awk -v rings="$1" -v sectors="$2" 'BEGIN {
+        pi = atan2(0, -1)
+        for (r = 1; r < rings; ++r) for (s = 0; s < sectors; ++s) {
+            p = pi * r / rings; a = 2 * pi * s / sectors
+            printf "v %.9g %.9g %.9g\n", sin(p) * cos(a), cos(p), sin(p) * sin(a)
+        }
+        print "v 0 1 0"; print "v 0 -1 0"
+        north = (rings - 1) * sectors + 1; south = north + 1
+        for (s = 0; s < sectors; ++s) {
+            t = (s + 1) % sectors
+            print "f", north, t + 1, s + 1
+            for (r = 0; r < rings - 2; ++r) {
+                a = r * sectors
+                print "f", a + s + 1, a + t + 1, a + sectors + t + 1, a + sectors + s + 1
+            }
+            print "f", south, (rings - 2) * sectors + s + 1, (rings - 2) * sectors + t + 1
+        }
+    }'
+}
+
+cat >cube.off <<'MESH'
+OFF
+8 6 12
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+0 0 1
+1 0 1
+1 1 1
+0 1 1
+4 3 2 1 0
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+MESH
+
+cat >two_parts.stl <<'MESH'
+solid two triangles apart
+facet normal 0 0 1
+ outer loop
+  vertex 0 0 0
+  vertex 1 0 0
+  vertex 0 1 0
+ endloop
+endfacet
+facet normal 0 0 1
+ outer loop
+  vertex 5 0 0
+  vertex 6 0 0
+  vertex 5 1 0
+ endloop
+endfacet
+endsolid
+MESH
+
+make_grid 20 >grid.obj
+make_sphere 12 24 >sphere.obj
+awk '/^v/ { v[++n] = $2 " " $3 " " $4 } /^f/ { f[++m] = NF - 1; for (i = 2; i <= NF; ++i) f[m] = f[m] " " $i - 1 }
+    END { print "ply\nformat ascii 1.0\nelement vertex " n "\nproperty double x\nproperty double y\nproperty double z"
+          print "element face " m "\nproperty list uchar int vertex_indices\nend_header"
+          for (i = 1; i <= n; ++i) print v[i]
+          for (i = 1; i <= m; ++i) print f[i] }' grid.obj >grid.ply
+
+# ---- What works
+
+succeeds --help
+succeeds --version
+grep -q '^geoidx [0-9]' out.txt || fail "no version"
+for command in build info verify sssd msad exact; do succeeds $command --help; done
+
+for mesh in grid.obj grid.ply sphere.obj cube.off two_parts.stl; do
+    succeeds build $mesh -o ${mesh%.*}.${mesh#*.}.geoidx
+    [ ! -s out.txt ] || fail "build of $mesh prints"
+    succeeds verify $mesh.geoidx
+    succeeds info $mesh.geoidx
+done
+same grid.obj.geoidx grid.ply.geoidx
+no_leftovers
+
+succeeds info grid.obj.geoidx
+grep -qE '^vertices +441$' out.txt || fail "info does not say 441 vertices"
+grep -qE '^triangles +800$' out.txt || fail "info does not say 800 triangles"
+succeeds info grid.obj.geoidx --json
+grep -q '"vertex_count": 441' out.txt || fail "info --json does not say 441 vertices"
+if command -v python3 >/dev/null; then
+    python3 -c 'import json; json.load(open("out.txt"))' 2>/dev/null || fail "info --json is no JSON"
+fi
+
+succeeds build grid.obj -o options.geoidx --metric edges --delta 1 --weld-tolerance 1e-9 --levels 2 --patches 4,3 \
+    --seed 7 --threads 1 --lloyd-iterations 2
+succeeds info options.geoidx
+grep -qE '^metric +edges$' out.txt || fail "--metric edges is not in the index"
+grep -qE '^seed +7$' out.txt || fail "--seed 7 is not in the index"
+grep -qE '^levels +2$' out.txt || fail "--levels 2 is not in the index"
+
+succeeds build grid.obj -o grid.obj.geoidx
+succeeds sssd grid.obj.geoidx 0 440 0 20 5 5
+[ "$(wc -l <out.txt)" -eq 3 ] || fail "sssd of three pairs prints $(wc -l <out.txt) lines"
+[ "$(awk 'NR == 2 { print $1, $2 }' out.txt)" = "0 20" ] || fail "sssd does not repeat the ids"
+near "$(awk 'NR == 2 { print $3 }' out.txt)" 20
+near "$(awk 'NR == 3 { print $3 }' out.txt)" 0
+
+succeeds sssd grid.obj.geoidx 0 440 7 300 --exact grid.obj
+awk 'NF != 5 || $5 < 0 || $5 > 0.1 { exit 1 }' out.txt || fail "sssd --exact: $(cat out.txt)"
+near "$(awk 'NR == 1 { print $4 }' out.txt)" 28.2842712
+succeeds sssd two_parts.stl.geoidx 0 1 0 3 --exact two_parts.stl
+grep -qE '^0 3 inf inf 0$' out.txt || fail "unreachable is not inf: $(cat out.txt)"
+
+succeeds msad sphere.obj.geoidx 0 100 -o far.f32 --mesh sphere.obj
+[ "$(stat -c %s far.f32)" -eq $((4 * 266)) ] || fail "far.f32 has the wrong size"
+near "$(float_at far.f32 100)" 0
+succeeds msad grid.obj.geoidx 0 -o grid.f32 --mesh grid.obj --png grid.png --size 300x200 --isolines 8
+near "$(float_at grid.f32 20)" 20
+[ "$(head -c 8 grid.png | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "grid.png is no PNG"
+[ "$(od -An -tu1 -j 16 -N 8 grid.png | tr -s ' ')" = " 0 0 1 44 0 0 0 200" ] || fail "grid.png is not 300x200"
+succeeds exact grid.obj 0 -o exact.f32 --png exact.png --size 64x64 --up z
+near "$(float_at exact.f32 440)" 28.2842712
+"$tool" msad grid.obj.geoidx 0 -o /dev/stdout | cmp -s - grid.f32 || fail "-o /dev/stdout differs from a file"
+ln -s grid.f32 link.f32
+succeeds msad grid.obj.geoidx 0 -o link.f32
+[ -L link.f32 ] || fail "an output that is a link was replaced"
+no_leftovers
+
+# ---- Wrong usage
+
+misuse
+misuse unknown
+misuse build
+misuse build grid.obj
+misuse build grid.obj -o x.geoidx --metric heat
+misuse build grid.obj -o x.geoidx --levels 9
+misuse build grid.obj -o x.geoidx --levels many
+misuse build grid.obj -o x.geoidx --patches 1,2,3,4,5,6,7,8,9
+misuse build grid.obj -o x.geoidx --patches 4,x
+for option in --seed --threads --patches --levels --lloyd-iterations; do
+    for value in -1 99999999999999999999 x 1.5; do misuse build grid.obj -o x.geoidx $option $value; done
+done
+misuse build grid.obj -o x.geoidx --threads 4294967296
+misuse build grid.obj -o x.geoidx --delta x
+misuse build grid.obj -o x.geoidx --unknown
+misuse info
+misuse sssd grid.obj.geoidx
+misuse sssd grid.obj.geoidx 1
+misuse sssd grid.obj.geoidx 1 2 3
+for id in -1 4294967296 99999999999999999999 x 1.5 1e2 0x10 "" " 1"; do
+    misuse sssd grid.obj.geoidx 0 "$id"
+    misuse msad grid.obj.geoidx "$id" -o x.f32
+    misuse exact grid.obj "$id" -o x.f32
+done
+misuse msad grid.obj.geoidx -o x.f32
+misuse msad grid.obj.geoidx 0
+misuse msad grid.obj.geoidx 0 -o x.f32 --png x.png
+misuse msad grid.obj.geoidx 0 -o x.f32 --size 100x100
+for size in 100 100x x100 0x0 -5x100 100x100x100 99999999x10; do
+    misuse msad grid.obj.geoidx 0 -o x.f32 --mesh grid.obj --png x.png --size="$size"
+done
+absent x.geoidx x.f32 x.png
+
+# ---- Bad meshes
+
+sed '3s/.*/v nan 0 0/' grid.obj >nan.obj
+sed '3s/.*/v 0 inf 0/' grid.obj >inf.obj
+echo 'f 1 2 442' | cat grid.obj - >range.obj
+: >empty.obj
+echo 'v 0 0 0' >no_faces.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n' >fan.obj
+mkdir folder
+cp grid.obj mesh.xyz
+
+fails_with 'nan\.obj.*vertex 2' build nan.obj -o x.geoidx
+fails_with 'inf\.obj.*vertex 2' build inf.obj -o x.geoidx
+fails_with 'range\.obj: line 1242:.*442' build range.obj -o x.geoidx
+fails_with 'empty\.obj: .*no vertices' build empty.obj -o x.geoidx
+fails_with 'no_faces\.obj: .*no triangles' build no_faces.obj -o x.geoidx
+fails_with 'fan\.obj: .*edge.* 0 .*1 .*3 triangles' build fan.obj -o x.geoidx
+fails_with 'missing\.obj: No such file' build missing.obj -o x.geoidx
+fails_with 'folder: is a directory' build folder -o x.geoidx
+fails_with '\.obj, \.ply, \.off, \.stl' build mesh.xyz -o x.geoidx
+absent x.geoidx
+fails_with 'nan\.obj' exact nan.obj 0 -o x.f32 --png x.png
+fails_with 'vertex 441 ' exact grid.obj 441 -o x.f32 --png x.png
+absent x.f32 x.png
+
+# ---- Bad outputs: said before the mesh is looked at
+
+for mesh in grid.obj missing.obj; do
+    fails_with 'folder: is a directory' build $mesh -o folder
+    fails_with 'nowhere/x: No such file' build $mesh -o nowhere/x
+    fails_with 'grid\.ply/x: Not a directory' build $mesh -o grid.ply/x
+    fails_with '/proc/x: ' build $mesh -o /proc/x
+    fails_with 'not a regular file' build $mesh -o /dev/null
+done
+[ -c /dev/null ] || fail "/dev/null was replaced"
+cp grid.obj copy.obj
+fails_with 'is an input' build copy.obj -o copy.obj
+same copy.obj grid.obj
+for output in folder nowhere/x grid.ply/x /proc/x; do
+    fails_with "$output: " msad grid.obj.geoidx 0 -o $output
+    fails_with "$output: " msad grid.obj.geoidx 0 -o x.f32 --mesh grid.obj --png $output
+done
+fails_with 'both -o and --png' msad grid.obj.geoidx 0 -o x --mesh grid.obj --png x
+absent x.f32 x
+if [ -w /dev/full ]; then
+    "$tool" info grid.obj.geoidx >/dev/full 2>err.txt
+    [ $? -eq 1 ] || fail "a full disk goes unnoticed"
+    fails_with '/dev/full: ' msad grid.obj.geoidx 0 -o /dev/full
+fi
+no_leftovers
+
+# ---- Bad queries
+
+fails_with 'vertex 441 ' sssd grid.obj.geoidx 0 441
+fails_with 'vertex 4294967295 ' sssd grid.obj.geoidx 4294967295 0
+[ ! -s out.txt ] || fail "a failed sssd prints distances"
+fails_with 'vertex 441 ' msad grid.obj.geoidx 0 441 -o x.f32
+fails_with 'another mesh|built from' sssd grid.obj.geoidx 0 1 --exact sphere.obj
+fails_with 'another mesh|built from' msad grid.obj.geoidx 0 -o x.f32 --mesh sphere.obj --png x.png
+absent x.f32 x.png
+
+# ---- Bad index files
+
+reading_fails() { # FILE PATTERN
+    fails_with "$2" info "$1"
+    fails_with "$2" verify "$1"
+    fails_with "$2" sssd "$1" 0 1
+    fails_with "$2" msad "$1" 0 -o x.f32
+    absent x.f32
+}
+
+reading_fails grid.obj 'grid\.obj: '
+reading_fails missing.geoidx 'missing\.geoidx: '
+reading_fails folder 'folder: '
+: >empty.geoidx
+reading_fails empty.geoidx 'empty\.geoidx: '
+
+size=$(stat -c %s grid.obj.geoidx)
+for length in 1 7 8 40 100 $((size / 4)) $((size / 2)) $((size - 64)) $((size - 1)); do
+    head -c "$length" grid.obj.geoidx >short.geoidx
+    reading_fails short.geoidx 'short\.geoidx: '
+done
+{ cat grid.obj.geoidx; echo; } >long.geoidx
+reading_fails long.geoidx 'long\.geoidx: '
+
+for part in 0 1 2 3 4 5 6 7 8 9 10 11; do
+    offset=$((part * (size - 1) / 11))
+    cp grid.obj.geoidx changed.geoidx
+    byte=$(od -An -tu1 -j $offset -N 1 changed.geoidx | tr -d ' ')
+    printf "\\x$(printf %02x $((byte ^ 0x55)))" |
+        dd of=changed.geoidx bs=1 seek=$offset conv=notrunc status=none
+    reading_fails changed.geoidx 'changed\.geoidx: '
+done
+
+# ---- Cancelling
+
+make_grid 150 >large.obj
+"$tool" build large.obj -o cancelled.geoidx 2>err.txt &
+pid=$!
+sleep 2
+kill -TERM $pid 2>/dev/null || fail "the build was over before it could be cancelled"
+wait $pid
+status=$?
+[ $status -eq 1 ] || fail "a cancelled build exited with $status"
+grep -q 'cancelled' err.txt && [ "$(wc -l <err.txt)" -eq 1 ] || fail "a cancelled build says: $(cat err.txt)"
+absent cancelled.geoidx
+no_leftovers
+
+echo "$checks runs, $failures failures"
+[ $failures -eq 0 ]

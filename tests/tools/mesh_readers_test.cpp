@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include <doctest/doctest.h>
+
+#include "tools/mesh_io/mesh_io.h"
+
+using namespace geodesic::tools;
+
+namespace {
+
+using Ids = std::vector<uint32_t>;
+using Numbers = std::vector<double>;
+
+template <class Reader>
+std::string error_of(Reader reader, const std::string& text) {
+    try {
+        reader(text);
+    } catch (const MeshFileError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+template <class Number>
+void append(std::string& bytes, Number number, bool big_endian = false) {
+    char raw[sizeof number];
+    std::memcpy(raw, &number, sizeof number);
+    if (big_endian != (std::endian::native == std::endian::big)) std::reverse(raw, raw + sizeof number);
+    bytes.append(raw, sizeof number);
+}
+
+const std::string OBJ_TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+}
+
+TEST_CASE("obj: vertices keep their order, the unused ones too") {
+    const TriangleMesh mesh = read_obj("v 0 0 0\nv 9 9 9\nv 1 0 0\nv 0 1 0\nf 1 3 4\n");
+    CHECK(mesh.positions == Numbers{0, 0, 0, 9, 9, 9, 1, 0, 0, 0, 1, 0});
+    CHECK(mesh.triangles == Ids{0, 2, 3});
+}
+
+TEST_CASE("obj: polygons become fans in the file's order") {
+    const TriangleMesh mesh = read_obj("v 0 0 0\nv 5 0 0\nv 6 1 0\nv 0 1 0\nv -1 .5 0\nf 2 3 4 5 1\n");
+    CHECK(mesh.triangles == Ids{1, 2, 3, 1, 3, 4, 1, 4, 0});
+}
+
+TEST_CASE("obj: every form of a face's corner") {
+    for (const char* face :
+         {"f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/1/1 2/2/2 3/3/3", "f -3 -2 -1", "f\t1  2\t3 ",
+          "f 1 2 3 # a comment", "f 1 2 \\\n 3", "f -3//-1 -2//-1 -1//-1"}) {
+        CAPTURE(face);
+        const TriangleMesh mesh =
+            read_obj(std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\n") + face + "\n");
+        CHECK(mesh.triangles == Ids{0, 1, 2});
+    }
+}
+
+TEST_CASE("obj: a negative index counts back from the face's own line") {
+    const TriangleMesh mesh = read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 2 2 2\nf -3 -2 -1\n");
+    CHECK(mesh.triangles == Ids{0, 1, 2, 1, 2, 3});
+}
+
+TEST_CASE("obj: a face may come before its vertices") {
+    CHECK(read_obj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").triangles == Ids{0, 1, 2});
+}
+
+TEST_CASE("obj: line ends, colours, byte order mark, other statements") {
+    const TriangleMesh mesh =
+        read_obj("\xEF\xBB\xBFv 0 0 0 .1 .2 .3\r\nv 1 0 0 1 1 1\r\no name\r\ng a b\r\nusemtl m\r\n"
+                 "mtllib none.mtl\r\ns off\r\n\r\n  v 0 1 0 1.0\r\nl 1 2\r\nf 1 2 3\r");
+    CHECK(mesh.positions == Numbers{0, 0, 0, 1, 0, 0, 0, 1, 0});
+    CHECK(mesh.triangles == Ids{0, 1, 2});
+}
+
+TEST_CASE("obj: positions are the nearest doubles of what is written") {
+    const TriangleMesh mesh =
+        read_obj("v 0.1234567890123456 1e-3 -123456.789012345\nv +1 2. .5\nv 0 0 0\nf 1 2 3\n");
+    CHECK(mesh.positions[0] == 0.1234567890123456);
+    CHECK(mesh.positions[1] == 1e-3);
+    CHECK(mesh.positions[2] == -123456.789012345);
+    CHECK(mesh.positions[3] == 1);
+}
+
+TEST_CASE("obj: NaN and infinity are kept for the library to refuse") {
+    const TriangleMesh mesh = read_obj("v nan 0 0\nv 0 inf 0\nv 0 0 1e999\nf 1 2 3\n");
+    CHECK(std::isnan(mesh.positions[0]));
+    CHECK(std::isinf(mesh.positions[4]));
+    CHECK(std::isinf(mesh.positions[8]));
+}
+
+TEST_CASE("obj: errors name the line") {
+    CHECK(contains(error_of(read_obj, OBJ_TRIANGLE + "f 1 2 4\n"), "line 5: vertex index 4 is out of range"));
+    CHECK(
+        contains(error_of(read_obj, OBJ_TRIANGLE + "f 1 2 -4\n"), "line 5: vertex index -4 is out of range"));
+    CHECK(contains(error_of(read_obj, OBJ_TRIANGLE + "f 1 2 0\n"), "line 5"));
+    CHECK(contains(error_of(read_obj, OBJ_TRIANGLE + "f 1 2 4294967297\n"), "line 5"));
+    CHECK(contains(error_of(read_obj, OBJ_TRIANGLE + "f 1 2 99999999999999999999\n"), "line 5"));
+    CHECK(contains(error_of(read_obj, OBJ_TRIANGLE + "f 1 2 x\n"), "'x'"));
+    CHECK(contains(error_of(read_obj, OBJ_TRIANGLE + "f 1 2 3x\n"), "'3x'"));
+    CHECK(contains(error_of(read_obj, OBJ_TRIANGLE + "f 1 2\n"), "line 5: a face needs three vertices"));
+    CHECK(contains(error_of(read_obj, OBJ_TRIANGLE + "f\n"), "line 5: a face needs three vertices"));
+    CHECK(contains(error_of(read_obj, "v 0 0\n"), "line 1: a vertex needs three coordinates"));
+    CHECK(contains(error_of(read_obj, "\nv\n"), "line 2: a vertex needs three coordinates"));
+    CHECK(contains(error_of(read_obj, "v 0 1,5 0\n"), "line 1: coordinate '1,5' is not a number"));
+}
+
+TEST_CASE("off: plain, with counts on the first line, without keyword, with comments") {
+    for (const char* head :
+         {"OFF\n3 1 0\n", "OFF 3 1 0\n", "3 1 0\n", "# c\nOFF # c\n\n3 1 # c\n", "OFF\r\n3 1 3\r\n"}) {
+        CAPTURE(head);
+        const TriangleMesh mesh =
+            read_off(std::string(head) + "0 0 0\n# between\n1 0 0\n0 1 0.5\n\n3 0 1 2\n");
+        CHECK(mesh.positions == Numbers{0, 0, 0, 1, 0, 0, 0, 1, 0.5});
+        CHECK(mesh.triangles == Ids{0, 1, 2});
+    }
+}
+
+TEST_CASE("off: extra columns are ignored, polygons become fans") {
+    const TriangleMesh mesh = read_off("STCNOFF\n4 1 0\n0 0 0 1 0 0 9 9\n1 0 0 1 0 0 9 9\n1 1 0 1 0 0 9 9\n0 "
+                                       "1 0 1 0 0 9 9\n4 0 1 2 3 255 0 0\n");
+    CHECK(mesh.positions == Numbers{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+    CHECK(mesh.triangles == Ids{0, 1, 2, 0, 2, 3});
+    CHECK(read_off("COFF 3 1 0\n0 0 0 255 0 0 255\n1 0 0 1 1 1 1\n0 1 0 1 1 1 1\n3 2 1 0\n").triangles ==
+          Ids{2, 1, 0});
+}
+
+TEST_CASE("off: malformed files") {
+    CHECK(contains(error_of(read_off, ""), "empty"));
+    CHECK(contains(error_of(read_off, "hello\n"), "line 1: not an OFF file"));
+    CHECK(contains(error_of(read_off, "4OFF\n3 1 0\n"), "three-dimensional"));
+    CHECK(contains(error_of(read_off, "OFF BINARY\n"), "binary"));
+    CHECK(contains(error_of(read_off, "OFF\n"), "ends"));
+    CHECK(contains(error_of(read_off, "OFF\n3\n"), "number of faces"));
+    CHECK(contains(error_of(read_off, "OFF\n-3 1 0\n"), "number of vertices"));
+    CHECK(contains(error_of(read_off, "OFF\n4000000000 1 0\n0 0 0\n"), "more than the file can hold"));
+    CHECK(contains(error_of(read_off, "OFF\n1 4000000000 0\n0 0 0\n"), "more than the file can hold"));
+    CHECK(contains(error_of(read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n"), "line 5"));
+    CHECK(
+        contains(error_of(read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"), "line 6: vertex index 3"));
+    CHECK(contains(error_of(read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"),
+                   "line 6: vertex index -1"));
+    CHECK(contains(error_of(read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n9999999999 0 1 2\n"),
+                   "fewer vertices"));
+    CHECK(contains(error_of(read_off, "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "ends before face 1"));
+}
+
+TEST_CASE("stl: ascii in any case, several solids") {
+    const std::string facet = "FACET normal 0 0 1\n outer loop\n  vertex 0 0 0\n  VERTEX 1 0 0\n  vertex 0 1 "
+                              "0.25\n endloop\n endfacet\n";
+    const TriangleMesh mesh =
+        read_stl("solid a # b\r\n" + facet + "endsolid a\nsolid vertex\n" + facet + "endsolid\n");
+    CHECK(mesh.vertex_count() == 6);
+    CHECK(mesh.positions[8] == 0.25);
+    CHECK(mesh.triangles == Ids{0, 1, 2, 3, 4, 5});
+}
+
+TEST_CASE("stl: binary, also where it begins with 'solid'") {
+    for (const char* title : {"made by a test", "solid made by a test"}) {
+        std::string bytes = title;
+        bytes.resize(80, ' ');
+        append(bytes, uint32_t{2});
+        for (int triangle = 0; triangle < 2; ++triangle) {
+            for (int i = 0; i < 12; ++i) append(bytes, static_cast<float>(i + triangle));
+            append(bytes, uint16_t{7});
+        }
+        const TriangleMesh mesh = read_stl(bytes);
+        CHECK(mesh.positions == Numbers{3, 4, 5, 6, 7, 8, 9, 10, 11, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+        CHECK(mesh.triangles == Ids{0, 1, 2, 3, 4, 5});
+        for (const size_t length : {size_t{0}, size_t{5}, size_t{83}, size_t{84}, bytes.size() - 1})
+            CHECK(error_of(read_stl, bytes.substr(0, length)) != "");
+    }
+}
+
+TEST_CASE("stl: malformed files") {
+    CHECK(contains(
+        error_of(read_stl,
+                 "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid\n"),
+        "line 6: a facet needs three vertices"));
+    CHECK(contains(error_of(read_stl, "solid\nfacet\nouter loop\nvertex 0 0\n"), "line 4"));
+    CHECK(contains(error_of(read_stl, "solid\nfacet\nouter loop\nvertex 0 0 b\n"), "'b' is not a number"));
+    CHECK(contains(error_of(read_stl, "solid\nfacet\nouter loop\nvertex 0 0 1\nendsolid\n"), "not complete"));
+    CHECK(contains(error_of(read_stl, "solid\nfacet\n"), "endsolid"));
+    CHECK(contains(error_of(read_stl, "solid\nnonsense\n"), "line 2: 'nonsense'"));
+}
+
+TEST_CASE("mesh files are known by extension, else by how they begin") {
+    CHECK(mesh_format("a/b.c/MESH.ObJ", "") == MeshFormat::obj);
+    CHECK(mesh_format("mesh.ply", "") == MeshFormat::ply);
+    CHECK(mesh_format("mesh.OFF", "") == MeshFormat::off);
+    CHECK(mesh_format("mesh.Stl", "") == MeshFormat::stl);
+    CHECK(mesh_format("a.obj/mesh", "ply\r\nformat") == MeshFormat::ply);
+    CHECK(mesh_format("mesh", "NOFF\n") == MeshFormat::off);
+    CHECK(mesh_format("mesh.txt", "solid x\n") == MeshFormat::stl);
+    CHECK(mesh_format("mesh", "hello") == MeshFormat::unknown);
+}
+
+TEST_CASE("read_mesh names the file") {
+    CHECK(contains(error_of(read_mesh, "/nowhere/mesh.obj"), "/nowhere/mesh.obj: No such file"));
+    CHECK(contains(error_of(read_mesh, "/tmp"), "/tmp: is a directory"));
+    CHECK(contains(error_of(read_mesh, "/dev/null"), ".obj, .ply, .off, .stl"));
+}

@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "tools/commands/arguments.h"
+#include "tools/commands/commands.h"
+#include "tools/failure.h"
+#include "tools/library.h"
+#include "tools/mesh_io/mesh_io.h"
+#include "tools/output_file.h"
+#include "tools/progress_bar.h"
+#include "tools/signals.h"
+
+namespace geodesic::tools {
+
+namespace {
+
+struct BuildArguments {
+    std::string mesh;
+    std::string output;
+    MetricArguments metric;
+    double delta = 0;
+    uint32_t levels = 0;
+    std::vector<uint32_t> patches;
+    uint64_t seed = 0;
+    uint32_t threads = 0;
+    uint32_t lloyd_iterations = 0;
+};
+
+int32_t on_progress(void* user, float fraction, const char* stage) {
+    static_cast<ProgressBar*>(user)->show(fraction, stage ? stage : "");
+    return InterruptWatch::interrupted() ? 0 : 1;
+}
+
+geoidx_build_options build_options(const BuildArguments& arguments, ProgressBar& bar) {
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    apply(arguments.metric, options);
+    options.delta = arguments.delta;
+    options.seed = arguments.seed;
+    options.threads = arguments.threads;
+    options.lloyd_iterations = arguments.lloyd_iterations;
+    // Whoever gives the patches of three levels means three levels.
+    options.level_count =
+        arguments.levels ? arguments.levels : static_cast<uint32_t>(arguments.patches.size());
+    std::copy(arguments.patches.begin(), arguments.patches.end(), options.patches);
+    options.progress = on_progress;
+    options.progress_user = &bar;
+    return options;
+}
+
+Index build_index(const TriangleMesh& mesh, const BuildArguments& arguments) {
+    const InterruptWatch watch;
+    ProgressBar bar;
+    const geoidx_build_options options = build_options(arguments, bar);
+    const geoidx_mesh view = view_of(mesh);
+    geoidx* index = nullptr;
+    const geoidx_status status = geoidx_build(&view, &options, &index);
+    Index owner(index);
+    if (status == GEOIDX_ERROR_CANCELLED || InterruptWatch::interrupted())
+        throw Failure(arguments.mesh + ": the build was cancelled");
+    require_ok(status, arguments.mesh);
+    return owner;
+}
+
+void save_index(const geoidx& index, const std::string& path) {
+    const SignalsHeldBack until_renamed;
+    require_ok(geoidx_save(&index, path.c_str()), path);
+}
+
+// The library replaces what is at the path, which must not happen to a device.
+void require_index_output(const BuildArguments& arguments) {
+    require_writable(arguments.output, {&arguments.mesh, 1});
+    std::error_code ignored;
+    if (std::filesystem::is_other(arguments.output, ignored))
+        throw Failure(arguments.output + ": is not a regular file");
+}
+
+void build(const BuildArguments& arguments) {
+    require_index_output(arguments);
+    const TriangleMesh mesh = read_mesh(arguments.mesh);
+    const Index index = build_index(mesh, arguments);
+    save_index(*index, arguments.output);
+}
+
+void add_shape_options(CLI::App& command, BuildArguments& arguments) {
+    command.add_option("--delta", arguments.delta, "pruning threshold, % of the bounding-box diagonal")
+        ->capture_default_str();
+    command.add_option("--levels", arguments.levels, "levels of patches; 0: automatic")
+        ->check(CLI::Range(0, int{GEOIDX_MAX_LEVELS}))
+        ->capture_default_str();
+    command
+        .add_option("--patches", arguments.patches,
+                    "patches of level 1, then patches each patch is split into, level by level (n1,n2,...)")
+        ->delimiter(',')
+        ->expected(1, GEOIDX_MAX_LEVELS)
+        ->type_size(1)
+        ->check(whole_number());
+    command.add_option("--lloyd-iterations", arguments.lloyd_iterations, "relaxations of the patches' seeds")
+        ->check(whole_number())
+        ->capture_default_str();
+}
+
+}
+
+void add_build(CLI::App& app) {
+    auto arguments = std::make_shared<BuildArguments>();
+    geoidx_build_options defaults;
+    geoidx_build_options_init(&defaults);
+    arguments->lloyd_iterations = defaults.lloyd_iterations;
+    arguments->seed = defaults.seed;
+
+    CLI::App* command = app.add_subcommand("build", "build the index of a mesh");
+    command->add_option("MESH", arguments->mesh, "mesh file: .obj, .ply, .off or .stl")->required();
+    command->add_option("-o,--output", arguments->output, "index file to write")->required();
+    add_metric_options(*command, arguments->metric);
+    add_shape_options(*command, *arguments);
+    command->add_option("--seed", arguments->seed, "of every random choice")
+        ->check(whole_number())
+        ->capture_default_str();
+    command->add_option("--threads", arguments->threads, "0: one per processor")
+        ->check(whole_number())
+        ->capture_default_str();
+    command->callback([arguments] { build(*arguments); });
+}
+
+}

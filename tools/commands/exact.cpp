@@ -1,0 +1,54 @@
+#include "tools/commands/arguments.h"
+#include "tools/commands/commands.h"
+#include "tools/commands/field_output.h"
+#include "tools/library.h"
+#include "tools/mesh_io/mesh_io.h"
+
+namespace geodesic::tools {
+
+namespace {
+
+struct ExactArguments {
+    std::string mesh;
+    std::vector<std::string> sources;
+    MetricArguments metric;
+    FieldOutput output;
+};
+
+std::vector<float> distances_from(const TriangleMesh& mesh, const ExactArguments& arguments,
+                                  const std::vector<uint32_t>& sources) {
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    apply(arguments.metric, options);
+    const Solver solver = make_solver(mesh, arguments.mesh, options);
+    std::vector<double> distances(mesh.vertex_count());
+    require_ok(geoidx_solver_distances(solver.get(), sources.data(), static_cast<uint32_t>(sources.size()),
+                                       nullptr, static_cast<uint32_t>(distances.size()), distances.data()),
+               arguments.mesh);
+    std::vector<float> rounded;
+    rounded.reserve(distances.size());
+    for (const double distance : distances) rounded.push_back(static_cast<float>(distance));
+    return rounded;
+}
+
+void exact(const ExactArguments& arguments) {
+    const std::vector<uint32_t> sources = vertex_ids(arguments.sources);
+    require_writable(arguments.output, {&arguments.mesh, 1});
+    const TriangleMesh mesh = read_mesh(arguments.mesh);
+    write_field(arguments.output, distances_from(mesh, arguments, sources), &mesh, sources);
+}
+
+}
+
+void add_exact(CLI::App& app) {
+    auto arguments = std::make_shared<ExactArguments>();
+    CLI::App* command =
+        app.add_subcommand("exact", "write every vertex's distance to the nearest source, without an index");
+    command->add_option("MESH", arguments->mesh, "mesh file: .obj, .ply, .off or .stl")->required();
+    command->add_option("S", arguments->sources, "source vertex ids")->required();
+    add_metric_options(*command, arguments->metric);
+    add_field_options(*command, arguments->output);
+    command->callback([arguments] { exact(*arguments); });
+}
+
+}

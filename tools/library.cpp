@@ -1,0 +1,80 @@
+#include "tools/library.h"
+
+#include <algorithm>
+
+#include "tools/failure.h"
+
+namespace geodesic::tools {
+
+namespace {
+
+std::string in_one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+}
+
+void require_ok(geoidx_status status, const std::string& what) {
+    if (status == GEOIDX_OK) return;
+    std::string why = geoidx_last_error();
+    if (why.empty()) why = geoidx_status_string(status);
+    throw Failure(what + ": " + in_one_line(why));
+}
+
+geoidx_mesh view_of(const TriangleMesh& mesh) {
+    geoidx_mesh view;
+    geoidx_mesh_init(&view);
+    view.position_type = GEOIDX_POSITION_DOUBLE;
+    view.positions = mesh.positions.data();
+    view.vertex_count = mesh.vertex_count();
+    view.triangles = mesh.triangles.data();
+    view.triangle_count = mesh.triangle_count();
+    return view;
+}
+
+Index open_index(const std::string& path, const TriangleMesh* expected) {
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    geoidx_mesh view;
+    if (expected) {
+        view = view_of(*expected);
+        options.expected_mesh = &view;
+    }
+    geoidx* index = nullptr;
+    require_ok(geoidx_open(path.c_str(), &options, &index), path);
+    return Index(index);
+}
+
+geoidx_info info_of(const geoidx& index, const std::string& path) {
+    geoidx_info info{};
+    info.struct_size = sizeof info;
+    require_ok(geoidx_get_info(&index, &info), path);
+    return info;
+}
+
+Solver make_solver(const TriangleMesh& mesh, const std::string& path, const geoidx_build_options& options) {
+    const geoidx_mesh view = view_of(mesh);
+    geoidx_solver* solver = nullptr;
+    require_ok(geoidx_solver_create(&view, &options, &solver), path);
+    return Solver(solver);
+}
+
+const char* metric_name(uint32_t metric) {
+    switch (metric) {
+    case GEOIDX_METRIC_EXACT:
+        return "exact";
+    case GEOIDX_METRIC_EDGES:
+        return "edges";
+    case GEOIDX_METRIC_CALLBACK:
+        return "callback";
+    default:
+        return "unknown";
+    }
+}
+
+uint32_t metric_of_name(const std::string& name) {
+    return name == "edges" ? GEOIDX_METRIC_EDGES : GEOIDX_METRIC_EXACT;
+}
+
+}

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "geoidx.h"
+#include "tools/mesh_io/triangle_mesh.h"
+
+namespace geodesic::tools {
+
+struct IndexCloser {
+    void operator()(geoidx* index) const { geoidx_close(index); }
+};
+struct SolverCloser {
+    void operator()(geoidx_solver* solver) const { geoidx_solver_close(solver); }
+};
+using Index = std::unique_ptr<geoidx, IndexCloser>;
+using Solver = std::unique_ptr<geoidx_solver, SolverCloser>;
+
+// Throws Failure("what: why") with the library's own words where the status is an error.
+void require_ok(geoidx_status status, const std::string& what);
+
+// The arrays of `mesh` as the library takes them; `mesh` must outlive the result.
+geoidx_mesh view_of(const TriangleMesh& mesh);
+
+// `expected` may be null; otherwise an index of another mesh is refused.
+Index open_index(const std::string& path, const TriangleMesh* expected);
+geoidx_info info_of(const geoidx& index, const std::string& path);
+
+Solver make_solver(const TriangleMesh& mesh, const std::string& path, const geoidx_build_options& options);
+
+const char* metric_name(uint32_t metric);
+uint32_t metric_of_name(const std::string& name);
+
+}

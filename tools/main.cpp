@@ -1,0 +1,78 @@
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <new>
+
+#include "geoidx.h"
+#include "tools/commands/commands.h"
+#include "tools/failure.h"
+
+namespace geodesic::tools {
+
+namespace {
+
+enum ExitStatus { SUCCESS = 0, FAILURE = 1, WRONG_USAGE = 2 };
+
+std::string version_text() {
+    const uint32_t version = geoidx_version();
+    return "geoidx " + std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." +
+           std::to_string(version % 100);
+}
+
+std::string chosen_command(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    return chosen.empty() ? "" : chosen.front()->get_name();
+}
+
+int report(const CLI::App& app, const std::string& message, ExitStatus status) {
+    const std::string command = chosen_command(app);
+    const std::string prefix = command.empty() ? "" : command + ": ";
+    std::fprintf(stderr, "geoidx: %s%s\n", prefix.c_str(), message.c_str());
+    if (status == WRONG_USAGE)
+        std::fprintf(stderr, "see 'geoidx %s--help'\n", command.empty() ? "" : (command + " ").c_str());
+    return status;
+}
+
+void add_commands(CLI::App& app) {
+    app.name("geoidx");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", version_text());
+    add_build(app);
+    add_info(app);
+    add_verify(app);
+    add_sssd(app);
+    add_msad(app);
+    add_exact(app);
+}
+
+// A full disk shows only when the last of the output goes out.
+void flush_output() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+        throw Failure(std::string("standard output: ") + std::strerror(errno));
+}
+
+int run(CLI::App& app, int argc, char** argv) {
+    try {
+        add_commands(app);
+        app.parse(argc, argv);
+        flush_output();
+        return SUCCESS;
+    } catch (const CLI::Success& help_or_version) {
+        return app.exit(help_or_version);
+    } catch (const CLI::ParseError& error) {
+        return report(app, error.what(), WRONG_USAGE);
+    } catch (const std::bad_alloc&) {
+        return report(app, "out of memory", FAILURE);
+    } catch (const std::exception& error) {
+        return report(app, error.what(), FAILURE);
+    }
+}
+
+}
+
+}
+
+int main(int argc, char** argv) {
+    CLI::App app("Geodesic distances on triangle meshes, precomputed once, answered from one file.");
+    return geodesic::tools::run(app, argc, argv);
+}

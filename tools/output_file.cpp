@@ -1,0 +1,110 @@
+#include "tools/output_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "tools/failure.h"
+#include "tools/signals.h"
+
+namespace geodesic::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& path, int error) {
+    throw Failure(path + ": " + std::strerror(error));
+}
+
+bool is_device_or_pipe(const std::string& path) {
+    std::error_code ignored;
+    return fs::is_other(fs::status(path, ignored));
+}
+
+// A link stays a link: what it points to is replaced.
+fs::path behind_links(const std::string& path) {
+    std::error_code error;
+    const fs::path target = fs::canonical(path, error);
+    return error ? fs::path(path) : target;
+}
+
+class OpenFile {
+public:
+    OpenFile(const fs::path& path, int flags) : descriptor_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+    ~OpenFile() {
+        if (descriptor_ >= 0) close(descriptor_);
+    }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+
+    bool is_open() const { return descriptor_ >= 0; }
+    bool write_all(std::span<const unsigned char> bytes) const {
+        while (!bytes.empty()) {
+            const ssize_t written = write(descriptor_, bytes.data(), bytes.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written < 0) return false;
+            bytes = bytes.subspan(static_cast<size_t>(written));
+        }
+        return true;
+    }
+    bool sync() const { return fsync(descriptor_) == 0; }
+
+private:
+    int descriptor_;
+};
+
+// A new empty file next to `target`, removed at the end unless renamed.
+class Sibling {
+public:
+    explicit Sibling(const fs::path& target)
+        : path_(target.string() + "." + std::to_string(getpid()) + ".tmp"),
+          file_(path_, O_WRONLY | O_CREAT | O_EXCL) {}
+    ~Sibling() {
+        if (file_.is_open() && !renamed_) unlink(path_.c_str());
+    }
+    Sibling(const Sibling&) = delete;
+    Sibling& operator=(const Sibling&) = delete;
+
+    const OpenFile& file() const { return file_; }
+    bool rename_to(const fs::path& target) {
+        return renamed_ = std::rename(path_.c_str(), target.c_str()) == 0;
+    }
+
+private:
+    fs::path path_;
+    OpenFile file_;
+    bool renamed_ = false;
+};
+
+}
+
+void require_writable(const std::string& path, std::span<const std::string> inputs) {
+    std::error_code ignored;
+    if (path.empty()) throw Failure("the name of the output is empty");
+    if (fs::is_directory(path, ignored)) throw Failure(path + ": is a directory");
+    if (is_device_or_pipe(path)) return;
+    for (const std::string& input : inputs)
+        if (fs::equivalent(path, input, ignored)) throw Failure(path + ": is an input of the same command");
+    const Sibling probe(behind_links(path));
+    if (!probe.file().is_open()) fail(path, errno);
+}
+
+void write_file(const std::string& path, std::span<const unsigned char> bytes) {
+    if (is_device_or_pipe(path)) {
+        const OpenFile file(path, O_WRONLY);
+        if (!file.is_open() || !file.write_all(bytes)) fail(path, errno);
+        return;
+    }
+    const SignalsHeldBack until_renamed;
+    const fs::path target = behind_links(path);
+    Sibling sibling(target);
+    if (!sibling.file().is_open()) fail(path, errno);
+    if (!sibling.file().write_all(bytes) || !sibling.file().sync()) fail(path, errno);
+    if (!sibling.rename_to(target)) fail(path, errno);
+}
+
+}

@@ -1,0 +1,57 @@
+#include "tools/progress_bar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace geodesic::tools {
+
+namespace {
+
+size_t terminal_width() {
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+    return size.ws_col;
+}
+
+}
+
+std::string progress_line(double fraction, std::string_view stage, size_t width) {
+    constexpr size_t LONGEST_BAR = 40;
+    constexpr size_t PERCENT_COLUMNS = 5;
+    constexpr size_t STAGE_COLUMNS = 26;
+    fraction = fraction > 0 ? std::min(fraction, 1.0) : 0; // a NaN counts as 0
+    std::string percent = std::to_string(static_cast<int>(std::floor(100 * fraction))) + "%";
+    percent.insert(0, PERCENT_COLUMNS - percent.size(), ' ');
+    // The last column stays free: many terminals would break the line there.
+    const size_t taken = PERCENT_COLUMNS + STAGE_COLUMNS + 5;
+    if (width <= taken + 4) return percent;
+    const size_t columns = std::min(width - taken, LONGEST_BAR);
+    const size_t filled = static_cast<size_t>(fraction * static_cast<double>(columns));
+    std::string line =
+        "[" + std::string(filled, '#') + std::string(columns - filled, '.') + "]" + percent + "  ";
+    return line.append(stage.substr(0, STAGE_COLUMNS));
+}
+
+ProgressBar::ProgressBar() : visible_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+    if (drawn_) std::fputs("\r\x1b[K", stderr);
+}
+
+void ProgressBar::show(double fraction, std::string_view stage) {
+    using namespace std::chrono_literals;
+    if (!visible_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (drawn_ && stage == last_stage_ && now - last_time_ < 100ms) return;
+    last_stage_ = stage;
+    last_time_ = now;
+    drawn_ = true;
+    std::fprintf(stderr, "\r%s\x1b[K", progress_line(fraction, stage, terminal_width()).c_str());
+    std::fflush(stderr);
+}
+
+}
