@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace geodesic::bench {
+
+// The subcommands, one file each. What goes wrong while one runs is thrown as std::exception.
+void add_paper(CLI::App& app);
+void add_queries(CLI::App& app);
+void add_metric(CLI::App& app);
+void add_error(CLI::App& app);
+
+}

@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <memory>
+
+#include "bench/commands.h"
+#include "bench/report.h"
+#include "bench/statistics.h"
+#include "bench/workload.h"
+#include "tools/library.h"
+
+namespace geodesic::bench {
+
+namespace {
+
+constexpr uint32_t LOCAL_SIZES[] = {150, 500, 4000}; // vertices of the fields of single patches
+
+struct MetricArguments {
+    std::vector<std::string> meshes;
+    std::string folder;
+    uint32_t fields = 20;
+    uint32_t locals = 200;
+    uint32_t threads = 2;
+    ReportArguments report;
+};
+
+struct Task {
+    uint32_t source;
+    std::vector<uint32_t> targets; // none: every vertex
+};
+
+struct Timing {
+    Duration per_vertex; // median of the tasks
+    double elapsed;      // seconds for all tasks
+};
+
+using Solvers = std::vector<tools::Solver>;
+
+Solvers make_solvers(const Model& model, uint32_t count) {
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    Solvers solvers;
+    for (uint32_t i = 0; i < count; ++i)
+        solvers.push_back(tools::make_solver(model.mesh, model.path, options));
+    return solvers;
+}
+
+// Calls work(solver, i) for i in 0 .. count - 1, on one thread a solver.
+void on_all(std::span<const tools::Solver> solvers, size_t count,
+            const std::function<void(geoidx_solver&, size_t)>& work) {
+    std::vector<std::future<void>> threads;
+    for (size_t t = 0; t < solvers.size(); ++t)
+        threads.push_back(std::async(std::launch::async, [&, t] {
+            for (size_t i = t; i < count; i += solvers.size()) work(*solvers[t], i);
+        }));
+    for (std::future<void>& thread : threads) thread.get();
+}
+
+// The k nearest vertices of the source, fewer where it does not reach so many.
+std::vector<uint32_t> nearest(const std::vector<double>& field, size_t k) {
+    std::vector<uint32_t> vertices;
+    for (uint32_t v = 0; v < field.size(); ++v)
+        if (std::isfinite(field[v])) vertices.push_back(v);
+    k = std::min(k, vertices.size());
+    const auto end = vertices.begin() + static_cast<std::ptrdiff_t>(k);
+    std::partial_sort(vertices.begin(), end, vertices.end(), [&](uint32_t a, uint32_t b) {
+        return field[a] < field[b] || (field[a] == field[b] && a < b);
+    });
+    vertices.resize(k);
+    return vertices;
+}
+
+std::vector<Task> global_tasks(std::span<const uint32_t> sources) {
+    std::vector<Task> tasks;
+    for (const uint32_t source : sources) tasks.push_back({source, {}});
+    return tasks;
+}
+
+// The nearest vertices of each source, as many as the largest of LOCAL_SIZES, nearest first.
+std::vector<Task> neighbourhoods(std::span<const tools::Solver> solvers, const Model& model,
+                                 std::span<const uint32_t> sources) {
+    std::vector<Task> tasks(sources.size());
+    on_all(solvers, sources.size(), [&](geoidx_solver& solver, size_t i) {
+        const std::vector<double> field = exact_field(solver, model, sources[i]);
+        tasks[i] = {sources[i], nearest(field, *std::ranges::max_element(LOCAL_SIZES))};
+    });
+    return tasks;
+}
+
+std::vector<Task> shortened(std::vector<Task> tasks, uint32_t size) {
+    std::erase_if(tasks, [&](const Task& task) { return task.targets.size() < size; });
+    for (Task& task : tasks) task.targets.resize(size);
+    return tasks;
+}
+
+// Seconds for each vertex that was reached.
+Duration solve(geoidx_solver& solver, const Model& model, const Task& task) {
+    std::vector<double> distances(task.targets.empty() ? model.mesh.vertex_count() : task.targets.size());
+    geoidx_status status = GEOIDX_OK;
+    const Duration duration = time_of([&] {
+        status = geoidx_solver_distances(&solver, &task.source, 1,
+                                         task.targets.empty() ? nullptr : task.targets.data(),
+                                         static_cast<uint32_t>(distances.size()), distances.data());
+    });
+    tools::require_ok(status, model.path);
+    const auto reached = static_cast<double>(
+        std::ranges::count_if(distances, [](double distance) { return std::isfinite(distance); }));
+    return {duration.wall / reached, duration.cpu / reached};
+}
+
+Timing run(std::span<const tools::Solver> solvers, const Model& model, const std::vector<Task>& tasks) {
+    std::vector<Duration> durations(tasks.size());
+    const Duration elapsed = time_of([&] {
+        on_all(solvers, tasks.size(),
+               [&](geoidx_solver& solver, size_t i) { durations[i] = solve(solver, model, tasks[i]); });
+    });
+    return {median(durations), elapsed.wall};
+}
+
+Row row_of(const Model& model, const std::string& field, const std::vector<Task>& tasks,
+           std::span<const tools::Solver> solvers) {
+    const Timing alone = run(solvers.first(1), model, tasks);
+    const Timing together = run(solvers, model, tasks);
+    return {{"mesh", "mesh", model.name},
+            {"vertices", "vertices", uint64_t{model.mesh.vertex_count()}},
+            {"field", "field", field},
+            {"solves", "solves", uint64_t{tasks.size()}},
+            {"us_per_vertex", "µs/vertex, 1 thread", 1e6 * alone.per_vertex.wall},
+            {"cpu_us_per_vertex", "", 1e6 * alone.per_vertex.cpu},
+            {"threads", "threads", uint64_t{solvers.size()}},
+            {"together_us_per_vertex", "µs/vertex, each thread", 1e6 * together.per_vertex.wall},
+            {"together_cpu_us_per_vertex", "", 1e6 * together.per_vertex.cpu},
+            {"elapsed_s", "", alone.elapsed},
+            {"together_elapsed_s", "", together.elapsed},
+            {"throughput_ratio", "throughput ratio", alone.elapsed / together.elapsed}};
+}
+
+void warm_up(const Solvers& solvers, const Model& model, uint32_t source) {
+    on_all(solvers, solvers.size(),
+           [&](geoidx_solver& solver, size_t) { exact_field(solver, model, source); });
+}
+
+void measure_model(const Model& model, const MetricArguments& arguments, std::vector<Row>& rows) {
+    const Solvers solvers = make_solvers(model, arguments.threads);
+    const auto sources = random_sources(*solvers[0], model, arguments.fields, SEED);
+    warm_up(solvers, model, sources.front());
+    progress(model.name + ": whole fields");
+    rows.push_back(row_of(model, "all", global_tasks(sources), solvers));
+
+    progress(model.name + ": local fields");
+    const auto local_sources = random_sources(*solvers[0], model, arguments.locals, SEED + 1);
+    const std::vector<Task> largest = neighbourhoods(solvers, model, local_sources);
+    for (const uint32_t size : LOCAL_SIZES) {
+        const std::vector<Task> tasks = shortened(largest, size);
+        if (!tasks.empty()) rows.push_back(row_of(model, std::to_string(size), tasks, solvers));
+    }
+}
+
+Row parameters_of(const MetricArguments& arguments) {
+    return {{"seed", "seed", SEED},
+            {"fields", "whole fields", uint64_t{arguments.fields}},
+            {"locals", "local fields", uint64_t{arguments.locals}},
+            {"threads", "threads", uint64_t{arguments.threads}}};
+}
+
+void metric(const MetricArguments& arguments) {
+    Report report("metric", parameters_of(arguments), arguments.report);
+    Table table{"metric", "Exact distances without an index", {}};
+    const size_t failed = for_each_model(arguments.meshes, arguments.folder, [&](const Model& model) {
+        measure_model(model, arguments, table.rows);
+    });
+    report.add(std::move(table));
+    require_none(failed);
+}
+
+}
+
+void add_metric(CLI::App& app) {
+    auto arguments = std::make_shared<MetricArguments>();
+    CLI::App* command = app.add_subcommand("metric", "times of exact distances without an index");
+    command->add_option("MESH", arguments->meshes, "mesh files or names")->required();
+    add_mesh_folder(*command, arguments->folder);
+    const auto add = [&](const char* name, uint32_t& value, const char* what) {
+        command->add_option(name, value, what)->check(CLI::PositiveNumber)->capture_default_str();
+    };
+    add("--fields", arguments->fields, "whole fields a mesh");
+    add("--locals", arguments->locals, "local fields a size");
+    add("--threads", arguments->threads, "at once, besides one alone");
+    add_report_options(*command, arguments->report);
+    command->callback([arguments] { metric(*arguments); });
+}
+
+}

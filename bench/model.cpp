@@ -1,0 +1,63 @@
+#include "bench/model.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "bench/report.h"
+#include "tools/failure.h"
+#include "tools/mesh_io/mesh_io.h"
+
+namespace geodesic::bench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string default_folder() {
+    const char* const named = std::getenv("GEOIDX_MESHES");
+    return named && *named ? named : "../shared/meshes";
+}
+
+fs::path find_mesh(const std::string& mesh, const std::string& folder) {
+    std::error_code ignored;
+    if (fs::is_regular_file(mesh, ignored)) return mesh;
+    for (const char* extension : {"", ".obj", ".ply", ".off", ".stl"}) {
+        const fs::path path = fs::path(folder) / (mesh + extension);
+        if (fs::is_regular_file(path, ignored)) return path;
+    }
+    throw tools::Failure(mesh + ": is no file, nor the name of a mesh in " + folder +
+                         " (set --meshes or GEOIDX_MESHES to the folder of the meshes)");
+}
+
+}
+
+void add_mesh_folder(CLI::App& command, std::string& folder) {
+    folder = default_folder();
+    command.add_option("--meshes", folder, "folder of meshes given by name (GEOIDX_MESHES)")
+        ->capture_default_str();
+}
+
+Model load_model(const std::string& mesh, const std::string& folder) {
+    const fs::path path = find_mesh(mesh, folder);
+    return {path.stem().string(), path.string(), tools::read_mesh(path.string())};
+}
+
+size_t for_each_model(const std::vector<std::string>& meshes, const std::string& folder,
+                      const std::function<void(const Model&)>& measure) {
+    size_t failed = 0;
+    for (const std::string& mesh : meshes) {
+        try {
+            measure(load_model(mesh, folder));
+        } catch (const std::runtime_error& error) {
+            progress("geoidx_bench: left out: " + std::string(error.what()));
+            ++failed;
+        }
+    }
+    return failed;
+}
+
+void require_none(size_t failed) {
+    if (failed) throw tools::Failure("meshes that could not be measured: " + std::to_string(failed));
+}
+
+}
