@@ -43,6 +43,7 @@ void add_commands(CLI::App& app) {
     add_sssd(app);
     add_msad(app);
     add_exact(app);
+    add_bench(app);
 }
 
 // A full disk shows only when the last of the output goes out.

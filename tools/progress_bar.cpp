@@ -24,16 +24,18 @@ std::string progress_line(double fraction, std::string_view stage, size_t width)
     constexpr size_t PERCENT_COLUMNS = 5;
     constexpr size_t STAGE_COLUMNS = 26;
     fraction = fraction > 0 ? std::min(fraction, 1.0) : 0; // a NaN counts as 0
-    std::string percent = std::to_string(static_cast<int>(std::floor(100 * fraction))) + "%";
-    percent.insert(0, PERCENT_COLUMNS - percent.size(), ' ');
+    std::string percent = std::to_string(static_cast<int>(std::floor(100 * fraction))).append(1, '%');
+    percent.insert(percent.begin(), PERCENT_COLUMNS - percent.size(), ' ');
     // The last column stays free: many terminals would break the line there.
     const size_t taken = PERCENT_COLUMNS + STAGE_COLUMNS + 5;
     if (width <= taken + 4) return percent;
     const size_t columns = std::min(width - taken, LONGEST_BAR);
     const size_t filled = static_cast<size_t>(fraction * static_cast<double>(columns));
-    std::string line =
-        "[" + std::string(filled, '#') + std::string(columns - filled, '.') + "]" + percent + "  ";
-    return line.append(stage.substr(0, STAGE_COLUMNS));
+    std::string line(columns + 2, '.');
+    line.front() = '[';
+    line.back() = ']';
+    line.replace(1, filled, filled, '#');
+    return line.append(percent).append(2, ' ').append(stage.substr(0, STAGE_COLUMNS));
 }
 
 ProgressBar::ProgressBar() : visible_(isatty(STDERR_FILENO) == 1) {}

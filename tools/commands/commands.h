@@ -11,5 +11,6 @@ void add_verify(CLI::App& app);
 void add_sssd(CLI::App& app);
 void add_msad(CLI::App& app);
 void add_exact(CLI::App& app);
+void add_bench(CLI::App& app);
 
 }
