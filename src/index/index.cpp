@@ -1,7 +1,6 @@
 #include "src/index/index.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "format/error.h"
@@ -14,7 +13,7 @@ Index::Index(std::pmr::memory_resource* memory)
       border_table_begin(memory), crossing_table_begin(memory), internal_table_begin(memory),
       border_tables(memory), crossing_tables(memory), internal_tables(memory), overlay_position(memory),
       patch_of_slot(memory), overlay_begin(memory), slot_begin(memory), slots(memory), place_begin(memory),
-      places(memory), leaf_of_internal(memory), owner(memory), reach(memory) {}
+      places(memory), leaf_of_internal(memory), owner(memory) {}
 
 void allocate_tables(Index& index) {
     index.border_table_begin.assign(1, 0);
@@ -111,31 +110,6 @@ void derive(Index& index) {
     for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf)
         for (uint32_t i = 0; i < index.internal_size(leaf); ++i)
             index.leaf_of_internal[index.first_internal(leaf) - index.border_vertex_count() + i] = leaf;
-}
-
-namespace {
-
-Index::Reach reach_of(const Index& index, uint32_t patch) {
-    float longest = 0;
-    double steps = 0;
-    uint64_t count = 0;
-    for (uint32_t child = index.child_begin[patch]; child < index.child_begin[patch + 1]; ++child)
-        for (uint32_t i = 0; i < index.border_size(child); ++i) {
-            const float* row = index.border_row(child, i);
-            for (uint32_t j = 0; j < i; ++j)
-                if (std::isfinite(row[j])) longest = std::max(longest, row[j]);
-            if (i == 0 || !std::isfinite(row[i - 1])) continue;
-            steps += double{row[i - 1]};
-            ++count;
-        }
-    return {longest, count ? static_cast<float>(steps / static_cast<double>(count)) : 0};
-}
-
-}
-
-void derive_reach(Index& index) {
-    index.reach.clear();
-    for (uint32_t p = 0; p < index.first_leaf(); ++p) index.reach.push_back(reach_of(index, p));
 }
 
 }

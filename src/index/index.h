@@ -73,11 +73,6 @@ struct Index {
     Array<BorderPlace> places;
     Array<uint32_t> leaf_of_internal; // [number - border_vertex_count()]
     Array<uint32_t> owner;            // per border vertex
-    // Of the tables of an inner patch's children: the longest distance and a typical one of neighbours.
-    struct Reach {
-        float longest, step;
-    };
-    Array<Reach> reach; // by derive_reach()
 
     uint32_t level_count() const { return static_cast<uint32_t>(level_begin.size()) - 2; }
     uint32_t patch_count() const { return static_cast<uint32_t>(parent.size()); }
@@ -130,8 +125,5 @@ void allocate_tables(Index& index);
 // Fills what is derived; throws Error CORRUPT where a border vertex is on the border of a patch but not in
 // its parent's overlay.
 void derive(Index& index);
-
-// Fills `reach` from the tables.
-void derive_reach(Index& index);
 
 }

@@ -11,11 +11,12 @@ namespace geodesic {
 namespace {
 
 constexpr uint64_t MAX_BYTES = uint64_t{1} << 40; // of one section of numbers
+constexpr uint64_t META_BYTES = 92;
 
 [[noreturn]] void corrupt(const std::string& detail) { throw Error(GEOIDX_ERROR_CORRUPT, detail); }
 
 void read_meta(const format::Container& container, Index& index) {
-    const auto bytes = container.read_bytes(TAG_META, MAX_BYTES);
+    const auto bytes = container.read_bytes(TAG_META, META_BYTES);
     format::ByteReader reader(bytes, "section META");
     index.mesh_fingerprint = container.mesh_fingerprint();
     index.id_count = reader.u64();
@@ -34,10 +35,18 @@ void read_meta(const format::Container& container, Index& index) {
         corrupt("section META: the mesh has " + std::to_string(index.id_count) + " vertices");
     if (!(index.bound_scale >= 0 && index.bound_scale <= 1))
         corrupt("section META: the bound scale is " + std::to_string(index.bound_scale) + ", not in 0 .. 1");
+    if (!(index.delta >= 0 && index.delta <= 100))
+        corrupt("section META: delta is " + std::to_string(index.delta) + ", not in 0 .. 100");
+    if (!(index.bounding_box_diagonal >= 0) || !std::isfinite(index.bounding_box_diagonal))
+        corrupt("section META: the diagonal is " + std::to_string(index.bounding_box_diagonal));
+    for (double error :
+         {index.error.mean, index.error.signed_mean, index.error.p99, index.error.p999, index.error.max})
+        if (std::isnan(error)) corrupt("section META: a measured error is NaN");
 }
 
-// Patches level by level from the numbers of children.
-void read_hierarchy(const format::Container& container, Index& index) {
+// Patches level by level from the numbers of children. `patch_room`: more patches than the section BORD, as
+// it was decoded, has entries cannot be.
+void read_hierarchy(const format::Container& container, uint64_t patch_room, Index& index) {
     const auto bytes = container.read_bytes(TAG_HIERARCHY, MAX_BYTES);
     format::ByteReader reader(bytes, "section HIER");
     const uint32_t level_count = reader.u32();
@@ -49,10 +58,7 @@ void read_hierarchy(const format::Container& container, Index& index) {
     for (uint32_t l = 0; l < level_count; ++l) {
         for (uint32_t p = index.level_begin[l]; p < index.level_begin[l + 1]; ++p) {
             const uint32_t children = reader.u32();
-            // Every patch but the leaves has a record of its own, and a leaf holds at least one entry of 4
-            // bytes in the section BORD.
-            const uint64_t room = container.section(TAG_BORDERS).raw_size / sizeof(uint32_t);
-            if (children == 0 || children > room || index.parent.size() + children > room + 1)
+            if (children == 0 || children > patch_room || index.parent.size() + children > patch_room + 1)
                 corrupt("section HIER: patch " + std::to_string(p) + " has " + std::to_string(children) +
                         " children");
             index.child_begin.push_back(static_cast<uint32_t>(index.parent.size()));
@@ -109,8 +115,19 @@ void read_ranges(format::ByteReader& reader, uint32_t count, uint64_t first, Arr
     }
 }
 
-void read_borders(const format::Container& container, Index& index) {
-    const auto bytes = container.read_bytes(TAG_BORDERS, MAX_BYTES);
+// A vertex has one place on a border: derive() keeps no second one.
+void refuse_repeated(const Index& index) {
+    std::vector<uint32_t> patch_seen(index.border_vertex_count(), NONE);
+    for (uint32_t p = 0; p < index.patch_count(); ++p)
+        for (uint32_t v : index.border_of(p)) {
+            if (patch_seen[v] == p)
+                corrupt("section BORD: vertex number " + std::to_string(v) +
+                        " stands twice on the border of patch " + std::to_string(p));
+            patch_seen[v] = p;
+        }
+}
+
+void read_borders(std::span<const std::byte> bytes, Index& index) {
     format::ByteReader reader(bytes, "section BORD");
     read_ranges(reader, index.first_leaf(), 0, index.owned_begin);
     index.owned_begin.resize(size_t{index.patch_count()} + 1, index.owned_begin.back());
@@ -129,6 +146,7 @@ void read_borders(const format::Container& container, Index& index) {
     for (uint32_t v : index.border)
         if (v >= index.border_vertex_count())
             corrupt("section BORD: vertex number " + std::to_string(v) + " is no border vertex");
+    refuse_repeated(index);
 }
 
 // Where the matrices of one section go. The section's size is compared before anything is allocated.
@@ -200,13 +218,13 @@ void read_tables(const format::Container& container, Index& index) {
 
 void read_content(const format::Container& container, Index& index) {
     read_meta(container, index);
-    read_hierarchy(container, index);
+    const auto border_bytes = container.read_bytes(TAG_BORDERS, MAX_BYTES);
+    read_hierarchy(container, border_bytes.size() / sizeof(uint32_t), index);
     read_vertices(container, index);
     read_positions(container, index);
-    read_borders(container, index);
+    read_borders(border_bytes, index);
     derive(index);
     read_tables(container, index);
-    derive_reach(index);
 }
 
 }

@@ -12,7 +12,7 @@ namespace {
 
 // Shares of a length or an angle below which a difference is rounding.
 constexpr double TIE = 1e-12;
-constexpr double TOUCH = 1e-9;
+constexpr double TOUCH = 1e-5; // thin faces magnify rounding along their edges
 constexpr double ANGLE_SLACK = 1e-6;
 
 double norm(double x, double y) { return std::sqrt(x * x + y * y); }
@@ -54,7 +54,7 @@ private:
     void spawn_into(uint32_t corner, uint32_t vertex);
     void propagate_edge(uint32_t edge);
     void propagate(const Window& window, const Side& side, uint32_t edge);
-    void reach_apex(const Window& window, const Side& side);
+    void reach_apex(const Window& window, const Side& side, double split, double crossing);
     void pass(const Window& window, const Passage& passage);
     void insert(uint32_t edge, const Window& window);
 
@@ -159,10 +159,14 @@ void WindowPropagation::propagate_edge(uint32_t edge) {
             if (window.from_face != side.face) propagate(window, side, edge);
 }
 
-void WindowPropagation::reach_apex(const Window& window, const Side& side) {
+// The line to the apex crosses the edge at `split`. Where rounding has put that just outside of the window,
+// the path bends at the window's end, `crossing`: longer by the square of the miss, but never too short.
+void WindowPropagation::reach_apex(const Window& window, const Side& side, double split, double crossing) {
     const double height = window.y + side.apex_depth;
     const double across = window.x - side.apex_x;
-    const double d = window.sigma + norm(across, height);
+    const double d = split == crossing
+                         ? window.sigma + norm(across, height)
+                         : window.distance_at(crossing) + norm(crossing - side.apex_x, side.apex_depth);
     if (!(d < distance(side.apex))) return;
     Arrival arrival;
     if (mesh_->can_bend[side.apex]) {
@@ -181,11 +185,14 @@ void WindowPropagation::reach_apex(const Window& window, const Side& side) {
 // edges.
 void WindowPropagation::propagate(const Window& window, const Side& side, uint32_t edge) {
     const double height = window.y + side.apex_depth;
-    if (!(window.y > 0) || !(height > 0)) return; // along the edge: its vertices carry that on
+    // A source in line with the edge: its vertices carry that on, unless it lies on the edge, as the apex of
+    // a face without area does.
+    const bool on_edge = window.x > window.begin && window.x < window.end;
+    if (!(window.y > 0) && !on_edge) return;
     const double length = mesh_->edge_length[edge];
-    const double split = window.x + (side.apex_x - window.x) * (window.y / height);
-    if (split >= window.begin - TOUCH * length && split <= window.end + TOUCH * length)
-        reach_apex(window, side);
+    const double split = height > 0 ? window.x + (side.apex_x - window.x) * (window.y / height) : side.apex_x;
+    const double crossing = std::clamp(split, window.begin, window.end);
+    if (std::abs(split - crossing) <= TOUCH * length) reach_apex(window, side, split, crossing);
     const auto [first, second] = mesh_->edge_vertices[edge];
     if (window.begin < split)
         pass(window, {length, side.apex_x, side.apex_depth, window.x, window.y, window.begin,
@@ -203,7 +210,9 @@ void WindowPropagation::pass(const Window& window, const Passage& p) {
     // The share of the exit edge at which the ray through (t, 0) leaves.
     const auto leave = [&](double t) {
         const double denominator = p.y * p.apex_x + p.apex_depth * (p.x - t);
-        return denominator > 0 ? std::clamp(p.y * t / denominator, 0.0, 1.0) : 1.0;
+        if (denominator > 0) return std::clamp(p.y * t / denominator, 0.0, 1.0);
+        // All in one line, or a ray that misses the exit edge.
+        return p.y == 0 && p.apex_depth == 0 && p.apex_x > 0 ? std::clamp(t / p.apex_x, 0.0, 1.0) : 1.0;
     };
     const double near_share = p.near <= 0 ? 0 : leave(p.near);
     const double far_share = p.far_is_apex ? 1 : leave(p.far);

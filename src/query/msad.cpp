@@ -12,9 +12,19 @@ namespace {
 
 namespace simd = std::experimental;
 using Floats = simd::native_simd<float>;
-constexpr auto WIDTH = static_cast<uint32_t>(Floats::size());
 
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
+
+// distances[i] = min(distances[i], d + row[i]): one step of a min-plus product.
+void add_row(float d, std::span<const float> row, float* distances) {
+    size_t i = 0;
+    for (; i + Floats::size() <= row.size(); i += Floats::size()) {
+        const Floats through = d + Floats(row.data() + i, simd::element_aligned);
+        simd::min(through, Floats(distances + i, simd::element_aligned))
+            .copy_to(distances + i, simd::element_aligned);
+    }
+    for (; i < row.size(); ++i) distances[i] = std::min(distances[i], d + row[i]);
+}
 
 }
 
@@ -79,96 +89,68 @@ void Query::descend() {
     for (uint32_t p = 1; p < index_.first_leaf(); ++p) cross_overlay(p, index_.border_size(p));
 }
 
-// Fills the overlay with the distances known so far and queues the first start_count positions of it.
-void Query::load_overlay(uint32_t patch, uint32_t start_count) {
-    const auto outer = index_.border_of(patch);
-    const auto outer_size = static_cast<uint32_t>(outer.size());
-    float smallest = INFINITE, largest = 0;
-    for (uint32_t i = 0; i < index_.overlay_size(patch); ++i) {
-        const uint32_t number = i < outer_size ? outer[i] : index_.owned_begin[patch] + i - outer_size;
-        const float d = distance_[number];
-        overlay_[i] = {d, INFINITE, NONE, number};
-        if (i < start_count && d < INFINITE) {
-            smallest = std::min(smallest, d);
-            largest = std::max(largest, d);
-        }
-    }
-    const uint32_t first_slot = index_.border_begin[index_.child_begin[patch]];
-    const uint32_t last_slot = index_.border_begin[index_.child_begin[patch + 1]];
-    for (uint32_t slot = first_slot; slot < last_slot; ++slot)
-        slot_distance_[slot] = overlay_[index_.overlay_position[slot]].distance;
-    const Index::Reach& reach = index_.reach[patch];
-    buckets_.begin(smallest, largest - smallest + reach.longest, reach.step);
-    for (uint32_t i = 0; i < start_count; ++i)
-        if (overlay_[i].distance < INFINITE) buckets_.push(overlay_[i].distance, i);
-}
-
-// Dijkstra over the tables of a patch's children, from the first start_count overlay positions. Tables hold
-// whole-surface distances, so a distance that came over a child's table needs not cross it again.
+// Shortest paths over the tables of a patch's children, from the first start_count overlay positions.
+// Children take turns, the one with the nearest active slot next; whole rows are read side by side, which
+// outweighs that a distance may fall again later.
 void Query::cross_overlay(uint32_t patch, uint32_t start_count) {
-    load_overlay(patch, start_count);
-    for (auto step = buckets_.pop_step(); !step.empty(); step = buckets_.pop_step()) {
-        for (uint32_t i : step) fetch_rows(patch, i);
-        for (uint32_t i : step) {
-            OverlayNode& node = overlay_[i];
-            if (node.distance == node.crossed_distance) continue;
-            node.crossed_distance = node.distance;
-            for (uint32_t slot : index_.slots_of(patch, i))
-                if (index_.patch_of_slot[slot] != node.arrival) cross_child(patch, slot);
-        }
+    const uint32_t first = index_.border_begin[index_.child_begin[patch]];
+    const uint32_t last = index_.border_begin[index_.child_begin[patch + 1]];
+    for (uint32_t slot = first; slot < last; ++slot) {
+        slot_distance_[slot] = distance_[index_.border[slot]];
+        if (index_.overlay_position[slot] < start_count && slot_distance_[slot] < INFINITE) activate(slot);
     }
-    for (uint32_t i = 0; i < index_.overlay_size(patch); ++i)
-        distance_[overlay_[i].number] = overlay_[i].distance;
+    for (uint32_t child; (child = nearest_active_child(patch)) != NONE;) cross_child(patch, child);
+    for (uint32_t slot = first; slot < last; ++slot) distance_[index_.border[slot]] = slot_distance_[slot];
 }
 
-// Asks for the table rows of an overlay position before they are needed: reading them is mostly waiting for
-// memory.
-void Query::fetch_rows(uint32_t patch, uint32_t overlay_position) const {
-    constexpr uint32_t FLOATS_PER_LINE = 16;
-    for (uint32_t slot : index_.slots_of(patch, overlay_position)) {
-        const uint32_t child = index_.patch_of_slot[slot];
-        if (child == overlay_[overlay_position].arrival) continue;
-        const float* row = index_.border_row(child, slot - index_.border_begin[child]);
-        for (uint32_t k = 0; k < index_.border_size(child); k += FLOATS_PER_LINE) __builtin_prefetch(row + k);
-    }
-}
-
-// Almost no entry of a row lowers anything: entries are looked at singly only where one of a few side by side
-// does.
-void Query::cross_child(uint32_t patch, uint32_t slot) {
+void Query::activate(uint32_t slot) {
     const uint32_t child = index_.patch_of_slot[slot];
-    const uint32_t first = index_.border_begin[child], size = index_.border_size(child);
-    const float d = slot_distance_[slot];
-    const float* row = index_.border_row(child, slot - first);
-    const float* known = slot_distance_.data() + first;
-    uint32_t k = 0;
-    for (; k + WIDTH <= size; k += WIDTH) {
-        const Floats through = d + Floats(row + k, simd::element_aligned);
-        if (simd::none_of(through < Floats(known + k, simd::element_aligned))) continue;
-        for (uint32_t j = k; j < k + WIDTH; ++j)
-            if (d + row[j] < known[j]) lower(patch, first + j, d + row[j]);
-    }
-    for (; k < size; ++k)
-        if (d + row[k] < known[k]) lower(patch, first + k, d + row[k]);
+    nearest_active_[child] = std::min(nearest_active_[child], slot_distance_[slot]);
+    if (slot_is_active_[slot]) return;
+    slot_is_active_[slot] = 1;
+    active_slots_[index_.border_begin[child] + active_count_[child]++] = slot;
 }
 
-void Query::lower(uint32_t patch, uint32_t slot, float distance) {
-    const uint32_t position = index_.overlay_position[slot];
-    overlay_[position].distance = distance;
-    overlay_[position].arrival = index_.patch_of_slot[slot];
-    for (uint32_t copy : index_.slots_of(patch, position)) slot_distance_[copy] = distance;
-    buckets_.push(distance, position);
+uint32_t Query::nearest_active_child(uint32_t patch) const {
+    uint32_t nearest = NONE;
+    float smallest = INFINITE;
+    for (uint32_t child = index_.child_begin[patch]; child < index_.child_begin[patch + 1]; ++child)
+        if (nearest_active_[child] < smallest) {
+            smallest = nearest_active_[child];
+            nearest = child;
+        }
+    return nearest;
+}
+
+// Tables hold whole-surface distances, so a distance that fell over a child's table needs not cross it again:
+// only the other children's slots of that vertex become active.
+void Query::cross_child(uint32_t patch, uint32_t child) {
+    const uint32_t first = index_.border_begin[child], size = index_.border_size(child);
+    std::copy_n(slot_distance_.begin() + first, size, crossed_.begin());
+    for (uint32_t i = 0; i < active_count_[child]; ++i) {
+        const uint32_t slot = active_slots_[first + i];
+        slot_is_active_[slot] = 0;
+        add_row(slot_distance_[slot], {index_.border_row(child, slot - first), size}, crossed_.data());
+    }
+    active_count_[child] = 0;
+    nearest_active_[child] = INFINITE;
+    for (uint32_t k = 0; k < size; ++k)
+        if (crossed_[k] < slot_distance_[first + k]) pass_on(patch, first + k, crossed_[k]);
+}
+
+void Query::pass_on(uint32_t patch, uint32_t slot, float distance) {
+    for (uint32_t copy : index_.slots_of(patch, index_.overlay_position[slot])) {
+        slot_distance_[copy] = distance;
+        if (copy != slot) activate(copy);
+    }
 }
 
 void Query::fill_leaf(uint32_t leaf) {
     const auto border = index_.border_of(leaf);
     const uint32_t size = index_.internal_size(leaf);
-    float* internal = distance_.data() + index_.first_internal(leaf);
-    for (uint32_t b = 0; b < border.size(); ++b) {
-        const float d = distance_[border[b]];
-        const float* row = index_.crossing_row(leaf, b);
-        for (uint32_t i = 0; i < size; ++i) internal[i] = std::min(internal[i], d + row[i]);
-    }
+    for (uint32_t b = 0; b < border.size(); ++b)
+        add_row(distance_[border[b]], {index_.crossing_row(leaf, b), size},
+                distance_.data() + index_.first_internal(leaf));
 }
 
 }

@@ -4,7 +4,6 @@
 
 #include "src/index/index.h"
 #include "src/query/arc_queue.h"
-#include "src/query/bucket_queue.h"
 
 namespace geodesic {
 
@@ -29,10 +28,10 @@ private:
     void climb();
     void descend();
     void cross_overlay(uint32_t patch, uint32_t start_count);
-    void load_overlay(uint32_t patch, uint32_t start_count);
-    void fetch_rows(uint32_t patch, uint32_t overlay_position) const;
-    void cross_child(uint32_t patch, uint32_t slot);
-    void lower(uint32_t patch, uint32_t slot, float distance);
+    void activate(uint32_t slot);
+    uint32_t nearest_active_child(uint32_t patch) const;
+    void cross_child(uint32_t patch, uint32_t child);
+    void pass_on(uint32_t patch, uint32_t slot, float distance);
     void fill_leaf(uint32_t leaf);
 
     // sssd.cpp
@@ -45,18 +44,18 @@ private:
     const Index& index_;
     ArcQueue queue_; // of SSSD
 
-    // MSAD: distances by number; which inner patches have sources below them; one overlay at a time.
+    // MSAD: distances by number; which inner patches have sources below them.
     Array<float> distance_;
     Array<uint8_t> has_sources_;
-    struct OverlayNode {
-        float distance;
-        float crossed_distance; // at which it was last passed on; infinity before
-        uint32_t arrival; // the child over whose table the distance came, so that it is not crossed again
-        uint32_t number;
-    };
-    Array<OverlayNode> overlay_;
-    Array<float> slot_distance_; // copies of overlay distances, so that a table row meets them side by side
-    BucketQueue buckets_;
+    // The overlay that is being crossed: distances per slot, so that a table row meets them side by side; per
+    // child the slots whose rows have not been looked at since their distance fell, in the child's part of
+    // the array.
+    Array<float> slot_distance_;
+    Array<uint8_t> slot_is_active_;
+    Array<uint32_t> active_slots_;
+    Array<uint32_t> active_count_; // per patch
+    Array<float> nearest_active_;  // per patch: no active slot is nearer; infinity without one
+    Array<float> crossed_;         // of one child's border, while its rows are looked at
 
     // SSSD: distances of border vertices, valid where the epoch is the current one; likewise allowed patches.
     Array<float> search_distance_;

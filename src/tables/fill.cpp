@@ -116,7 +116,6 @@ void fill_tables(Index& index, std::span<const uint32_t> vertex_of_number, Worke
         filler.fill(solver, static_cast<uint32_t>(number));
     });
     set_bound_scale(index, workers);
-    derive_reach(index);
 }
 
 }
