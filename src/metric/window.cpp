@@ -9,12 +9,12 @@ constexpr double RELATIVE_ROUNDING = 1e-12;
 
 double difference(const Window& a, const Window& b, double t) { return a.distance_at(t) - b.distance_at(t); }
 
-// Halves the bracket: slow, but cannot fail.
-double bisect(const Window& a, const Window& b, double low, double high) {
-    const bool low_sign = difference(a, b, low) < 0;
+// Halves the bracket: slow, but cannot fail. Which of the two is lower at `low` is the caller's to say: where
+// they touch there, the sign of the difference is rounding.
+double bisect(const Window& a, const Window& b, double low, double high, bool a_is_lower_at_low) {
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
-        ((difference(a, b, middle) < 0) == low_sign ? low : high) = middle;
+        ((difference(a, b, middle) < 0) == a_is_lower_at_low ? low : high) = middle;
     }
     return 0.5 * (low + high);
 }
@@ -22,7 +22,7 @@ double bisect(const Window& a, const Window& b, double low, double high) {
 // The t in [low, high] with a(t) = b(t), where a - b changes its sign once. Points whose distances to two
 // sources differ by a constant lie on a hyperbola; this is where it meets the edge. Written so that nothing
 // cancels when the constant is small.
-double crossing(const Window& a, const Window& b, double low, double high) {
+double crossing(const Window& a, const Window& b, double low, double high, bool a_is_lower_at_low) {
     const double ax = a.x - low, bx = b.x - low;
     const double lag = b.sigma - a.sigma;
     const double slope = 2 * (bx - ax);
@@ -41,7 +41,7 @@ double crossing(const Window& a, const Window& b, double low, double high) {
             const double crossed = low + t;
             if (std::abs(difference(a, b, crossed)) <= 1e-11 * a.distance_at(crossed)) return crossed;
         }
-    return bisect(a, b, low, high);
+    return bisect(a, b, low, high, a_is_lower_at_low);
 }
 
 }
@@ -61,19 +61,19 @@ Advantage advantage(const Window& challenger, const Window& holder, double s, do
     const double extremum = (challenger.x * holder.y - holder.x * challenger.y) / (holder.y - challenger.y);
     if (!(extremum > s && extremum < t)) { // also where the line runs along the edge
         if (at_s >= -rounding && at_t >= -rounding) return {s, s, false};
-        const double begin = at_s <= 0 ? s : crossing(challenger, holder, s, t);
-        const double end = at_t <= 0 ? t : crossing(challenger, holder, s, t);
+        const double begin = at_s <= 0 ? s : crossing(challenger, holder, s, t, false);
+        const double end = at_t <= 0 ? t : crossing(challenger, holder, s, t, true);
         return {begin, end, false};
     }
     const double between = difference(challenger, holder, extremum);
     if (at_s >= -rounding && at_t >= -rounding && between >= -rounding) return {s, s, false};
     if (between < 0) {
-        const double begin = at_s <= 0 ? s : crossing(challenger, holder, s, extremum);
-        const double end = at_t <= 0 ? t : crossing(challenger, holder, extremum, t);
+        const double begin = at_s <= 0 ? s : crossing(challenger, holder, s, extremum, false);
+        const double end = at_t <= 0 ? t : crossing(challenger, holder, extremum, t, true);
         return {begin, end, false};
     }
-    const double first_end = at_s < 0 ? crossing(challenger, holder, s, extremum) : s;
-    const double second_begin = at_t < 0 ? crossing(challenger, holder, extremum, t) : t;
+    const double first_end = at_s < 0 ? crossing(challenger, holder, s, extremum, true) : s;
+    const double second_begin = at_t < 0 ? crossing(challenger, holder, extremum, t, false) : t;
     return {first_end, second_begin, true};
 }
 

@@ -47,7 +47,8 @@ bool names(const std::string& text, uint64_t number) {
     for (size_t at = text.find(digits); at != std::string::npos; at = text.find(digits, at + 1)) {
         const bool begins = at == 0 || !std::isdigit(static_cast<unsigned char>(text[at - 1]));
         const size_t end = at + digits.size();
-        if (begins && (end == text.size() || !std::isdigit(static_cast<unsigned char>(text[end])))) return true;
+        if (begins && (end == text.size() || !std::isdigit(static_cast<unsigned char>(text[end]))))
+            return true;
     }
     return false;
 }
@@ -113,7 +114,8 @@ TEST_CASE("intake: float and double positions at any stride") {
             // Not a byte behind the last position: the sanitizers see any read beyond it.
             std::vector<std::byte> bytes(step * (soup.positions.size() - 1) + packed, std::byte{0xFF});
             for (size_t i = 0; i < soup.positions.size(); ++i)
-                std::memcpy(bytes.data() + i * step, static_cast<const std::byte*>(numbers) + i * packed, packed);
+                std::memcpy(bytes.data() + i * step, static_cast<const std::byte*>(numbers) + i * packed,
+                            packed);
             geoidx_mesh view = view_of(soup);
             view.position_type = type;
             view.positions = bytes.data();
@@ -234,7 +236,8 @@ TEST_CASE("intake: components, boundaries, genus, fans that meet and any winding
 
 TEST_CASE("intake: an edge with more than two triangles is refused, the first one named") {
     Soup soup = square();
-    soup.positions.insert(soup.positions.end(), {{0, 0, 1}, {9, 0, 0}, {9, 1, 0}, {9, 0, 1}, {9, 1, 1}, {9, 2, 2}});
+    soup.positions.insert(soup.positions.end(),
+                          {{0, 0, 1}, {9, 0, 0}, {9, 1, 0}, {9, 0, 1}, {9, 1, 1}, {9, 2, 2}});
     soup.triangles.push_back({2, 0, 4}); // the diagonal has three
     // Ids 5 .. 9, further on: four triangles at the edge 5-6.
     for (const uint32_t third : {7u, 8u, 9u}) soup.triangles.push_back({5, 6, third});

@@ -63,9 +63,8 @@ TEST_CASE("weld: positions on both sides of a cell's border, by one rounding") {
         for (int i = -20; i <= 20; ++i) {
             const double border = i * tolerance;
             // Three in a cluster within half a tolerance, so that rounding cannot decide.
-            for (const double x :
-                 {std::nextafter(border, -1e9), border, std::nextafter(border, 1e9), border + 0.4 * tolerance,
-                  border - 0.4 * tolerance})
+            for (const double x : {std::nextafter(border, -1e9), border, std::nextafter(border, 1e9),
+                                   border + 0.4 * tolerance, border - 0.4 * tolerance})
                 positions.push_back({x, -x, x});
         }
         CHECK(weld(positions, 0.45 * tolerance) == weld_by_brute_force(positions, 0.45 * tolerance));

@@ -22,8 +22,8 @@ std::vector<double> random_costs(const Mesh& mesh, uint64_t seed, bool with_zero
 }
 
 std::vector<Soup> kinds() {
-    return {grid(9, 7, 1, 1), bumpy_sphere(2, 1), torus(9, 7, 2, 0.5), pinched_sheets(2), moebius(9, 3),
-            joined(cube(2), sphere(1))};
+    return {grid(9, 7, 1, 1),  bumpy_sphere(2, 1), torus(9, 7, 2, 0.5),
+            pinched_sheets(2), moebius(9, 3),      joined(cube(2), sphere(1))};
 }
 
 }
@@ -34,9 +34,9 @@ TEST_CASE("edge graph: lengths as costs, every source, against plain Dijkstra") 
         const auto cost = edge_lengths(mesh);
         const auto solver = EdgeGraphMetric(mesh, cost).make_solver();
         for (uint32_t s = 0; s < mesh.vertex_count(); ++s)
-            CHECK(largest_relative_difference(field(mesh, *solver, {&s, 1}),
-                                              plain_dijkstra(mesh.vertex_count(), mesh.edges, cost, {&s, 1})) <
-                  1e-13);
+            CHECK(largest_relative_difference(
+                      field(mesh, *solver, {&s, 1}),
+                      plain_dijkstra(mesh.vertex_count(), mesh.edges, cost, {&s, 1})) < 1e-13);
     }
 }
 
@@ -59,7 +59,8 @@ TEST_CASE("edge graph: whole costs, also zero, from several sources: equal to pl
                         continue;
                     }
                     REQUIRE(named < count);
-                    CHECK(plain_dijkstra(mesh.vertex_count(), mesh.edges, cost, {&sources[named], 1})[v] == d[v]);
+                    CHECK(plain_dijkstra(mesh.vertex_count(), mesh.edges, cost, {&sources[named], 1})[v] ==
+                          d[v]);
                 }
             }
         }

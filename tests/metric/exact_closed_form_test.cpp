@@ -186,13 +186,29 @@ TEST_CASE("exact, plane: far from the origin, distances are those of the rounded
     CHECK(worst_error(mesh, some_sources(mesh, 23), straight_line(mesh)) < 1e-9);
 }
 
-TEST_CASE("exact, plane: collinear triangles are walked along") {
-    // Two strips that meet in the line y = 0 through two faces without area.
-    Soup soup;
-    soup.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0.5, 1, 0}, {1.5, 1, 0}, {1, -1, 0}};
-    soup.triangles = {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {0, 2, 1}, {0, 5, 2}};
-    const Mesh mesh = mesh_of(soup);
-    CHECK(worst_error(mesh, some_sources(mesh, 1), straight_line(mesh)) < 1e-9);
+TEST_CASE("exact, plane: faces without area, as fillers of T-junctions are, are walked through") {
+    // Above the line y = 0 a fan over four short edges, below it one long edge, in between faces in the line,
+    // one and several on top of each other.
+    Soup one;
+    one.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0.5, 1, 0}, {1.5, 1, 0}, {1, -1, 0}};
+    one.triangles = {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {0, 2, 1}, {0, 5, 2}};
+    Soup several;
+    several.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0},  {3, 0, 0},
+                         {4, 0, 0}, {2, 1, 0}, {2, -1, 0}, {2, -2, 0}};
+    several.triangles = {{0, 1, 5}, {1, 2, 5}, {2, 3, 5}, {3, 4, 5}, {0, 2, 1},
+                         {0, 3, 2}, {0, 4, 3}, {0, 6, 4}, {0, 7, 6}, {4, 6, 7}};
+    Soup crossed = several; // the same line, its faces in another order
+    crossed.triangles[4] = {1, 3, 2};
+    crossed.triangles[5] = {1, 4, 3};
+    crossed.triangles[6] = {0, 4, 1};
+    for (const Soup& soup : {one, several, crossed})
+        for (double angle : {0.0, 0.4, 1.3}) { // turned, the faces have an area of some roundings
+            Soup turned = soup;
+            for (auto& p : turned.positions) p = Eigen::AngleAxisd(angle, Vector3d(1, 2, 3).normalized()) * p;
+            const Mesh mesh = mesh_of(turned);
+            CAPTURE(angle);
+            CHECK(worst_error(mesh, some_sources(mesh, 1), straight_line(mesh)) < 1e-9);
+        }
 }
 
 TEST_CASE("exact, plane with a reflex corner: paths go around it") {

@@ -206,8 +206,7 @@ TEST_CASE("exact: moving, turning and mirroring the mesh changes nothing") {
     for (const auto& [name, soup] : surfaces()) {
         CAPTURE(name);
         const auto original = exact_field(mesh_of(soup), 3);
-        Eigen::Matrix3d turn =
-            Eigen::AngleAxisd(1.234, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+        Eigen::Matrix3d turn = Eigen::AngleAxisd(1.234, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
         for (double mirror : {1.0, -1.0}) {
             Soup moved = soup;
             for (auto& p : moved.positions) p = turn * (mirror * p) + Vector3d(3, -7, 11);
@@ -226,10 +225,11 @@ TEST_CASE("exact: numbering, order and winding do not matter") {
         std::vector<double> back;
         for (uint32_t id : new_id) back.push_back(permuted[id]);
         CHECK(largest_relative_difference(back, original) < 1e-9);
-        CHECK(largest_relative_difference(exact_field(mesh_of(with_flipped_winding(soup)), 4), original) < 1e-9);
+        CHECK(largest_relative_difference(exact_field(mesh_of(with_flipped_winding(soup)), 4), original) <
+              1e-9);
         for (uint64_t seed : {1u, 2u, 3u})
-            CHECK(largest_relative_difference(exact_field(mesh_of(with_mixed_winding(soup, seed)), 4), original) <
-                  1e-9);
+            CHECK(largest_relative_difference(exact_field(mesh_of(with_mixed_winding(soup, seed)), 4),
+                                              original) < 1e-9);
     }
 }
 

@@ -26,7 +26,7 @@ std::vector<uint32_t> some_ids(const TestMesh& mesh, uint32_t count) {
 TEST_CASE("SSSD is the shortest path over the overlays of both vertices' ancestors") {
     for (const QueryCase& test : query_cases()) {
         CAPTURE(test.name);
-        const auto handle = build(test.mesh, test.options);
+        const geoidx* handle = index_of(test);
         const Index& index = handle->index;
         uint64_t searched = 0;
         for (uint32_t a : some_ids(test.mesh, 4))
@@ -34,7 +34,7 @@ TEST_CASE("SSSD is the shortest path over the overlays of both vertices' ancesto
                 const uint32_t from = index.number_of_id[a], to = index.number_of_id[b];
                 double expected = a == b ? 0 : FAR;
                 if (from != NONE && to != NONE) expected = brute_force_sssd(index, from, to);
-                const double answer{sssd(handle.get(), a, b)};
+                const double answer{sssd(handle, a, b)};
                 searched += expected > 0 && expected < FAR;
                 CAPTURE(a);
                 CAPTURE(b);
@@ -49,7 +49,7 @@ TEST_CASE("SSSD is the shortest path over the overlays of both vertices' ancesto
 TEST_CASE("MSAD is the three phases over the tables, and never under the shortest path over all of them") {
     for (const QueryCase& test : query_cases()) {
         CAPTURE(test.name);
-        const auto handle = build(test.mesh, test.options);
+        const geoidx* handle = index_of(test);
         const Index& index = handle->index;
         const Arcs every_arc = all_arcs(index);
         const auto ids = some_ids(test.mesh, 6);
@@ -63,7 +63,7 @@ TEST_CASE("MSAD is the three phases over the tables, and never under the shortes
             std::vector<double> least(index.vertex_count(), FAR);
             for (uint32_t number : numbers) least[number] = 0;
             relax(every_arc, least);
-            const auto answers = msad(handle.get(), sources, test.mesh.vertex_count());
+            const auto answers = msad(handle, sources, test.mesh.vertex_count());
             for (uint32_t id = 0; id < answers.size(); ++id) {
                 const bool is_source = std::ranges::count(sources, id) > 0;
                 const uint32_t number = index.number_of_id[id];

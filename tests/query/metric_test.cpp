@@ -50,14 +50,14 @@ bool is_sound(float answer, double metric) {
 TEST_CASE("SSSD: sound, symmetric bit for bit, exact within a leaf") {
     for (const QueryCase& test : query_cases()) {
         CAPTURE(test.name);
-        const auto handle = build(test.mesh, test.options);
+        const geoidx* handle = index_of(test);
         const auto metric = solver(test.mesh, test.options);
         const Index& index = handle->index;
         uint64_t unsound = 0, asymmetric = 0, inexact = 0, of_one_leaf = 0;
         for (uint32_t a : random_ids(test.mesh, 6, 1)) {
             const auto exact = metric_distances(metric.get(), a, test.mesh.vertex_count());
             for (uint32_t b = 0; b < test.mesh.vertex_count(); ++b) {
-                const float there = sssd(handle.get(), a, b), back = sssd(handle.get(), b, a);
+                const float there = sssd(handle, a, b), back = sssd(handle, b, a);
                 asymmetric += std::bit_cast<uint32_t>(there) != std::bit_cast<uint32_t>(back);
                 unsound += !is_sound(there, exact[b]);
                 const uint32_t from = index.number_of_id[a], to = index.number_of_id[b];
@@ -98,7 +98,7 @@ TEST_CASE("SSSD is symmetric for all pairs") {
 TEST_CASE("MSAD: sound, 0 at sources, of several sources the minimum over single ones") {
     for (const QueryCase& test : query_cases()) {
         CAPTURE(test.name);
-        const auto handle = build(test.mesh, test.options);
+        const geoidx* handle = index_of(test);
         const auto metric = solver(test.mesh, test.options);
         const uint32_t count = test.mesh.vertex_count();
         auto sources = random_ids(test.mesh, 4, 2);
@@ -106,7 +106,7 @@ TEST_CASE("MSAD: sound, 0 at sources, of several sources the minimum over single
         std::vector<float> smallest(count, INFINITE);
         uint64_t unsound = 0, differs = 0;
         for (uint32_t source : sources) {
-            const auto answers = msad(handle.get(), source, count);
+            const auto answers = msad(handle, source, count);
             const auto exact = metric_distances(metric.get(), source, count);
             CHECK(answers[source] == 0);
             for (uint32_t v = 0; v < count; ++v) {
@@ -114,13 +114,13 @@ TEST_CASE("MSAD: sound, 0 at sources, of several sources the minimum over single
                 smallest[v] = std::min(smallest[v], answers[v]);
             }
         }
-        const auto together = msad(handle.get(), sources, count);
+        const auto together = msad(handle, sources, count);
         const auto exact = metric_distances(metric.get(), sources, count);
         for (uint32_t v = 0; v < count; ++v) {
             unsound += !is_sound(together[v], exact[v]);
             // The phases are sums and minima, so the minimum over sources may be taken before or after them.
-            const bool same = together[v] == smallest[v] ||
-                              std::abs(together[v] - smallest[v]) <= static_cast<float>(ROUNDING) * smallest[v];
+            const bool same = together[v] == smallest[v] || std::abs(together[v] - smallest[v]) <=
+                                                                static_cast<float>(ROUNDING) * smallest[v];
             differs += !same;
         }
         CHECK(unsound == 0);
@@ -133,19 +133,19 @@ TEST_CASE("the edge metric without pruning is exact: MSAD at all levels, SSSD at
     for (const QueryCase& test : query_cases()) {
         if (test.options.metric != GEOIDX_METRIC_EDGES || test.options.delta != 0) continue;
         CAPTURE(test.name);
-        const auto handle = build(test.mesh, test.options);
+        const geoidx* handle = index_of(test);
         const auto metric = solver(test.mesh, test.options);
         const uint32_t count = test.mesh.vertex_count();
         uint64_t inexact = 0;
         for (uint32_t a : random_ids(test.mesh, 5, 3)) {
-            const auto answers = msad(handle.get(), a, count);
+            const auto answers = msad(handle, a, count);
             const auto exact = metric_distances(metric.get(), a, count);
             for (uint32_t b = 0; b < count; ++b) {
                 const auto differs = [&](double answer) {
                     return answer != exact[b] && !(std::abs(answer - exact[b]) <= ROUNDING * exact[b]);
                 };
                 inexact += differs(double{answers[b]});
-                if (test.options.level_count == 1) inexact += differs(double{sssd(handle.get(), a, b)});
+                if (test.options.level_count == 1) inexact += differs(double{sssd(handle, a, b)});
             }
         }
         CHECK(inexact == 0);

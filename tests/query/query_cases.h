@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+
 #include "tests/capi/calls.h"
 
 namespace geodesic::test {
@@ -21,6 +23,14 @@ inline std::vector<QueryCase> query_cases() {
                                          std::to_string(levels) + " levels, delta " + std::to_string(delta),
                                      mesh, build_options(metric, levels, delta)});
     return cases;
+}
+
+// The index of a case, built once for all tests.
+inline const geoidx* index_of(const QueryCase& test) {
+    static std::map<std::string, IndexHandle> built;
+    IndexHandle& index = built[test.name];
+    if (!index) index = build(test.mesh, test.options);
+    return index.get();
 }
 
 // Relative rounding of the float sums of a query.

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "geoidx.h"
+#include "tests/capi/meshes.h"
+
+// The C API with owning handles and vectors. Each call is required to succeed.
+namespace geodesic::test {
+
+struct Close {
+    void operator()(geoidx* index) const { geoidx_close(index); }
+    void operator()(geoidx_query* query) const { geoidx_query_close(query); }
+    void operator()(geoidx_solver* solver) const { geoidx_solver_close(solver); }
+};
+using IndexHandle = std::unique_ptr<geoidx, Close>;
+using QueryHandle = std::unique_ptr<geoidx_query, Close>;
+using SolverHandle = std::unique_ptr<geoidx_solver, Close>;
+using Bytes = std::vector<std::byte>;
+
+// Two threads, whatever the machine, and the given levels.
+inline geoidx_build_options build_options(uint32_t metric = GEOIDX_METRIC_EXACT, uint32_t levels = 0,
+                                          double delta = 0) {
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    options.metric = metric;
+    options.level_count = levels;
+    options.delta = delta;
+    options.threads = 2;
+    for (uint32_t l = 0; l < levels; ++l) options.patches[l] = levels == 1 ? 9 : levels == 2 ? 4 : 3;
+    return options;
+}
+
+inline void require_success(geoidx_status status) {
+    INFO("status: ", std::string(geoidx_status_string(status)),
+         ", detail: ", std::string(geoidx_last_error()));
+    REQUIRE(status == GEOIDX_OK);
+}
+
+inline IndexHandle build(const TestMesh& mesh, const geoidx_build_options& options) {
+    const geoidx_mesh view = mesh.view();
+    geoidx* index = nullptr;
+    require_success(geoidx_build(&view, &options, &index));
+    REQUIRE(index != nullptr);
+    return IndexHandle(index);
+}
+
+inline Bytes save(const geoidx* index) {
+    uint64_t size = 0;
+    require_success(geoidx_save_memory(index, nullptr, 0, &size));
+    Bytes bytes(size);
+    require_success(geoidx_save_memory(index, bytes.data(), bytes.size(), &size));
+    REQUIRE(size == bytes.size());
+    return bytes;
+}
+
+inline IndexHandle open(std::span<const std::byte> bytes) {
+    geoidx* index = nullptr;
+    require_success(geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &index));
+    return IndexHandle(index);
+}
+
+inline geoidx_status open_status(std::span<const std::byte> bytes) {
+    geoidx* index = nullptr;
+    const geoidx_status status = geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &index);
+    const IndexHandle owned(index);
+    CHECK((status == GEOIDX_OK) == (index != nullptr));
+    return status;
+}
+
+inline float sssd(const geoidx* index, uint32_t source, uint32_t target) {
+    float distance = -1;
+    require_success(geoidx_sssd(index, source, target, &distance));
+    return distance;
+}
+
+inline std::vector<float> msad(const geoidx* index, std::span<const uint32_t> sources, uint32_t count) {
+    std::vector<float> distances(count, -1.0f);
+    require_success(
+        geoidx_msad(index, sources.data(), static_cast<uint32_t>(sources.size()), distances.data(), count));
+    return distances;
+}
+
+inline std::vector<float> msad(const geoidx* index, uint32_t source, uint32_t count) {
+    return msad(index, std::span(&source, 1), count);
+}
+
+inline SolverHandle solver(const TestMesh& mesh, const geoidx_build_options& options) {
+    const geoidx_mesh view = mesh.view();
+    geoidx_solver* made = nullptr;
+    require_success(geoidx_solver_create(&view, &options, &made));
+    return SolverHandle(made);
+}
+
+// The metric itself, to every vertex.
+inline std::vector<double> metric_distances(geoidx_solver* solver, std::span<const uint32_t> sources,
+                                            uint32_t count) {
+    std::vector<double> distances(count, -1.0);
+    require_success(geoidx_solver_distances(solver, sources.data(), static_cast<uint32_t>(sources.size()),
+                                            nullptr, count, distances.data()));
+    return distances;
+}
+
+inline std::vector<double> metric_distances(geoidx_solver* solver, uint32_t source, uint32_t count) {
+    return metric_distances(solver, std::span(&source, 1), count);
+}
+
+inline geoidx_info info_of(const geoidx* index) {
+    geoidx_info info{};
+    info.struct_size = sizeof info;
+    require_success(geoidx_get_info(index, &info));
+    return info;
+}
+
+}

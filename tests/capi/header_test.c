@@ -1,0 +1,170 @@
+/* geoidx.h in C99: every function has the documented type, and a program from build to answer works. Returns
+ * 0, or the number of the line that failed. */
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "geoidx.h"
+
+int geoidx_header_test(void);
+
+#define EXPECT(condition)                                                                                    \
+    do {                                                                                                     \
+        if (!(condition)) return __LINE__;                                                                   \
+    } while (0)
+
+/* A function whose type differs from geoidx.h's does not compile here. */
+static uint32_t (*const version)(void) = geoidx_version;
+static const char* (*const status_string)(geoidx_status) = geoidx_status_string;
+static const char* (*const last_error)(void) = geoidx_last_error;
+static void (*const mesh_init)(geoidx_mesh*) = geoidx_mesh_init;
+static void (*const build_options_init)(geoidx_build_options*) = geoidx_build_options_init;
+static void (*const open_options_init)(geoidx_open_options*) = geoidx_open_options_init;
+static geoidx_status (*const build)(const geoidx_mesh*, const geoidx_build_options*, geoidx**) = geoidx_build;
+static geoidx_status (*const save)(const geoidx*, const char*) = geoidx_save;
+static geoidx_status (*const save_memory)(const geoidx*, void*, uint64_t, uint64_t*) = geoidx_save_memory;
+static geoidx_status (*const open_file)(const char*, const geoidx_open_options*, geoidx**) = geoidx_open;
+static geoidx_status (*const open_memory)(const void*, uint64_t, const geoidx_open_options*,
+                                          geoidx**) = geoidx_open_memory;
+static void (*const close_index)(geoidx*) = geoidx_close;
+static geoidx_status (*const get_info)(const geoidx*, geoidx_info*) = geoidx_get_info;
+static geoidx_status (*const verify)(const void*, uint64_t, geoidx_issue_fn, void*) = geoidx_verify;
+static geoidx_status (*const sssd)(const geoidx*, uint32_t, uint32_t, float*) = geoidx_sssd;
+static geoidx_status (*const sssd_batch)(const geoidx*, const uint32_t*, uint64_t,
+                                         float*) = geoidx_sssd_batch;
+static geoidx_status (*const msad)(const geoidx*, const uint32_t*, uint32_t, float*, uint32_t) = geoidx_msad;
+static geoidx_status (*const query_create)(const geoidx*, geoidx_query**) = geoidx_query_create;
+static void (*const query_close)(geoidx_query*) = geoidx_query_close;
+static geoidx_status (*const query_sssd)(geoidx_query*, uint32_t, uint32_t, float*) = geoidx_query_sssd;
+static geoidx_status (*const query_msad)(geoidx_query*, const uint32_t*, uint32_t, float*,
+                                         uint32_t) = geoidx_query_msad;
+static geoidx_status (*const solver_create)(const geoidx_mesh*, const geoidx_build_options*,
+                                            geoidx_solver**) = geoidx_solver_create;
+static void (*const solver_close)(geoidx_solver*) = geoidx_solver_close;
+static geoidx_status (*const solver_distances)(geoidx_solver*, const uint32_t*, uint32_t, const uint32_t*,
+                                               uint32_t, double*) = geoidx_solver_distances;
+
+enum { SIDE = 6, COUNT = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1) };
+
+static float positions[COUNT][3];
+static uint32_t triangles[TRIANGLES][3];
+
+static void make_grid(geoidx_mesh* mesh) {
+    uint32_t x, y, t = 0;
+    for (y = 0; y < SIDE; ++y)
+        for (x = 0; x < SIDE; ++x) {
+            positions[y * SIDE + x][0] = (float)x;
+            positions[y * SIDE + x][1] = (float)y;
+            positions[y * SIDE + x][2] = 0;
+        }
+    for (y = 0; y + 1 < SIDE; ++y)
+        for (x = 0; x + 1 < SIDE; ++x, t += 2) {
+            const uint32_t a = y * SIDE + x;
+            triangles[t][0] = a;
+            triangles[t][1] = a + 1;
+            triangles[t][2] = a + SIDE + 1;
+            triangles[t + 1][0] = a;
+            triangles[t + 1][1] = a + SIDE + 1;
+            triangles[t + 1][2] = a + SIDE;
+        }
+    mesh_init(mesh);
+    mesh->positions = positions;
+    mesh->vertex_count = COUNT;
+    mesh->triangles = triangles[0];
+    mesh->triangle_count = TRIANGLES;
+}
+
+static int32_t count_issue(void* user, geoidx_status status, uint64_t offset, const char* message) {
+    (void)offset;
+    if (status < 0 && message) ++*(int*)user;
+    return 1;
+}
+
+/* A flat convex mesh: the distance is the straight line. */
+static int is_straight(uint32_t a, uint32_t b, double distance) {
+    const double x = positions[a][0] - positions[b][0], y = positions[a][1] - positions[b][1];
+    return fabs(distance - sqrt(x * x + y * y)) < 0.1;
+}
+
+static int check_queries(const geoidx* index) {
+    geoidx_query* query = NULL;
+    const uint32_t sources[2] = {0, COUNT - 1}, pairs[4] = {0, COUNT - 1, 5, 5};
+    float all[COUNT], same[COUNT], batch[2], one = -1;
+    EXPECT(sssd(index, 0, COUNT - 1, &one) == GEOIDX_OK && is_straight(0, COUNT - 1, one));
+    EXPECT(sssd_batch(index, pairs, 2, batch) == GEOIDX_OK && batch[0] == one && batch[1] == 0);
+    EXPECT(msad(index, sources, 2, all, COUNT) == GEOIDX_OK && is_straight(0, SIDE - 1, all[SIDE - 1]));
+    EXPECT(query_create(index, &query) == GEOIDX_OK);
+    EXPECT(query_sssd(query, 0, COUNT - 1, &one) == GEOIDX_OK && one == batch[0]);
+    EXPECT(query_msad(query, sources, 2, same, COUNT) == GEOIDX_OK && memcmp(all, same, sizeof all) == 0);
+    query_close(query);
+    return 0;
+}
+
+static int check_memory(const geoidx* index) {
+    uint64_t size = 0;
+    void* bytes;
+    geoidx* opened = NULL;
+    geoidx_open_options options;
+    int issues = 0, failed;
+    EXPECT(save_memory(index, NULL, 0, &size) == GEOIDX_OK && size > 0);
+    bytes = malloc((size_t)size);
+    EXPECT(bytes && save_memory(index, bytes, size, &size) == GEOIDX_OK);
+    EXPECT(verify(bytes, size, count_issue, &issues) == GEOIDX_OK && issues == 0);
+    EXPECT(verify(bytes, size - 1, count_issue, &issues) == GEOIDX_ERROR_TRUNCATED && issues > 0);
+    open_options_init(&options);
+    EXPECT(open_memory(bytes, size, &options, &opened) == GEOIDX_OK);
+    free(bytes);
+    failed = check_queries(opened);
+    close_index(opened);
+    return failed;
+}
+
+static int check_file(const geoidx* index) {
+    static const char name[] = "geoidx_header_test.gidx";
+    geoidx* opened = NULL;
+    int failed;
+    EXPECT(save(index, name) == GEOIDX_OK);
+    EXPECT(open_file(name, NULL, &opened) == GEOIDX_OK);
+    EXPECT(remove(name) == 0);
+    failed = check_queries(opened);
+    close_index(opened);
+    return failed;
+}
+
+static int check_solver(const geoidx_mesh* mesh) {
+    geoidx_solver* solver = NULL;
+    const uint32_t source = 0, target = COUNT - 1;
+    double distance = -1;
+    EXPECT(solver_create(mesh, NULL, &solver) == GEOIDX_OK);
+    EXPECT(solver_distances(solver, &source, 1, &target, 1, &distance) == GEOIDX_OK);
+    EXPECT(fabs(distance - (SIDE - 1) * sqrt(2.0)) < 1e-12);
+    solver_close(solver);
+    return 0;
+}
+
+int geoidx_header_test(void) {
+    geoidx_mesh mesh;
+    geoidx_build_options options;
+    geoidx_info info;
+    geoidx* index = NULL;
+    int failed;
+    EXPECT(version() / 10000 == GEOIDX_VERSION_MAJOR);
+    EXPECT(strcmp(status_string(GEOIDX_OK), status_string(GEOIDX_ERROR_IO)) != 0);
+    make_grid(&mesh);
+    build_options_init(&options);
+    options.level_count = 1;
+    options.patches[0] = 4;
+    EXPECT(build(&mesh, NULL, NULL) == GEOIDX_ERROR_INVALID_ARGUMENT && strlen(last_error()) > 0);
+    EXPECT(build(&mesh, &options, &index) == GEOIDX_OK);
+    memset(&info, 0, sizeof info);
+    info.struct_size = sizeof info;
+    EXPECT(get_info(index, &info) == GEOIDX_OK && info.vertex_count == COUNT && info.level_count == 1);
+    failed = check_queries(index);
+    if (!failed) failed = check_memory(index);
+    if (!failed) failed = check_file(index);
+    if (!failed) failed = check_solver(&mesh);
+    close_index(index);
+    return failed;
+}

@@ -1,0 +1,175 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "geoidx.h"
+
+namespace geodesic::test {
+
+struct TestMesh {
+    std::vector<double> positions; // x, y, z of each vertex
+    std::vector<uint32_t> triangles;
+
+    uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size() / 3); }
+    uint32_t triangle_count() const { return static_cast<uint32_t>(triangles.size() / 3); }
+
+    uint32_t add_vertex(double x, double y, double z) {
+        positions.insert(positions.end(), {x, y, z});
+        return vertex_count() - 1;
+    }
+    void add_triangle(uint32_t a, uint32_t b, uint32_t c) { triangles.insert(triangles.end(), {a, b, c}); }
+
+    // As the library takes it; valid as long as this mesh is not changed.
+    geoidx_mesh view() const {
+        geoidx_mesh mesh;
+        geoidx_mesh_init(&mesh);
+        mesh.position_type = GEOIDX_POSITION_DOUBLE;
+        mesh.positions = positions.data();
+        mesh.vertex_count = vertex_count();
+        mesh.triangles = triangles.data();
+        mesh.triangle_count = triangle_count();
+        return mesh;
+    }
+
+    double straight(uint32_t a, uint32_t b) const {
+        return std::hypot(positions[3 * a] - positions[3 * b], positions[3 * a + 1] - positions[3 * b + 1],
+                          positions[3 * a + 2] - positions[3 * b + 2]);
+    }
+};
+
+inline TestMesh one_triangle() { return {{0, 0, 0, 3, 0, 0, 0, 4, 0}, {0, 1, 2}}; }
+inline TestMesh two_triangles() { return {{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {0, 1, 2, 0, 2, 3}}; }
+
+// A flat rectangle of `columns` x `rows` vertices, one unit apart. `jitter` moves every vertex but those on
+// the boundary by at most so much along x and y; below 0.3 no triangle turns over.
+inline TestMesh grid(uint32_t columns, uint32_t rows, double jitter = 0) {
+    std::mt19937 random(7);
+    const auto moved = [&](uint32_t i, uint32_t count) {
+        const double unit = static_cast<double>(random()) / 4294967296.0;
+        return i + (i == 0 || i + 1 == count ? 0 : jitter * (2 * unit - 1));
+    };
+    TestMesh mesh;
+    for (uint32_t y = 0; y < rows; ++y)
+        for (uint32_t x = 0; x < columns; ++x) {
+            const bool boundary = x == 0 || y == 0 || x + 1 == columns || y + 1 == rows;
+            mesh.add_vertex(boundary ? x : moved(x, columns), boundary ? y : moved(y, rows), 0);
+        }
+    for (uint32_t y = 0; y + 1 < rows; ++y)
+        for (uint32_t x = 0; x + 1 < columns; ++x) {
+            const uint32_t a = y * columns + x, b = a + 1, c = a + columns, d = c + 1;
+            mesh.add_triangle(a, b, d);
+            mesh.add_triangle(a, d, c);
+        }
+    return mesh;
+}
+
+// A grid lifted into hills: no closed form, no symmetry.
+inline TestMesh hills(uint32_t columns, uint32_t rows) {
+    TestMesh mesh = grid(columns, rows, 0.25);
+    for (size_t i = 0; i < mesh.positions.size(); i += 3)
+        mesh.positions[i + 2] = 1.5 * std::sin(mesh.positions[i] * 0.7) * std::cos(mesh.positions[i + 1]);
+    return mesh;
+}
+
+// `around` x `along` vertices on a torus of the radii 3 and 1.
+inline TestMesh torus(uint32_t around, uint32_t along) {
+    constexpr double TURN = 6.283185307179586;
+    TestMesh mesh;
+    for (uint32_t i = 0; i < around; ++i)
+        for (uint32_t j = 0; j < along; ++j) {
+            const double u = TURN * i / around, v = TURN * j / along, r = 3 + std::cos(v);
+            mesh.add_vertex(r * std::cos(u), r * std::sin(u), std::sin(v));
+        }
+    const auto at = [&](uint32_t i, uint32_t j) { return i % around * along + j % along; };
+    for (uint32_t i = 0; i < around; ++i)
+        for (uint32_t j = 0; j < along; ++j) {
+            mesh.add_triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+            mesh.add_triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+        }
+    return mesh;
+}
+
+// Poles and `rings` circles of `around` vertices on the unit sphere.
+inline TestMesh sphere(uint32_t rings, uint32_t around) {
+    constexpr double TURN = 6.283185307179586;
+    TestMesh mesh;
+    for (uint32_t i = 0; i < rings; ++i)
+        for (uint32_t j = 0; j < around; ++j) {
+            const double v = TURN / 2 * (i + 1) / (rings + 1), u = TURN * (j + 0.5 * (i % 2)) / around;
+            mesh.add_vertex(std::sin(v) * std::cos(u), std::sin(v) * std::sin(u), std::cos(v));
+        }
+    const uint32_t north = mesh.add_vertex(0, 0, 1), south = mesh.add_vertex(0, 0, -1);
+    const auto at = [&](uint32_t i, uint32_t j) { return i * around + j % around; };
+    for (uint32_t j = 0; j < around; ++j) {
+        mesh.add_triangle(north, at(0, j), at(0, j + 1));
+        mesh.add_triangle(south, at(rings - 1, j + 1), at(rings - 1, j));
+        for (uint32_t i = 0; i + 1 < rings; ++i) {
+            const uint32_t shift = i % 2; // of the next ring against this one
+            mesh.add_triangle(at(i, j), at(i + 1, j + shift), at(i, j + 1));
+            mesh.add_triangle(at(i, j + 1), at(i + 1, j + shift), at(i + 1, j + shift + 1));
+        }
+    }
+    return mesh;
+}
+
+inline void append(TestMesh& mesh, const TestMesh& other, double shift) {
+    const uint32_t first = mesh.vertex_count();
+    for (size_t i = 0; i < other.positions.size(); ++i)
+        mesh.positions.push_back(other.positions[i] + (i % 3 == 0 ? shift : 0));
+    for (uint32_t v : other.triangles) mesh.triangles.push_back(first + v);
+}
+
+// Three components and, before, between and after them, vertices that no triangle uses.
+inline TestMesh components_and_unused() {
+    TestMesh mesh;
+    mesh.add_vertex(-50, 0, 0);
+    append(mesh, hills(14, 13), 0);
+    mesh.add_vertex(50, 0, 0);
+    append(mesh, one_triangle(), 100);
+    append(mesh, sphere(7, 12), 200);
+    mesh.add_vertex(300, 0, 0);
+    return mesh;
+}
+
+// A grid cut into two along its middle column, which both halves have: what exporters make of a texture seam.
+inline TestMesh seam(uint32_t columns, uint32_t rows) {
+    TestMesh mesh = grid(columns, rows, 0.2);
+    const uint32_t middle = columns / 2, whole = mesh.vertex_count();
+    for (uint32_t y = 0; y < rows; ++y) {
+        const size_t i = 3 * size_t{y * columns + middle};
+        mesh.add_vertex(mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);
+    }
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+        uint32_t leftmost = columns;
+        for (size_t k = 0; k < 3; ++k) leftmost = std::min(leftmost, mesh.triangles[t + k] % columns);
+        for (size_t k = 0; k < 3; ++k)
+            if (leftmost >= middle && mesh.triangles[t + k] % columns == middle)
+                mesh.triangles[t + k] = whole + mesh.triangles[t + k] / columns;
+    }
+    return mesh;
+}
+
+struct NamedMesh {
+    std::string name;
+    TestMesh mesh;
+};
+
+// One of each kind, 3 to 330 vertices.
+inline std::vector<NamedMesh> mesh_zoo() {
+    return {{"one triangle", one_triangle()},
+            {"two triangles", two_triangles()},
+            {"grid", grid(15, 12)},
+            {"jittered grid", grid(14, 13, 0.25)},
+            {"hills", hills(18, 18)},
+            {"sphere", sphere(10, 16)},
+            {"torus", torus(20, 10)},
+            {"components and unused vertices", components_and_unused()},
+            {"seam", seam(15, 11)}};
+}
+
+}

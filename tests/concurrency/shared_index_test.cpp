@@ -1,0 +1,113 @@
+// One index, many threads: every thread gets what one thread alone gets. The thread sanitizer watches.
+
+#include <atomic>
+#include <barrier>
+#include <thread>
+
+#include "tests/capi/calls.h"
+#include "tests/capi/counting_allocator.h"
+
+using namespace geodesic::test;
+
+namespace {
+
+constexpr uint32_t THREADS = 8, ROUNDS = 12;
+
+struct Expected {
+    std::vector<uint32_t> pairs;
+    std::vector<float> of_pairs;
+    std::vector<std::vector<float>> of_sources; // [i]: MSAD of pairs[2 i] and pairs[2 i + 1]
+};
+
+Expected single_threaded(const geoidx* index, uint32_t count) {
+    Expected expected;
+    for (uint32_t i = 0; i < ROUNDS; ++i) {
+        const uint32_t a = i * 67 % count, b = (i * 151 + 40) % count;
+        expected.pairs.insert(expected.pairs.end(), {a, b});
+        expected.of_pairs.push_back(sssd(index, a, b));
+        expected.of_sources.push_back(msad(index, std::vector<uint32_t>{a, b}, count));
+    }
+    return expected;
+}
+
+// No doctest macro here: they take locks, which would order what should not be ordered.
+uint64_t differences(const geoidx* index, uint32_t thread, uint32_t count, const Expected& expected) {
+    uint64_t wrong = 0;
+    geoidx_query* query = nullptr;
+    wrong += geoidx_query_create(index, &query) != GEOIDX_OK;
+    std::vector<float> distances(count), batch(ROUNDS);
+    for (uint32_t step = 0; step < ROUNDS; ++step) {
+        const uint32_t i = (step + thread) % ROUNDS; // each in another order
+        const uint32_t* pair = &expected.pairs[2 * i];
+        float distance = -1;
+        wrong += geoidx_sssd(index, pair[0], pair[1], &distance) != GEOIDX_OK;
+        wrong += distance != expected.of_pairs[i];
+        wrong += geoidx_query_sssd(query, pair[1], pair[0], &distance) != GEOIDX_OK;
+        wrong += distance != expected.of_pairs[i];
+        wrong += geoidx_msad(index, pair, 2, distances.data(), count) != GEOIDX_OK;
+        wrong += distances != expected.of_sources[i];
+        wrong += geoidx_query_msad(query, pair, 2, distances.data(), count) != GEOIDX_OK;
+        wrong += distances != expected.of_sources[i];
+        wrong += geoidx_sssd_batch(index, expected.pairs.data(), ROUNDS, batch.data()) != GEOIDX_OK;
+        wrong += batch != expected.of_pairs;
+        wrong += geoidx_sssd(index, count + thread, 0, &distance) != GEOIDX_ERROR_INVALID_ARGUMENT;
+        wrong += std::string(geoidx_last_error()).find(std::to_string(count + thread)) == std::string::npos;
+        geoidx_info info{};
+        info.struct_size = sizeof info;
+        wrong += geoidx_get_info(index, &info) != GEOIDX_OK || info.vertex_count != count;
+    }
+    geoidx_query_close(query);
+    return wrong;
+}
+
+}
+
+TEST_CASE("eight threads on one index get the answers of one thread") {
+    const TestMesh mesh = hills(20, 18);
+    const uint32_t count = mesh.vertex_count();
+    CountingAllocator allocator;
+    auto options = build_options(GEOIDX_METRIC_EDGES, 3);
+    options.allocator = allocator.get();
+    auto index = build(mesh, options);
+    const Expected expected = single_threaded(index.get(), count);
+    std::vector<uint64_t> wrong(THREADS, 0);
+    {
+        std::barrier start(THREADS);
+        std::vector<std::jthread> threads;
+        for (uint32_t t = 0; t < THREADS; ++t)
+            threads.emplace_back([&, t] {
+                start.arrive_and_wait();
+                wrong[t] = differences(index.get(), t, count, expected);
+            });
+    }
+    for (uint64_t differing : wrong) CHECK(differing == 0);
+    index.reset();
+    CHECK(allocator.blocks() == 0);
+    CHECK(allocator.mistakes() == 0);
+}
+
+TEST_CASE("saving, opening and querying at once") {
+    const TestMesh mesh = hills(12, 11);
+    const auto index = build(mesh, build_options(GEOIDX_METRIC_EDGES, 2));
+    const Bytes bytes = save(index.get());
+    const auto expected = msad(index.get(), 0, 132);
+    std::atomic<uint64_t> wrong = 0;
+    {
+        std::vector<std::jthread> threads;
+        for (uint32_t t = 0; t < 4; ++t)
+            threads.emplace_back([&] {
+                Bytes saved(bytes.size());
+                uint64_t size = 0;
+                wrong += geoidx_save_memory(index.get(), saved.data(), saved.size(), &size) != GEOIDX_OK;
+                wrong += saved != bytes;
+                geoidx* opened = nullptr;
+                wrong += geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &opened) != GEOIDX_OK;
+                std::vector<float> distances(132);
+                const uint32_t source = 0;
+                wrong += geoidx_msad(opened, &source, 1, distances.data(), 132) != GEOIDX_OK;
+                wrong += distances != expected;
+                geoidx_close(opened);
+            });
+    }
+    CHECK(wrong == 0);
+}

@@ -1,0 +1,345 @@
+// Index files with right checksums and wrong content, one field at a time.
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/capi/counting_allocator.h"
+#include "tests/format/helpers.h"
+#include "tests/index/taken_apart.h"
+
+using namespace geodesic;
+using namespace geodesic::test;
+
+namespace {
+
+constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
+constexpr uint32_t UNREACHABLE_NUMBER = UINT32_MAX;
+
+struct Original {
+    Bytes file;
+    TakenApart parts;
+    uint64_t fingerprint;
+
+    Original() {
+        auto options = build_options(GEOIDX_METRIC_EDGES, 2);
+        options.patches[0] = options.patches[1] = 3;
+        const auto index = build(hills(9, 8), options);
+        file = save(index.get());
+        fingerprint = info_of(index.get()).mesh_fingerprint;
+        parts = take_apart(file);
+        take_tables_apart(file, parts);
+    }
+};
+
+const Original& original() {
+    static const Original the_original;
+    return the_original;
+}
+
+Bytes with(const std::function<void(TakenApart&)>& change) {
+    TakenApart parts = original().parts;
+    change(parts);
+    return put_together(parts, original().parts, original().fingerprint);
+}
+
+// Opens with an allocator that notes the largest request; verify must agree with open.
+geoidx_status status_of_file(const Bytes& file) {
+    CountingAllocator allocator;
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    options.allocator = allocator.get();
+    geoidx* index = nullptr;
+    const geoidx_status status = geoidx_open_memory(file.data(), file.size(), &options, &index);
+    CHECK((status == GEOIDX_OK) == (index != nullptr));
+    geoidx_close(index);
+    CHECK(allocator.blocks() == 0);
+    CHECK(allocator.largest() < 1 << 20);
+    CHECK(geoidx_verify(file.data(), file.size(), nullptr, nullptr) == status);
+    return status;
+}
+
+void check_corrupt(const std::string& what, const std::function<void(TakenApart&)>& change) {
+    CAPTURE(what);
+    CHECK(status_of_file(with(change)) == GEOIDX_ERROR_CORRUPT);
+    CHECK(std::string(geoidx_last_error()).size() > 0);
+}
+
+}
+
+TEST_CASE("the parts put together unchanged are the original file") {
+    CHECK(with([](TakenApart&) {}) == original().file);
+    REQUIRE(original().parts.leaf_count() >= 4);
+    REQUIRE(original().parts.inner_count >= 3);
+}
+
+TEST_CASE("crafted META") {
+    const auto set = [](auto field, auto value) {
+        return [field, value](TakenApart& parts) { parts.meta.*field = value; };
+    };
+    using Meta = TakenApart::Meta;
+    for (uint64_t count :
+         {uint64_t{0}, uint64_t{71}, uint64_t{73}, uint64_t{UINT32_MAX}, uint64_t{1} << 62, UINT64_MAX})
+        check_corrupt("id count", set(&Meta::id_count, count));
+    for (float scale : {-1e-6f, 1.0001f, 1e30f, INFINITE, NOT_A_NUMBER, -INFINITE})
+        check_corrupt("bound scale", set(&Meta::bound_scale, scale));
+    for (double delta : {-1.0, 100.1, double{INFINITE}, double{NOT_A_NUMBER}})
+        check_corrupt("delta", set(&Meta::delta, delta));
+    for (double diagonal : {-1.0, double{INFINITE}, double{NOT_A_NUMBER}})
+        check_corrupt("diagonal", set(&Meta::diagonal, diagonal));
+    for (size_t i = 0; i < 5; ++i)
+        check_corrupt("error", [i](TakenApart& parts) { parts.meta.errors[i] = double{NOT_A_NUMBER}; });
+    check_corrupt("bytes too many",
+                  [](TakenApart& parts) { parts.extra_bytes[TAG_META] = Bytes(1, std::byte{0}); });
+}
+
+TEST_CASE("crafted HIER") {
+    for (uint32_t levels : {0u, 1u, 3u, 8u, 9u, 1u << 31, UINT32_MAX})
+        check_corrupt("level count", [&](TakenApart& parts) { parts.level_count = levels; });
+    const uint64_t inner = original().parts.inner_count;
+    for (uint64_t count :
+         {uint64_t{0}, inner - 1, inner + 1, uint64_t{UINT32_MAX}, uint64_t{1} << 61, UINT64_MAX})
+        check_corrupt("inner count", [&](TakenApart& parts) { parts.inner_count = count; });
+    for (size_t patch = 0; patch < inner; ++patch)
+        for (uint32_t change : {0u, 1u, 1000u, 1u << 30, UINT32_MAX})
+            check_corrupt("child count", [&](TakenApart& parts) {
+                parts.children[patch] = change == 1 ? parts.children[patch] + 1 : change;
+            });
+    check_corrupt("a patch too few", [](TakenApart& parts) { parts.children.pop_back(); });
+    check_corrupt("a patch too many", [](TakenApart& parts) { parts.children.push_back(1); });
+    check_corrupt("children moved to another parent", [](TakenApart& parts) {
+        ++parts.children[1];
+        --parts.children[2];
+    });
+    check_corrupt("bytes too many",
+                  [](TakenApart& parts) { parts.extra_bytes[TAG_HIERARCHY] = Bytes(3, std::byte{0}); });
+}
+
+TEST_CASE("crafted VERT and POSI") {
+    const auto vertices = static_cast<uint32_t>(original().parts.vertex_count);
+    for (uint64_t count : {uint64_t{0}, uint64_t{vertices} - 1, uint64_t{vertices} + 1, uint64_t{1} << 32,
+                           uint64_t{1} << 62, UINT64_MAX})
+        check_corrupt("vertex count", [&](TakenApart& parts) { parts.vertex_count = count; });
+    for (uint32_t number : {vertices, vertices + 1, UINT32_MAX - 1})
+        for (size_t id : {size_t{0}, original().parts.number_of_id.size() - 1})
+            check_corrupt("vertex number", [&](TakenApart& parts) { parts.number_of_id[id] = number; });
+    check_corrupt("an id too few", [](TakenApart& parts) { parts.number_of_id.pop_back(); });
+    check_corrupt("an id too many", [](TakenApart& parts) { parts.number_of_id.push_back(0); });
+    for (float coordinate : {INFINITE, -INFINITE, NOT_A_NUMBER})
+        for (size_t i : {size_t{0}, original().parts.positions.size() - 1})
+            check_corrupt("position", [&](TakenApart& parts) { parts.positions[i] = coordinate; });
+    check_corrupt("a coordinate too few", [](TakenApart& parts) { parts.positions.pop_back(); });
+    check_corrupt("a coordinate too many", [](TakenApart& parts) { parts.positions.push_back(0); });
+}
+
+TEST_CASE("an id may be made unreachable, and then is") {
+    const auto index = open(with([](TakenApart& parts) { parts.number_of_id[5] = UNREACHABLE_NUMBER; }));
+    CHECK(sssd(index.get(), 5, 6) == INFINITE);
+    CHECK(msad(index.get(), 0, 72)[5] == INFINITE);
+}
+
+TEST_CASE("crafted BORD") {
+    const TakenApart& good = original().parts;
+    using Sizes = std::vector<uint32_t> TakenApart::*;
+    for (Sizes sizes : {&TakenApart::owned, &TakenApart::internal, &TakenApart::border_sizes})
+        for (size_t i = 0; i < (good.*sizes).size(); ++i)
+            for (uint32_t change : {1u, UINT32_MAX, 1u << 31, 1000000u})
+                check_corrupt("a count", [&](TakenApart& parts) { (parts.*sizes)[i] += change; });
+    uint32_t border_count = 0;
+    for (uint32_t count : good.owned) border_count += count;
+    for (uint32_t number : {border_count, border_count + 1, UINT32_MAX})
+        for (size_t i : {size_t{0}, good.border.size() - 1})
+            check_corrupt("border vertex", [&](TakenApart& parts) { parts.border[i] = number; });
+    check_corrupt("a border vertex too few", [](TakenApart& parts) { parts.border.pop_back(); });
+    check_corrupt("a border vertex too many", [](TakenApart& parts) { parts.border.push_back(0); });
+    check_corrupt("counts that wrap around together", [](TakenApart& parts) {
+        parts.owned[0] += 1u << 31;
+        parts.owned[1] += 1u << 31;
+    });
+    check_corrupt("a vertex moved from one owner to another",
+                  [](TakenApart& parts) { ++parts.owned[1], --parts.owned[0]; });
+    check_corrupt("a vertex of the borders made internal", [](TakenApart& parts) {
+        --parts.owned.back();
+        ++parts.internal[0];
+    });
+    check_corrupt("a vertex moved from one leaf to another", [](TakenApart& parts) {
+        ++parts.internal[0];
+        --parts.internal[1];
+    });
+    check_corrupt("a place moved from one border to the next", [](TakenApart& parts) {
+        ++parts.border_sizes[0];
+        --parts.border_sizes[1];
+    });
+}
+
+TEST_CASE("a border vertex that is not in the overlay of the patch's parent is refused") {
+    const TakenApart& good = original().parts;
+    const uint32_t first_child = 1 + good.children[0]; // of patch 1, on level 2
+    size_t begin = 0;
+    for (uint32_t p = 1; p < first_child; ++p) begin += good.border_sizes[p - 1];
+    // The last border vertex that an inner patch of level 1 owns, put on the border of a child of another.
+    uint32_t foreign = 0;
+    for (uint32_t count : good.owned) foreign += count;
+    REQUIRE(good.owned.back() > 0);
+    REQUIRE(good.border_sizes[first_child - 1] > 0);
+    check_corrupt("border vertex of a cousin", [&](TakenApart& parts) { parts.border[begin] = foreign - 1; });
+    // A vertex that a level-1 patch owns, on the border of a level-1 patch.
+    check_corrupt("border vertex of a child", [&](TakenApart& parts) { parts.border[0] = foreign - 1; });
+}
+
+TEST_CASE("a vertex that stands twice on one border is refused") {
+    check_corrupt("twice", [](TakenApart& parts) { parts.border[1] = parts.border[0]; });
+}
+
+TEST_CASE("crafted tables") {
+    for (uint32_t tag : {TAG_BORDER_TABLES, TAG_CROSSING_TABLES, TAG_INTERNAL_TABLES}) {
+        REQUIRE(original().parts.tables.at(tag).size() > 10);
+        for (float entry : {NOT_A_NUMBER, -1.0f, -INFINITE, -1e-40f})
+            for (size_t i : {size_t{0}, original().parts.tables.at(tag).size() - 1})
+                check_corrupt("entry", [&](TakenApart& parts) { parts.tables.at(tag)[i] = entry; });
+    }
+}
+
+TEST_CASE("matrices of another shape, and too many or too few, are refused") {
+    const TakenApart& good = original().parts;
+    for (uint32_t tag : {TAG_BORDER_TABLES, TAG_CROSSING_TABLES, TAG_INTERNAL_TABLES}) {
+        const auto file_with = [&](const std::function<void(std::vector<format::MatrixView>&)>& change) {
+            format::ContainerWriter writer(original().fingerprint);
+            const auto container = format::Container::parse(original().file, INDEX_TAGS);
+            for (const format::Section& section : container.sections()) {
+                if (section.codec != format::Codec::Png) {
+                    writer.add_bytes(section.tag, container.read_bytes(section.tag, UINT64_MAX));
+                    continue;
+                }
+                std::vector<format::MatrixView> matrices;
+                const std::span<const float> values(good.tables.at(section.tag));
+                size_t next = 0;
+                for (const auto& [rows, cols] : shapes_of(good, section.tag)) {
+                    matrices.push_back({values.subspan(next, size_t{rows} * cols), rows, cols});
+                    next += size_t{rows} * cols;
+                }
+                if (section.tag == tag) change(matrices);
+                writer.add_matrices(section.tag, matrices);
+            }
+            return writer.finish();
+        };
+        CHECK(status_of_file(file_with([](auto&) {})) == GEOIDX_OK);
+        CHECK(status_of_file(file_with([](auto& matrices) { matrices.pop_back(); })) == GEOIDX_ERROR_CORRUPT);
+        CHECK(status_of_file(file_with([](auto& matrices) { matrices.push_back(matrices[0]); })) ==
+              GEOIDX_ERROR_CORRUPT);
+        // Transposed: as many entries, another shape.
+        CHECK(status_of_file(file_with([](auto& matrices) {
+                  for (auto& matrix : matrices) {
+                      if (matrix.rows == matrix.cols) continue;
+                      std::swap(matrix.rows, matrix.cols);
+                      return;
+                  }
+                  FAIL("all matrices are square");
+              })) == GEOIDX_ERROR_CORRUPT);
+        // Two as one: as many entries, another number of matrices.
+        CHECK(status_of_file(file_with([](auto& matrices) {
+                  const auto entries =
+                      static_cast<uint32_t>(matrices[0].values.size() + matrices[1].values.size());
+                  matrices[0] = {{matrices[0].values.data(), entries}, 1, entries};
+                  matrices.erase(matrices.begin() + 1);
+              })) == GEOIDX_ERROR_CORRUPT);
+    }
+}
+
+TEST_CASE("a section that is missing is refused") {
+    for (uint32_t tag : INDEX_TAGS) {
+        CAPTURE(format::tag_text(tag));
+        check_corrupt("missing", [&](TakenApart& parts) { parts.missing_tag = tag; });
+    }
+}
+
+// A zstd frame of a few bytes that states `content` and holds nothing.
+static Bytes hollow_frame(uint64_t content) {
+    Bytes frame = format::test::bytes_of({0x28, 0xB5, 0x2F, 0xFD, 0xC0, 0x00});
+    frame.resize(14);
+    format::test::put(frame, 6, content, 8);
+    for (int byte : {0x01, 0x00, 0x00}) frame.push_back(static_cast<std::byte>(byte));
+    return frame;
+}
+
+// What the file claims is compared with what is stored before memory is asked for: OUT_OF_MEMORY, or a crash
+// of the sanitizer, would show that it was not.
+TEST_CASE("hostile sizes are refused before memory is allocated for them") {
+    constexpr uint64_t HUGE_SIZE = uint64_t{1} << 39;
+    for (uint32_t victim : {TAG_META, TAG_HIERARCHY, TAG_VERTICES, TAG_POSITIONS, TAG_BORDERS}) {
+        CAPTURE(format::tag_text(victim));
+        format::ContainerWriter writer(1);
+        const auto container = format::Container::parse(original().file, INDEX_TAGS);
+        size_t position = 0;
+        for (size_t i = 0; i < container.sections().size(); ++i) {
+            const uint32_t tag = container.sections()[i].tag;
+            if (tag == victim) {
+                position = i;
+                writer.add_raw(tag, hollow_frame(HUGE_SIZE));
+            } else if (container.sections()[i].codec == format::Codec::Png) {
+                writer.add_matrices(tag, {});
+            } else {
+                writer.add_bytes(tag, container.read_bytes(tag, UINT64_MAX));
+            }
+        }
+        Bytes file = writer.finish();
+        format::test::put(file, format::test::record(position) + format::test::CODEC, 1, 4);
+        format::test::put(file, format::test::record(position) + format::test::RAW_SIZE, HUGE_SIZE, 8);
+        format::test::reseal(file);
+        CHECK(status_of_file(file) == GEOIDX_ERROR_CORRUPT);
+    }
+}
+
+TEST_CASE("a hierarchy of more patches than the file has room for is refused before it is made") {
+    // BORD claims a terabyte, HIER that the root has 2^31 children.
+    format::ContainerWriter writer(1);
+    const auto container = format::Container::parse(original().file, INDEX_TAGS);
+    size_t position = 0;
+    for (size_t i = 0; i < container.sections().size(); ++i) {
+        const uint32_t tag = container.sections()[i].tag;
+        if (tag == TAG_BORDERS) {
+            position = i;
+            writer.add_raw(tag, hollow_frame(uint64_t{1} << 40));
+        } else if (tag == TAG_HIERARCHY) {
+            format::ByteWriter bytes;
+            bytes.u32(1);
+            bytes.u64(1);
+            bytes.u32(1u << 31);
+            writer.add_bytes(tag, bytes.take());
+        } else if (container.sections()[i].codec == format::Codec::Png) {
+            writer.add_matrices(tag, {});
+        } else {
+            writer.add_bytes(tag, container.read_bytes(tag, UINT64_MAX));
+        }
+    }
+    Bytes file = writer.finish();
+    format::test::put(file, format::test::record(position) + format::test::CODEC, 1, 4);
+    format::test::put(file, format::test::record(position) + format::test::RAW_SIZE, uint64_t{1} << 40, 8);
+    format::test::reseal(file);
+    CHECK(status_of_file(file) == GEOIDX_ERROR_CORRUPT);
+}
+
+// Content that no check can tell from an honest file must still not crash or hang queries: any distances that
+// are not negative, however they contradict each other.
+TEST_CASE("tables of nonsense distances give answers without NaN") {
+    std::vector<float> values;
+    for (float value : {0.0f, 1e-45f, 1e-38f, 1.0f, 1e30f, 3.4e38f, INFINITE}) values.push_back(value);
+    for (uint32_t seed = 0; seed < 12; ++seed) {
+        std::mt19937 random(seed);
+        const auto index = open(with([&](TakenApart& parts) {
+            for (auto& [tag, table] : parts.tables)
+                for (float& entry : table)
+                    entry = seed < values.size() ? values[seed] : values[random() % values.size()];
+            parts.meta.bound_scale = seed % 2 ? 1.0f : 0.0f;
+        }));
+        for (uint32_t a = 0; a < 72; a += 5) {
+            for (float distance : msad(index.get(), a, 72)) CHECK(distance >= 0);
+            for (uint32_t b = 0; b < 72; ++b) {
+                const float there = sssd(index.get(), a, b);
+                CHECK(there >= 0);
+                CHECK(there == sssd(index.get(), b, a));
+            }
+        }
+    }
+}

@@ -1,0 +1,107 @@
+// A valid index cut at every length and with every byte changed.
+
+#include <cstring>
+
+#include "tests/capi/calls.h"
+
+using namespace geodesic::test;
+
+namespace {
+
+// A few KB, two levels, all sections with content.
+Bytes small_index() {
+    auto options = build_options(GEOIDX_METRIC_EDGES, 2);
+    options.patches[0] = options.patches[1] = 2;
+    return save(build(grid(5, 4, 0.2), options).get());
+}
+
+struct Issues {
+    geoidx_status first = GEOIDX_OK;
+    uint64_t count = 0, stop_after = UINT64_MAX, file_size = 0, misplaced = 0, unnamed = 0;
+
+    static int32_t add(void* user, geoidx_status status, uint64_t offset, const char* message) {
+        auto& issues = *static_cast<Issues*>(user);
+        if (issues.count++ == 0) issues.first = status;
+        issues.misplaced += offset > issues.file_size;
+        issues.unnamed += !message || std::strlen(message) == 0;
+        return issues.count < issues.stop_after;
+    }
+};
+
+// Both doors refuse, verify for a reason that it names.
+bool is_refused(const Bytes& bytes) {
+    const geoidx_status status = open_status(bytes);
+    Issues issues;
+    issues.file_size = bytes.size();
+    const geoidx_status verified = geoidx_verify(bytes.data(), bytes.size(), Issues::add, &issues);
+    return status < 0 && verified == status && issues.count > 0 && issues.first == verified &&
+           issues.unnamed == 0 && issues.misplaced == 0;
+}
+
+}
+
+TEST_CASE("an index cut at any length is refused") {
+    const Bytes whole = small_index();
+    REQUIRE(whole.size() < 10000);
+    for (size_t size = 0; size < whole.size(); ++size) {
+        const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)); // no byte beyond
+        if (!is_refused(cut) || open_status(cut) != GEOIDX_ERROR_TRUNCATED) {
+            CAPTURE(size);
+            CHECK(is_refused(cut));
+            CHECK(open_status(cut) == GEOIDX_ERROR_TRUNCATED);
+        }
+    }
+}
+
+TEST_CASE("an index with any byte changed is refused") {
+    const Bytes whole = small_index();
+    Bytes changed = whole;
+    for (size_t i = 0; i < whole.size(); ++i) {
+        for (int flip : {0x01, 0x80, 0xFF, 0x24}) {
+            changed[i] = whole[i] ^ static_cast<std::byte>(flip);
+            if (is_refused(changed)) continue;
+            CAPTURE(i);
+            CAPTURE(flip);
+            CHECK(is_refused(changed));
+        }
+        changed[i] = whole[i];
+    }
+    CHECK(open_status(changed) == GEOIDX_OK);
+}
+
+TEST_CASE("an index with bytes after its end is refused") {
+    Bytes longer = small_index();
+    longer.push_back(std::byte{0});
+    CHECK(is_refused(longer));
+    CHECK(open_status(longer) == GEOIDX_ERROR_CORRUPT);
+}
+
+TEST_CASE("verify goes on after a problem and stops when the callback says so") {
+    Bytes damaged = small_index();
+    // The middle of the stored bytes of the first and the last section: two checksums.
+    damaged[damaged.size() - 5] ^= std::byte{0x10};
+    const auto read_u64 = [&](size_t offset) {
+        uint64_t value;
+        std::memcpy(&value, damaged.data() + offset, sizeof value); // little-endian hosts only, as CI is
+        return value;
+    };
+    const uint64_t first_section = read_u64(48 + 16);
+    damaged[first_section + 5] ^= std::byte{0x10};
+
+    Issues all;
+    all.file_size = damaged.size();
+    CHECK(geoidx_verify(damaged.data(), damaged.size(), Issues::add, &all) == GEOIDX_ERROR_CHECKSUM);
+    CHECK(all.count == 2);
+    CHECK(std::string(geoidx_last_error()).size() > 0);
+    Issues one;
+    one.file_size = damaged.size();
+    one.stop_after = 1;
+    CHECK(geoidx_verify(damaged.data(), damaged.size(), Issues::add, &one) == GEOIDX_ERROR_CHECKSUM);
+    CHECK(one.count == 1);
+    CHECK(geoidx_verify(damaged.data(), damaged.size(), nullptr, nullptr) == GEOIDX_ERROR_CHECKSUM);
+
+    const Bytes whole = small_index();
+    Issues none;
+    CHECK(geoidx_verify(whole.data(), whole.size(), Issues::add, &none) == GEOIDX_OK);
+    CHECK(none.count == 0);
+}

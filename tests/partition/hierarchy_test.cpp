@@ -1,0 +1,258 @@
+#include "src/partition/hierarchy.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "geoidx.h"
+#include "src/metric/edge_graph.h"
+#include "src/metric/window_propagation.h"
+#include "src/partition/patch.h"
+#include "src/partition/split.h"
+#include "tests/support/meshes.h"
+#include "tests/support/oracles.h"
+
+using namespace geodesic;
+using namespace geodesic::test;
+
+namespace {
+
+using Faces = std::vector<uint32_t>;
+
+struct Surface {
+    std::string name;
+    Soup soup;
+};
+
+Soup triangles(uint32_t count) {
+    Soup soup = grid(1, 1, 1, 1);
+    soup.triangles.resize(count);
+    if (count == 1) soup.positions.pop_back(), soup.triangles[0] = {0, 1, 2};
+    return soup;
+}
+
+std::vector<Surface> surfaces() {
+    return {{"sphere", bumpy_sphere(3, 1)},
+            {"torus", torus(30, 14, 2, 0.7)},
+            {"thin torus", torus(60, 4, 3, 0.2)},
+            {"grid", grid(20, 20, 1, 1)},
+            {"tube", prism(8, 40, 30)},
+            {"annulus", annulus(40, 5)},
+            {"Moebius strip", moebius(40, 4)},
+            {"components",
+             joined(joined(sphere(2), torus(9, 7, 2, 0.5)), joined(triangles(1), grid(6, 6, 1, 1)))},
+            {"pinched", pinched_sheets(6)},
+            {"triangle", triangles(1)},
+            {"two triangles", triangles(2)}};
+}
+
+// Edges between faces, found anew: faces that share two vertices.
+bool edge_connected(const Mesh& mesh, const Faces& faces) {
+    std::map<std::array<uint32_t, 2>, std::vector<size_t>> faces_at;
+    for (size_t i = 0; i < faces.size(); ++i)
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t a = mesh.faces[faces[i]][k], b = mesh.faces[faces[i]][(k + 1) % 3];
+            faces_at[{std::min(a, b), std::max(a, b)}].push_back(i);
+        }
+    std::vector<size_t> group(faces.size());
+    std::iota(group.begin(), group.end(), size_t{0});
+    const auto find = [&](size_t i) {
+        while (group[i] != i) i = group[i];
+        return i;
+    };
+    for (const auto& [edge, at] : faces_at)
+        for (size_t i : at) group[find(i)] = find(at.front());
+    for (size_t i = 0; i < faces.size(); ++i)
+        if (find(i) != find(0)) return false;
+    return !faces.empty();
+}
+
+uint32_t border_rings(const Mesh& mesh, const Faces& faces) {
+    std::vector<uint8_t> inside(mesh.face_count(), 0);
+    for (uint32_t f : faces) inside[f] = 1;
+    return count_border_rings(mesh, faces, inside);
+}
+
+Hierarchy build(const Mesh& mesh, std::vector<uint32_t> split, uint64_t seed = 1, uint32_t threads = 1) {
+    const ExactMetric metric(mesh);
+    Workers workers(metric, threads, {});
+    return build_hierarchy(mesh, {std::move(split), 4, seed}, workers);
+}
+
+bool same(const Hierarchy& a, const Hierarchy& b) {
+    return a.level_begin == b.level_begin && a.parent == b.parent && a.child_begin == b.child_begin &&
+           a.leaf_of_face == b.leaf_of_face;
+}
+
+void check_numbering(const Hierarchy& h, size_t levels) {
+    REQUIRE(h.level_begin.size() == levels + 2);
+    REQUIRE(h.level_count() == levels);
+    CHECK(h.level_begin[0] == 0);
+    CHECK(h.level_begin[1] == 1);
+    CHECK(h.level_begin.back() == h.patch_count());
+    CHECK(h.parent[0] == NONE);
+    REQUIRE(h.child_begin.size() == h.patch_count() + 1);
+    for (uint32_t level = 0; level <= levels; ++level)
+        for (uint32_t p = h.level_begin[level]; p < h.level_begin[level + 1]; ++p) {
+            const uint32_t begin = h.child_begin[p], end = h.child_begin[p + 1];
+            if (level == levels) {
+                CHECK(begin == end);
+                continue;
+            }
+            CHECK(begin < end);
+            CHECK(begin >= h.level_begin[level + 1]);
+            CHECK(end <= h.level_begin[level + 2]);
+            for (uint32_t c = begin; c < end; ++c) CHECK(h.parent[c] == p);
+        }
+}
+
+// The faces of every patch of every level, from the leaves upwards.
+std::vector<Faces> faces_of_patches(const Hierarchy& h) {
+    std::vector<Faces> faces(h.patch_count());
+    for (uint32_t f = 0; f < h.leaf_of_face.size(); ++f)
+        for (uint32_t p = h.leaf_of_face[f]; p != NONE; p = h.parent[p]) faces[p].push_back(f);
+    return faces;
+}
+
+}
+
+TEST_CASE("hierarchy: every face in one leaf, patches connected, nested, with one border ring at most") {
+    for (const auto& [name, soup] : surfaces()) {
+        CAPTURE(name);
+        const Mesh mesh = mesh_of(soup);
+        for (const auto& split : {std::vector<uint32_t>{1}, {7}, {5, 4}, {3, 3, 3}, {2, 1, 6}, {1000, 3}}) {
+            CAPTURE(split.size());
+            CAPTURE(split[0]);
+            const Hierarchy h = build(mesh, split);
+            check_numbering(h, split.size());
+            REQUIRE(h.leaf_of_face.size() == mesh.face_count());
+            for (uint32_t leaf : h.leaf_of_face) {
+                REQUIRE(leaf >= h.first_leaf());
+                REQUIRE(leaf < h.patch_count());
+            }
+            const auto faces = faces_of_patches(h);
+            for (uint32_t p = 1; p < h.patch_count(); ++p) {
+                CHECK(edge_connected(mesh, faces[p]));
+                CHECK(border_rings(mesh, faces[p]) <= 1);
+            }
+        }
+    }
+}
+
+TEST_CASE("hierarchy: about as many patches as asked for, of about the same size") {
+    for (const Soup& soup : {bumpy_sphere(4, 1), grid(30, 30, 1, 1), torus(50, 24, 2, 0.8)}) {
+        const Mesh mesh = mesh_of(soup);
+        const Hierarchy h = build(mesh, {12, 6});
+        const uint32_t first = h.level_begin[2] - h.level_begin[1],
+                       second = h.level_begin[3] - h.level_begin[2];
+        CHECK(first >= 10);
+        CHECK(first <= 18); // a patch with two rings is split in three
+        CHECK(second >= 5 * first);
+        CHECK(second <= 9 * first);
+        const auto faces = faces_of_patches(h);
+        for (uint32_t p = 1; p < h.level_begin[2]; ++p)
+            CHECK(faces[p].size() <= 4 * mesh.face_count() / first); // Poisson disks: no giant among them
+    }
+}
+
+TEST_CASE("hierarchy: the same for 1, 2 and 4 threads, another for another seed") {
+    for (const auto& [name, soup] : surfaces()) {
+        CAPTURE(name);
+        const Mesh mesh = mesh_of(soup);
+        const Hierarchy one = build(mesh, {4, 4}, 5, 1);
+        for (uint32_t threads : {1u, 2u, 4u}) CHECK(same(one, build(mesh, {4, 4}, 5, threads)));
+        if (mesh.face_count() < 20) continue;
+        CHECK(!same(one, build(mesh, {4, 4}, 6)));
+        CHECK(!same(one, build(mesh, {4, 4}, 5 + (uint64_t{1} << 63)))); // all 64 bits count
+    }
+}
+
+TEST_CASE("hierarchy: other metrics split, too, also with edges of no length") {
+    const Mesh mesh = mesh_of(grid(12, 12, 1, 1));
+    std::vector<double> cost = edge_lengths(mesh);
+    for (size_t e = 0; e < cost.size(); e += 2) cost[e] = 0;
+    for (const auto& costs : {edge_lengths(mesh), cost, std::vector<double>(cost.size(), 0.0)}) {
+        const EdgeGraphMetric metric(mesh, costs);
+        Workers workers(metric, 2, {});
+        const Hierarchy h = build_hierarchy(mesh, {{5, 3}, 4, 1}, workers);
+        check_numbering(h, 2);
+        const auto faces = faces_of_patches(h);
+        for (uint32_t p = 1; p < h.patch_count(); ++p) {
+            CHECK(edge_connected(mesh, faces[p]));
+            CHECK(border_rings(mesh, faces[p]) <= 1);
+        }
+    }
+}
+
+TEST_CASE("hierarchy: a cancelled build ends with CANCELLED") {
+    const Mesh mesh = mesh_of(bumpy_sphere(3, 1));
+    const ExactMetric metric(mesh);
+    Workers workers(metric, 2, [](double, const char*) { return false; });
+    CHECK(failure_of([&] { build_hierarchy(mesh, {{8, 4}, 4, 1}, workers); }) == GEOIDX_ERROR_CANCELLED);
+}
+
+TEST_CASE("split_patch: a part of the mesh, into a partition of just its faces") {
+    for (const auto& [name, soup] : surfaces()) {
+        CAPTURE(name);
+        const Mesh mesh = mesh_of(soup);
+        const ExactMetric metric(mesh);
+        const Workers workers(metric, 1, {});
+        const auto solver = metric.make_solver();
+        Faces faces;
+        for (uint32_t f = 0; f < mesh.face_count(); ++f)
+            if (f % 16 < 9 || f == 0) faces.push_back(f); // scattered: parts of many components
+        for (uint32_t count : {1u, 3u, 10u, 500u}) {
+            Random random(count);
+            Faces together;
+            for (const Faces& patch : split_patch(mesh, faces, count, 2, *solver, random, workers)) {
+                CHECK(edge_connected(mesh, patch));
+                CHECK(border_rings(mesh, patch) <= 1);
+                together.insert(together.end(), patch.begin(), patch.end());
+            }
+            std::sort(together.begin(), together.end());
+            CHECK(together == faces);
+        }
+    }
+}
+
+TEST_CASE("automatic_split: what the caller gives is kept, the rest fills up to small leaves") {
+    const std::vector<uint32_t> given{17, 0, 5};
+    const auto split = automatic_split(1000000, 4, given);
+    REQUIRE(split.size() == 4);
+    CHECK(split[0] == 17);
+    CHECK(split[2] == 5);
+    CHECK(split[1] == split[3]);
+    CHECK(split[1] > 1);
+    CHECK(automatic_split(50, 2, std::vector<uint32_t>{3, 4}) == std::vector<uint32_t>{3, 4});
+    CHECK(automatic_split(10, 100, {}).size() == GEOIDX_MAX_LEVELS);
+    for (uint32_t level_count : {0u, 1u, 2u, 3u, 8u})
+        for (uint32_t vertices : {1u, 3u, 100u, 5000u, 50000u, 1000000u, UINT32_MAX - 1}) {
+            const auto counts = automatic_split(vertices, level_count, {});
+            REQUIRE(!counts.empty());
+            CHECK(counts.size() <= GEOIDX_MAX_LEVELS);
+            if (level_count) CHECK(counts.size() == level_count);
+            double leaves = 1;
+            for (uint32_t count : counts) {
+                CHECK(count >= 1);
+                leaves *= count;
+            }
+            // The design's leaves have 64 vertices or some more; rounding each of up to 8 factors moves that.
+            if (level_count == 0) {
+                CHECK(vertices / leaves <= 256);
+                if (vertices >= 5000) CHECK(vertices / leaves >= 32);
+            }
+        }
+    CHECK(automatic_split(1, 0, {}) == std::vector<uint32_t>{1});
+    // More levels for more vertices, never fewer.
+    size_t before = 1;
+    for (uint32_t vertices = 100; vertices < 100000000; vertices *= 2) {
+        const size_t levels = automatic_split(vertices, 0, {}).size();
+        CHECK(levels >= before);
+        before = levels;
+    }
+    CHECK(before > 2);
+}
