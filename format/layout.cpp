@@ -131,7 +131,7 @@ private:
             layout_.sections.push_back(record.section);
         }
         if (end != layout_.header.file_size) {
-            fail(GEOIDX_ERROR_CORRUPT, end,
+            fail(GEOIDX_ERROR_CORRUPT, std::min<std::uint64_t>(end, file_.size()),
                  "the last section ends at offset " + std::to_string(end) + ", the file at " +
                      std::to_string(layout_.header.file_size));
         }
@@ -179,8 +179,12 @@ private:
     void check_raw_size(const Section& section, std::uint64_t at) const {
         // The most that deflate can make of one byte.
         constexpr std::uint64_t MAX_DEFLATE_RATIO = 1032;
+        // Of zstd: a block of 4 bytes can stand for 128 KiB.
+        constexpr std::uint64_t MAX_ZSTD_BLOCK = 128 * 1024, MIN_ZSTD_BLOCK = 4;
         const bool is_wrong =
             (section.codec == Codec::Raw && section.raw_size != section.stored_size) ||
+            (section.codec == Codec::Zstd &&
+             section.raw_size / MAX_ZSTD_BLOCK > section.stored_size / MIN_ZSTD_BLOCK) ||
             (section.codec == Codec::Png && section.raw_size / MAX_DEFLATE_RATIO > section.stored_size);
         if (!is_wrong || !is_known(section)) return;
         fail(GEOIDX_ERROR_CORRUPT, at,

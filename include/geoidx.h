@@ -114,7 +114,7 @@ typedef struct geoidx_mesh {
     const uint32_t* triangles; /* three vertex ids a triangle */
     uint64_t triangle_count;   /* 1 .. 2^32 - 2 */
     uint32_t position_stride;  /* bytes from one vertex to the next; 0: tightly packed */
-    uint32_t reserved;         /* 0 */
+    uint32_t reserved;         /* not read */
 } geoidx_mesh;
 
 GEOIDX_API void geoidx_mesh_init(geoidx_mesh* mesh);
@@ -164,7 +164,7 @@ GEOIDX_API void geoidx_build_options_init(geoidx_build_options* options);
 
 typedef struct geoidx_open_options {
     uint32_t struct_size;
-    uint32_t reserved;                /* 0 */
+    uint32_t reserved;                /* not read */
     const geoidx_mesh* expected_mesh; /* may be NULL; otherwise the index must have been built from this very
                                          mesh (same arrays, same numbers), else GEOIDX_ERROR_MESH_MISMATCH */
     geoidx_allocator allocator;
@@ -254,7 +254,8 @@ GEOIDX_API geoidx_status geoidx_sssd_batch(const geoidx* index, const uint32_t* 
 GEOIDX_API geoidx_status geoidx_msad(const geoidx* index, const uint32_t* sources, uint32_t source_count,
                                      float* distances, uint32_t distance_count);
 
-/* One thread's scratch, so that a query neither allocates nor locks. The index must outlive it. */
+/* One thread's scratch, so that a query does not lock and, after the first ones, does not allocate. The index
+ * must outlive it. */
 GEOIDX_API geoidx_status geoidx_query_create(const geoidx* index, geoidx_query** out);
 GEOIDX_API void geoidx_query_close(geoidx_query* query);
 GEOIDX_API geoidx_status geoidx_query_sssd(geoidx_query* query, uint32_t source, uint32_t target,

@@ -1,6 +1,7 @@
 #include "src/index/index.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "format/error.h"
@@ -110,6 +111,15 @@ void derive(Index& index) {
     for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf)
         for (uint32_t i = 0; i < index.internal_size(leaf); ++i)
             index.leaf_of_internal[index.first_internal(leaf) - index.border_vertex_count() + i] = leaf;
+}
+
+double straight_distance(const Index& index, uint32_t a, uint32_t b) {
+    double square = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const double difference = double{index.positions[a][k]} - double{index.positions[b][k]};
+        square += difference * difference;
+    }
+    return std::sqrt(square);
 }
 
 }

@@ -126,4 +126,7 @@ void allocate_tables(Index& index);
 // its parent's overlay.
 void derive(Index& index);
 
+// The length of the straight line between two vertices, given by their numbers.
+double straight_distance(const Index& index, uint32_t a, uint32_t b);
+
 }

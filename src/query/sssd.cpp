@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "src/query/query.h"
@@ -28,14 +27,11 @@ float crossing_distance(const Index& index, uint32_t border_vertex, uint32_t int
     return INFINITE;
 }
 
+// A lower bound that no table entry undercuts (paper 3.4), which makes the search A*.
+float bound(const Index& index, uint32_t a, uint32_t b) {
+    return static_cast<float>(double{index.bound_scale} * straight_distance(index, a, b));
 }
 
-// A lower bound that no table entry undercuts (paper 3.4), which makes the search A*.
-static float bound(const Index& index, uint32_t a, uint32_t b) {
-    const auto& p = index.positions[a];
-    const auto& q = index.positions[b];
-    const float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
-    return index.bound_scale * std::sqrt(x * x + y * y + z * z);
 }
 
 float Query::sssd(uint32_t source_id, uint32_t target_id) {

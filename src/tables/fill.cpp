@@ -1,7 +1,6 @@
 #include "src/tables/fill.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace geodesic {
 
@@ -70,20 +69,11 @@ private:
     std::span<const uint32_t> vertex_of_number_;
 };
 
-double straight(const Index& index, uint32_t a, uint32_t b) {
-    double square = 0;
-    for (size_t k = 0; k < 3; ++k) {
-        const double difference = double{index.positions[a][k]} - double{index.positions[b][k]};
-        square += difference * difference;
-    }
-    return std::sqrt(square);
-}
-
 double smallest_ratio_of_patch(const Index& index, uint32_t patch) {
     double smallest = 1;
     const auto border = index.border_of(patch);
     const auto compare = [&](float distance, uint32_t a, uint32_t b) {
-        const double line = straight(index, a, b);
+        const double line = straight_distance(index, a, b);
         if (line > 0 && double{distance} < smallest * line) smallest = double{distance} / line;
     };
     for (uint32_t i = 0; i < border.size(); ++i) {
