@@ -145,13 +145,16 @@ typedef struct geoidx_build_options {
     double delta;     /* pruning threshold, % of the bounding-box diagonal (paper 3.3); 0 (default): none */
     uint64_t seed;    /* of every random choice; the same seed gives the same bytes */
     uint32_t threads; /* 0 (default): one per processor */
-    uint32_t level_count; /* levels below the whole mesh, at most GEOIDX_MAX_LEVELS; 0 (default): automatic */
-    uint32_t patches[8]; /* patches[0]: n1, patches of level 1; patches[i]: patches that each patch of level i
-                            is split into (n2 is patches[1]); 0 (default): in proportion to the vertices */
+    /* Levels below the whole mesh, at most GEOIDX_MAX_LEVELS; 0 (default): automatic. */
+    uint32_t level_count;
+    /* patches[0] is n1, the number of patches of level 1; patches[i] how many each patch of level i is split
+     * into (patches[1] is n2). A patch with several border rings is split further, so there can be more. 0
+     * (default): in proportion to the vertices. */
+    uint32_t patches[8];
     uint32_t lloyd_iterations; /* relaxations of the seeds (paper 3.1); default 4 */
-    uint32_t
-        edge_cost_count; /* GEOIDX_METRIC_EDGES: length of the two arrays below; 0 (default): edge lengths */
-    const uint32_t* edge_cost_vertices; /* two ids an edge; edges not listed keep their length as cost */
+    /* GEOIDX_METRIC_EDGES: the costs of some edges; the others cost their length. */
+    uint32_t edge_cost_count;           /* 0 (default): none, the next two are not read */
+    const uint32_t* edge_cost_vertices; /* two ids an edge */
     const double* edge_costs;           /* finite and not negative; an edge given twice takes the smaller */
     geoidx_metric_fn metric_callback;   /* GEOIDX_METRIC_CALLBACK only */
     void* metric_user;

@@ -62,6 +62,8 @@ std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options&
 HierarchyOptions hierarchy_options(const Intake& intake, const geoidx_build_options& options) {
     HierarchyOptions result;
     result.split = automatic_split(intake.mesh.vertex_count(), options.level_count, options.patches);
+    for (size_t level = 0; level < result.split.size(); ++level)
+        result.in_proportion.push_back(options.patches[level] == 0);
     result.lloyd_iterations = options.lloyd_iterations;
     result.seed = options.seed;
     return result;

@@ -27,6 +27,9 @@ struct HierarchyOptions {
     std::vector<uint32_t> split; // split[l]: how many patches each patch of level l is split into
     uint32_t lloyd_iterations = 4;
     uint64_t seed = 0;
+    // Per level as split, none if empty: whether the number is that of a patch of average size, and others
+    // are split in proportion to theirs.
+    std::vector<uint8_t> in_proportion = {};
 };
 
 // How many levels, and how many patches each patch is split into, for a mesh of this size; counts given by

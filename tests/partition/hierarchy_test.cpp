@@ -219,6 +219,27 @@ TEST_CASE("split_patch: a part of the mesh, into a partition of just its faces")
     }
 }
 
+TEST_CASE("hierarchy: in proportion, a patch twice as large has twice the children") {
+    const Mesh mesh = mesh_of(jittered_grid(40, 5)); // discs only: nothing is split further
+    const ExactMetric metric(mesh);
+    Workers workers(metric, 1, {});
+    // Without relaxation patches are of very different sizes.
+    const Hierarchy h = build_hierarchy(mesh, {{6, 10}, 0, 3, {1, 1}}, workers);
+    std::vector<uint32_t> faces(h.patch_count(), 0);
+    for (uint32_t leaf : h.leaf_of_face) ++faces[h.parent[leaf]];
+    uint32_t fewest = UINT32_MAX, most = 0;
+    for (uint32_t p = 1; p < h.first_leaf(); ++p) {
+        const double expected = 60.0 * faces[p] / mesh.face_count();
+        const uint32_t children = h.child_begin[p + 1] - h.child_begin[p];
+        CAPTURE(expected);
+        CHECK(std::abs(children - expected) <=
+              0.5 + 0.2 * expected); // rounding, and seeds that fall together
+        fewest = std::min(fewest, children);
+        most = std::max(most, children);
+    }
+    CHECK(most > fewest);
+}
+
 TEST_CASE("automatic_split: what the caller gives is kept, the rest fills up to small leaves") {
     const std::vector<uint32_t> given{17, 0, 5};
     const auto split = automatic_split(1000000, 4, given);
