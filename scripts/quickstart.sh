@@ -5,8 +5,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh
-cmake --preset release -DGEOIDX_BUILD_TESTS=OFF
-cmake --build --preset release
+cmake --preset release
+cmake --build --preset release --target geoidx_tool
 
 tool=build/release/bin/geoidx
 out=build/quickstart
