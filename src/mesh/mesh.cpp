@@ -59,6 +59,12 @@ void connect(Mesh& mesh) {
     for (uint32_t& corner : mesh.vertex_faces.items) corner /= 3;
 }
 
+ListOfLists<uint32_t> edge_ends_at_vertices(const Mesh& mesh) {
+    std::vector<uint32_t> ends;
+    for (const auto& edge : mesh.edges) ends.insert(ends.end(), edge.begin(), edge.end());
+    return group_by(ends, mesh.vertex_count());
+}
+
 uint32_t find_edge(const Mesh& mesh, uint32_t a, uint32_t b) {
     const std::array<uint32_t, 2> wanted{std::min(a, b), std::max(a, b)};
     const auto found = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), wanted);

@@ -39,9 +39,7 @@ private:
 }
 
 EdgeGraphMetric::EdgeGraphMetric(const Mesh& mesh, std::span<const double> cost) {
-    std::vector<uint32_t> ends;
-    for (const auto& edge : mesh.edges) ends.insert(ends.end(), edge.begin(), edge.end());
-    const auto by_vertex = group_by(ends, mesh.vertex_count());
+    const auto by_vertex = edge_ends_at_vertices(mesh);
     auto arcs = std::make_shared<ListOfLists<Arc>>();
     for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         for (uint32_t end : by_vertex[v])

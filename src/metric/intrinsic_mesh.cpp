@@ -71,9 +71,7 @@ void add_sides(const Mesh& mesh, IntrinsicMesh& out) {
 }
 
 void add_spokes(const Mesh& mesh, IntrinsicMesh& out) {
-    std::vector<uint32_t> ends;
-    for (const auto& edge : mesh.edges) ends.insert(ends.end(), edge.begin(), edge.end());
-    const auto by_vertex = group_by(ends, mesh.vertex_count());
+    const auto by_vertex = edge_ends_at_vertices(mesh);
     for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         for (uint32_t end : by_vertex[v])
             out.spokes.items.push_back({out.edge_length[end / 2], end / 2, mesh.edges[end / 2][1 - end % 2]});

@@ -1,40 +1,13 @@
-#include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 #include <doctest/doctest.h>
 
-#include "tools/mesh_io/mesh_io.h"
+#include "tests/tools/mesh_texts.h"
 
 using namespace geodesic::tools;
+using namespace geodesic::tools::test;
 
 namespace {
-
-using Ids = std::vector<uint32_t>;
-using Numbers = std::vector<double>;
-
-template <class Reader>
-std::string error_of(Reader reader, const std::string& text) {
-    try {
-        reader(text);
-    } catch (const MeshFileError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-template <class Number>
-void append(std::string& bytes, Number number, bool big_endian = false) {
-    char raw[sizeof number];
-    std::memcpy(raw, &number, sizeof number);
-    if (big_endian != (std::endian::native == std::endian::big)) std::reverse(raw, raw + sizeof number);
-    bytes.append(raw, sizeof number);
-}
 
 const std::string OBJ_TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 

@@ -1,38 +1,13 @@
-#include <algorithm>
-#include <bit>
-#include <cstring>
-
 #include <doctest/doctest.h>
 
-#include "tools/mesh_io/mesh_io.h"
+#include "tests/tools/mesh_texts.h"
 
 using namespace geodesic::tools;
+using namespace geodesic::tools::test;
 
 namespace {
 
-using Ids = std::vector<uint32_t>;
-using Numbers = std::vector<double>;
-
-std::string ply_error(const std::string& bytes) {
-    try {
-        read_ply(bytes);
-    } catch (const MeshFileError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-template <class Number>
-void append(std::string& bytes, Number number, bool big_endian) {
-    char raw[sizeof number];
-    std::memcpy(raw, &number, sizeof number);
-    if (big_endian != (std::endian::native == std::endian::big)) std::reverse(raw, raw + sizeof number);
-    bytes.append(raw, sizeof number);
-}
+std::string ply_error(const std::string& bytes) { return error_of(read_ply, bytes); }
 
 std::string header(const std::string& format, const std::string& elements) {
     return "ply\nformat " + format + " 1.0\ncomment nothing\nobj_info nothing\n" + elements + "end_header\n";
