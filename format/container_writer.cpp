@@ -11,7 +11,11 @@
 namespace geodesic::format {
 
 void ContainerWriter::add_bytes(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags) {
-    add(tag, Codec::Zstd, flags, compress_zstd(raw), raw.size());
+    auto packed = compress_zstd(raw);
+    if (raw.size() / MAX_PACKING > packed.size())
+        add_raw(tag, raw, flags);
+    else
+        add(tag, Codec::Zstd, flags, std::move(packed), raw.size());
 }
 
 void ContainerWriter::add_raw(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags) {

@@ -138,6 +138,8 @@ std::string follow_links(const std::string& path) {
 
 void sync_directory(const std::filesystem::path& directory, const std::string& path) {
     const FileDescriptor opened(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    // Who may write into a directory need not be allowed to read it: then it cannot be synced.
+    if (opened.get() < 0 && errno == EACCES) return;
     // Some file systems cannot sync a directory and say EINVAL.
     if (opened.get() >= 0 && (::fsync(opened.get()) == 0 || errno == EINVAL)) return;
     fail_errno("sync the directory of the new file", path, errno);

@@ -177,15 +177,9 @@ private:
 
     // Refuses what cannot be true, before someone allocates memory for it.
     void check_raw_size(const Section& section, std::uint64_t at) const {
-        // The most that deflate can make of one byte.
-        constexpr std::uint64_t MAX_DEFLATE_RATIO = 1032;
-        // Of zstd: a block of 4 bytes can stand for 128 KiB.
-        constexpr std::uint64_t MAX_ZSTD_BLOCK = 128 * 1024, MIN_ZSTD_BLOCK = 4;
-        const bool is_wrong =
-            (section.codec == Codec::Raw && section.raw_size != section.stored_size) ||
-            (section.codec == Codec::Zstd &&
-             section.raw_size / MAX_ZSTD_BLOCK > section.stored_size / MIN_ZSTD_BLOCK) ||
-            (section.codec == Codec::Png && section.raw_size / MAX_DEFLATE_RATIO > section.stored_size);
+        const bool is_wrong = section.codec == Codec::Raw
+                                  ? section.raw_size != section.stored_size
+                                  : section.raw_size / MAX_PACKING > section.stored_size;
         if (!is_wrong || !is_known(section)) return;
         fail(GEOIDX_ERROR_CORRUPT, at,
              section_text(section) + " cannot hold " + std::to_string(section.raw_size) + " raw bytes in " +

@@ -14,6 +14,10 @@
 
 namespace geodesic::format {
 
+// A section may unpack to at most this many times its stored size, so that a small file cannot ask for much
+// memory.
+inline constexpr std::uint64_t MAX_PACKING = 1032; // the most that deflate can do
+
 // As in PNG, a byte over 127 that is no text, and both line ends, which show a file transferred as text.
 inline constexpr std::array<unsigned char, 8> MAGIC = {0x89, 'G', 'I', 'D', 'X', 0x0D, 0x0A, 0x1A};
 

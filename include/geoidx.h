@@ -103,9 +103,9 @@ enum { GEOIDX_POSITION_FLOAT = 0, GEOIDX_POSITION_DOUBLE = 1 };
 
 /* A triangle mesh, as arrays of the caller's. Vertices with equal positions are one vertex (see
  * weld_tolerance), degenerate and duplicate triangles are dropped, a vertex that no triangle uses keeps its
- * id and is unreachable. Any number of components, open boundaries, any genus, either orientation, and
- * vertices where several fans of triangles meet are fine. An edge with more than two triangles, a NaN or
- * infinite position and an index out of range are GEOIDX_ERROR_BAD_MESH. */
+ * id and is unreachable. Any number of components, open boundaries, any genus, either orientation, vertices
+ * where several fans of triangles meet, and edges with three or more triangles are fine: paths pass from each
+ * of them to every other. A NaN or infinite position and an index out of range are GEOIDX_ERROR_BAD_MESH. */
 typedef struct geoidx_mesh {
     uint32_t struct_size;
     uint32_t position_type;    /* GEOIDX_POSITION_FLOAT (default) or GEOIDX_POSITION_DOUBLE */
@@ -124,6 +124,11 @@ enum {
     GEOIDX_METRIC_EDGES = 1,   /* shortest path along edges; edge length, or the caller's cost per edge */
     GEOIDX_METRIC_CALLBACK = 2 /* metric_callback */
 };
+
+/* A flag of a metric: small pieces of the surface can be laid out in the plane with their distances kept, so
+ * that a path may be taken to cross an edge anywhere and straight. The exact metric is so, the edge graph is
+ * not. */
+enum { GEOIDX_METRIC_UNFOLDABLE = 1 };
 
 /* The caller's own metric: writes the distance from `source` to each of `targets` (ids of the caller's mesh)
  * into `distances` and returns GEOIDX_OK; any other value stops the build with GEOIDX_ERROR_CALLBACK.
@@ -161,6 +166,10 @@ typedef struct geoidx_build_options {
     geoidx_progress_fn progress; /* may be NULL */
     void* progress_user;
     geoidx_allocator allocator;
+    uint32_t refuse_edges_of_many; /* 1: an edge with more than two triangles is GEOIDX_ERROR_BAD_MESH;
+                                      default 0 */
+    uint32_t metric_flags; /* what GEOIDX_METRIC_CALLBACK declares itself to be: GEOIDX_METRIC_UNFOLDABLE or 0
+                              (default: symmetric only); not read for other metrics */
 } geoidx_build_options;
 
 GEOIDX_API void geoidx_build_options_init(geoidx_build_options* options);
@@ -199,6 +208,10 @@ typedef struct geoidx_info {
     double error_p99;
     double error_p999;
     double error_max;
+    uint64_t
+        metric_fingerprint; /* of what decides the metric besides the mesh (costs, lengths); 0: nothing */
+    uint32_t metric_flags;  /* GEOIDX_METRIC_UNFOLDABLE */
+    uint32_t reserved;      /* 0 */
 } geoidx_info;
 
 /* ---- Building, saving, opening

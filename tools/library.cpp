@@ -1,25 +1,14 @@
 #include "tools/library.h"
 
-#include <algorithm>
-
 #include "tools/failure.h"
 
 namespace geodesic::tools {
-
-namespace {
-
-std::string in_one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
-}
 
 void require_ok(geoidx_status status, const std::string& what) {
     if (status == GEOIDX_OK) return;
     std::string why = geoidx_last_error();
     if (why.empty()) why = geoidx_status_string(status);
-    throw Failure(what + ": " + in_one_line(why));
+    throw Failure(what + ": " + why);
 }
 
 geoidx_mesh view_of(const TriangleMesh& mesh) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -24,7 +25,8 @@ std::string chosen_command(const CLI::App& app) {
     return chosen.empty() ? "" : chosen.front()->get_name();
 }
 
-int report(const CLI::App& app, const std::string& message, ExitStatus status) {
+int report(const CLI::App& app, std::string message, ExitStatus status) {
+    std::ranges::replace(message, '\n', ' '); // a file name may hold one
     const std::string command = chosen_command(app);
     const std::string prefix = command.empty() ? "" : command + ": ";
     std::fprintf(stderr, "geoidx: %s%s\n", prefix.c_str(), message.c_str());

@@ -82,6 +82,13 @@ private:
 
 }
 
+bool is_same_path(const std::string& a, const std::string& b) {
+    std::error_code error_a, error_b;
+    const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, error_a), error_a);
+    const fs::path whole_b = fs::weakly_canonical(fs::absolute(b, error_b), error_b);
+    return error_a || error_b ? a == b : whole_a == whole_b;
+}
+
 void require_writable(const std::string& path, std::span<const std::string> inputs) {
     std::error_code ignored;
     if (path.empty()) throw Failure("the name of the output is empty");

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include <xxhash.h>
+
 #include "format/error.h"
 #include "src/build/measure.h"
 #include "src/metric/callback.h"
@@ -29,6 +31,8 @@ void check_options(const geoidx_build_options& options) {
     if (options.threads > 1024) invalid("threads is " + std::to_string(options.threads) + ", more than 1024");
     if (options.lloyd_iterations > 1000)
         invalid("lloyd_iterations is " + std::to_string(options.lloyd_iterations) + ", more than 1000");
+    if (options.metric_flags & ~uint32_t{GEOIDX_METRIC_UNFOLDABLE})
+        invalid("metric_flags is " + std::to_string(options.metric_flags) + ", which has unknown flags");
 }
 
 uint32_t vertex_of_id(const Intake& intake, uint32_t id) {
@@ -59,6 +63,18 @@ std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options&
     return costs;
 }
 
+uint32_t metric_flags(const geoidx_build_options& options) {
+    if (options.metric == GEOIDX_METRIC_EXACT) return GEOIDX_METRIC_UNFOLDABLE;
+    return options.metric == GEOIDX_METRIC_CALLBACK ? options.metric_flags : 0;
+}
+
+uint64_t metric_fingerprint(const geoidx_build_options& options) {
+    if (options.metric != GEOIDX_METRIC_EDGES || options.edge_cost_count == 0) return 0;
+    const size_t count = options.edge_cost_count;
+    const uint64_t pairs = XXH3_64bits(options.edge_cost_vertices, 2 * count * sizeof(uint32_t));
+    return XXH3_64bits_withSeed(options.edge_costs, count * sizeof(double), pairs);
+}
+
 HierarchyOptions hierarchy_options(const Intake& intake, const geoidx_build_options& options) {
     HierarchyOptions result;
     result.split = automatic_split(intake.mesh.vertex_count(), options.level_count, options.patches);
@@ -71,11 +87,13 @@ HierarchyOptions hierarchy_options(const Intake& intake, const geoidx_build_opti
 
 void describe(const Intake& intake, const geoidx_build_options& options, Index& index) {
     index.id_count = intake.vertex_of_id.size();
-    index.triangle_count = intake.triangle_count;
+    index.triangle_count = intake.face_of_triangle.size();
     index.mesh_fingerprint = intake.fingerprint;
     index.bounding_box_diagonal = intake.bounding_box_diagonal;
     index.seed = options.seed;
     index.metric = options.metric;
+    index.metric_flags = metric_flags(options);
+    index.metric_fingerprint = metric_fingerprint(options);
     index.delta = options.delta;
 }
 
@@ -86,6 +104,10 @@ ProgressFunction progress_function(const geoidx_build_options& options) {
     };
 }
 
+}
+
+IntakeOptions intake_options(const geoidx_build_options& options) {
+    return {options.weld_tolerance, options.refuse_edges_of_many != 0};
 }
 
 std::unique_ptr<Metric> make_metric(const Intake& intake, const geoidx_build_options& options) {
@@ -106,10 +128,13 @@ std::unique_ptr<Metric> make_metric(const Intake& intake, const geoidx_build_opt
 
 void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, Index& index) {
     check_options(options);
-    const Intake intake = take_in(mesh, options.weld_tolerance);
-    describe(intake, options, index);
+    const ProgressFunction progress = progress_function(options);
+    if (progress && !progress(0, "mesh"))
+        throw Error(GEOIDX_ERROR_CANCELLED, "the progress callback cancelled the build");
+    const Intake intake = take_in(mesh, intake_options(options));
     const auto metric = make_metric(intake, options);
-    Workers workers(*metric, options.threads, progress_function(options));
+    describe(intake, options, index);
+    Workers workers(*metric, options.threads, progress);
 
     workers.begin_stage("patches", 0.1);
     const Hierarchy hierarchy = build_hierarchy(intake.mesh, hierarchy_options(intake, options), workers);

@@ -10,6 +10,8 @@
 
 namespace geodesic {
 
+IntakeOptions intake_options(const geoidx_build_options& options);
+
 // The metric that the options ask for. `options` as geoidx_build_options, whole.
 std::unique_ptr<Metric> make_metric(const Intake& intake, const geoidx_build_options& options);
 

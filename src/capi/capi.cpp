@@ -79,6 +79,8 @@ void check_msad(const uint32_t* sources, const float* distances) {
 
 void fill_info(const Index& index, geoidx_info& info) {
     info.metric = index.metric;
+    info.metric_flags = index.metric_flags;
+    info.metric_fingerprint = index.metric_fingerprint;
     info.vertex_count = index.id_count;
     info.triangle_count = index.triangle_count;
     info.welded_vertex_count = index.vertex_count();
@@ -309,7 +311,7 @@ geoidx_status geoidx_solver_create(const geoidx_mesh* mesh, const geoidx_build_o
         require(mesh, "mesh is NULL");
         const auto all_options = whole_or_default(options, geoidx_build_options_init);
         auto solver = std::make_unique<geoidx_solver>();
-        solver->intake = take_in(whole(*mesh, geoidx_mesh_init), all_options.weld_tolerance);
+        solver->intake = take_in(whole(*mesh, geoidx_mesh_init), intake_options(all_options));
         solver->metric = make_metric(solver->intake, all_options);
         solver->solver = solver->metric->make_solver();
         *out = solver.release();

@@ -21,7 +21,10 @@ struct Workers::Failure {
 Workers::Workers(const Metric& metric, uint32_t thread_count, ProgressFunction progress)
     : progress_(std::move(progress)) {
     if (thread_count == 0) thread_count = std::max(1u, std::thread::hardware_concurrency());
-    for (uint32_t i = 0; i < thread_count; ++i) solvers_.push_back(metric.make_solver());
+    for (uint32_t i = 0; i < thread_count; ++i) {
+        solvers_.push_back(metric.make_solver());
+        solvers_.back()->cancel_when(cancelled_);
+    }
 }
 
 void Workers::begin_stage(const char* name, double end_fraction) {

@@ -38,6 +38,8 @@ struct Index {
     // What the mesh and the options were.
     uint64_t id_count = 0, triangle_count = 0, mesh_fingerprint = 0, seed = 0;
     uint32_t metric = 0;
+    uint32_t metric_flags = 0;       // GEOIDX_METRIC_*
+    uint64_t metric_fingerprint = 0; // of what decides the metric besides the mesh; 0: nothing
     double delta = 0, bounding_box_diagonal = 0;
     MeasuredError error;
     // distance(a, b) >= bound_scale * |a - b|: what keeps A* admissible under any metric.

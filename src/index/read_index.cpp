@@ -11,7 +11,7 @@ namespace geodesic {
 namespace {
 
 constexpr uint64_t MAX_BYTES = uint64_t{1} << 40; // of one section of numbers
-constexpr uint64_t META_BYTES = 92;
+constexpr uint64_t META_BYTES = 104;
 
 [[noreturn]] void corrupt(const std::string& detail) { throw Error(GEOIDX_ERROR_CORRUPT, detail); }
 
@@ -30,6 +30,8 @@ void read_meta(const format::Container& container, Index& index) {
     for (double* value :
          {&index.error.mean, &index.error.signed_mean, &index.error.p99, &index.error.p999, &index.error.max})
         *value = reader.f64();
+    index.metric_fingerprint = reader.u64();
+    index.metric_flags = reader.u32();
     reader.expect_end();
     if (index.id_count == 0 || index.id_count > UINT32_MAX - 1)
         corrupt("section META: the mesh has " + std::to_string(index.id_count) + " vertices");

@@ -21,6 +21,8 @@ std::vector<std::byte> meta_bytes(const Index& index) {
     for (double value :
          {index.error.mean, index.error.signed_mean, index.error.p99, index.error.p999, index.error.max})
         writer.f64(value);
+    writer.u64(index.metric_fingerprint);
+    writer.u32(index.metric_flags);
     return writer.take();
 }
 

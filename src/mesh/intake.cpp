@@ -4,11 +4,13 @@
 #include <cfloat>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <string>
 
 #include <xxhash.h>
 
 #include "format/error.h"
+#include "src/mesh/spatial_order.h"
 #include "src/mesh/weld.h"
 
 namespace geodesic {
@@ -78,61 +80,95 @@ std::vector<std::array<uint32_t, 3>> read_triangles(const geoidx_mesh& mesh) {
 
 bool is_degenerate(const std::array<uint32_t, 3>& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-// The triangles that remain, in the caller's order: not degenerate after welding, each once.
-std::vector<std::array<uint32_t, 3>> clean_triangles(const std::vector<std::array<uint32_t, 3>>& triangles,
-                                                     const std::vector<uint32_t>& representative) {
+struct CleanTriangles {
+    std::vector<std::array<uint32_t, 3>> kept; // in the caller's order
+    std::vector<uint32_t> kept_of_triangle;    // NONE where it is degenerate
+};
+
+// Drops triangles that are degenerate after welding, and all but the first of equal ones.
+CleanTriangles clean_triangles(std::vector<std::array<uint32_t, 3>> triangles,
+                               const std::vector<uint32_t>& representative) {
     struct Sorted {
         std::array<uint32_t, 3> vertices;
-        size_t index;
+        uint32_t index;
         auto operator<=>(const Sorted&) const = default;
     };
     std::vector<Sorted> sorted;
-    for (size_t i = 0; i < triangles.size(); ++i) {
-        std::array<uint32_t, 3> t = triangles[i];
-        for (uint32_t& id : t) id = representative[id];
-        if (is_degenerate(t)) continue;
-        std::sort(t.begin(), t.end());
-        sorted.push_back({t, i});
+    for (uint32_t i = 0; i < triangles.size(); ++i) {
+        for (uint32_t& id : triangles[i]) id = representative[id];
+        if (is_degenerate(triangles[i])) continue;
+        sorted.push_back({triangles[i], i});
+        std::ranges::sort(sorted.back().vertices);
     }
     std::sort(sorted.begin(), sorted.end());
-    const auto same = [](const Sorted& a, const Sorted& b) { return a.vertices == b.vertices; };
-    sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
-    std::sort(sorted.begin(), sorted.end(), [](auto& a, auto& b) { return a.index < b.index; });
-
-    std::vector<std::array<uint32_t, 3>> clean;
-    for (const Sorted& s : sorted) {
-        std::array<uint32_t, 3> t = triangles[s.index];
-        for (uint32_t& id : t) id = representative[id];
-        clean.push_back(t);
+    std::vector<uint32_t> first_equal(triangles.size(), NONE);
+    for (size_t i = 0; i < sorted.size(); ++i) {
+        const bool again = i > 0 && sorted[i].vertices == sorted[i - 1].vertices;
+        first_equal[sorted[i].index] = again ? first_equal[sorted[i - 1].index] : sorted[i].index;
+    }
+    CleanTriangles clean;
+    for (uint32_t i = 0; i < triangles.size(); ++i) {
+        const bool is_first = first_equal[i] == i;
+        clean.kept_of_triangle.push_back(is_first                 ? static_cast<uint32_t>(clean.kept.size())
+                                         : first_equal[i] == NONE ? NONE
+                                                                  : clean.kept_of_triangle[first_equal[i]]);
+        if (is_first) clean.kept.push_back(triangles[i]);
     }
     return clean;
 }
 
-// Numbers the vertices that faces use, in the order of their ids, and rewrites the faces.
+// Numbers the vertices that triangles use, neighbours close together, and rewrites the triangles.
 void number_used_vertices(Intake& intake, const std::vector<Eigen::Vector3d>& positions,
-                          const std::vector<uint32_t>& representative) {
+                          const std::vector<uint32_t>& representative,
+                          std::vector<std::array<uint32_t, 3>>& triangles) {
     std::vector<uint32_t> number(positions.size(), NONE);
-    for (const auto& face : intake.mesh.faces)
-        for (uint32_t id : face) number[id] = 0;
-    for (uint32_t id = 0; id < number.size(); ++id) {
-        if (number[id] == NONE) continue;
+    for (const auto& triangle : triangles)
+        for (uint32_t id : triangle) number[id] = 0;
+    std::vector<uint32_t> used;
+    for (uint32_t id = 0; id < number.size(); ++id)
+        if (number[id] != NONE) used.push_back(id);
+    intake.id_of_vertex = spatial_order(positions, std::move(used));
+    for (uint32_t id : intake.id_of_vertex) {
         number[id] = intake.mesh.vertex_count();
         intake.mesh.positions.push_back(positions[id]);
-        intake.id_of_vertex.push_back(id);
     }
-    for (auto& face : intake.mesh.faces)
-        for (uint32_t& id : face) id = number[id];
+    for (auto& triangle : triangles)
+        for (uint32_t& id : triangle) id = number[id];
     intake.vertex_of_id.resize(positions.size());
     for (size_t id = 0; id < positions.size(); ++id) intake.vertex_of_id[id] = number[representative[id]];
 }
 
+// Orders the faces as their vertices are.
+void number_faces(Intake& intake, const CleanTriangles& clean) {
+    std::vector<uint32_t> order(clean.kept.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, {}, [&](uint32_t i) { return std::ranges::min(clean.kept[i]); });
+    std::vector<uint32_t> face_of_kept(order.size());
+    for (uint32_t i : order) {
+        face_of_kept[i] = intake.mesh.face_count();
+        intake.mesh.faces.push_back(clean.kept[i]);
+    }
+    for (uint32_t kept : clean.kept_of_triangle)
+        intake.face_of_triangle.push_back(kept == NONE ? NONE : face_of_kept[kept]);
+}
+
+// Names the first such edge by the caller's ids.
 void refuse_edges_of_many(const Intake& intake) {
     const Mesh& mesh = intake.mesh;
-    for (uint32_t e = 0; e < mesh.edge_count(); ++e)
-        if (const size_t faces = mesh.edge_faces[e].size(); faces > 2)
-            bad_mesh("the edge between vertices " + std::to_string(intake.id_of_vertex[mesh.edges[e][0]]) +
-                     " and " + std::to_string(intake.id_of_vertex[mesh.edges[e][1]]) + " has " +
-                     std::to_string(faces) + " triangles, more than two");
+    std::pair<uint32_t, uint32_t> first{NONE, NONE};
+    size_t faces_of_first = 0;
+    for (uint32_t e = 0; e < mesh.edge_count(); ++e) {
+        if (mesh.edge_faces[e].size() <= 2) continue;
+        const auto [low, high] =
+            std::minmax(intake.id_of_vertex[mesh.edges[e][0]], intake.id_of_vertex[mesh.edges[e][1]]);
+        if (std::pair(low, high) > first) continue;
+        first = {low, high};
+        faces_of_first = mesh.edge_faces[e].size();
+    }
+    if (faces_of_first > 0)
+        bad_mesh("the edge between vertices " + std::to_string(first.first) + " and " +
+                 std::to_string(first.second) + " has " + std::to_string(faces_of_first) +
+                 " triangles, more than two");
 }
 
 double bounding_box_diagonal(const Mesh& mesh) {
@@ -157,22 +193,22 @@ uint64_t mesh_fingerprint(const geoidx_mesh& mesh) {
     return fingerprint(read_positions(mesh), read_triangles(mesh));
 }
 
-Intake take_in(const geoidx_mesh& mesh, double weld_tolerance) {
-    if (!(weld_tolerance >= 0) || !std::isfinite(weld_tolerance))
+Intake take_in(const geoidx_mesh& mesh, const IntakeOptions& options) {
+    if (!(options.weld_tolerance >= 0) || !std::isfinite(options.weld_tolerance))
         throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "weld_tolerance must be finite and not negative");
     check_arrays(mesh);
     const auto positions = read_positions(mesh);
     const auto triangles = read_triangles(mesh);
 
     Intake intake;
-    intake.triangle_count = mesh.triangle_count;
     intake.fingerprint = fingerprint(positions, triangles);
-    const auto representative = weld(positions, weld_tolerance);
-    intake.mesh.faces = clean_triangles(triangles, representative);
-    if (intake.mesh.faces.empty()) bad_mesh("every triangle of the mesh is degenerate");
-    number_used_vertices(intake, positions, representative);
+    const auto representative = weld(positions, options.weld_tolerance);
+    CleanTriangles clean = clean_triangles(triangles, representative);
+    if (clean.kept.empty()) bad_mesh("every triangle of the mesh is degenerate");
+    number_used_vertices(intake, positions, representative, clean.kept);
+    number_faces(intake, clean);
     connect(intake.mesh);
-    refuse_edges_of_many(intake);
+    if (options.refuse_edges_of_many) refuse_edges_of_many(intake);
     intake.bounding_box_diagonal = bounding_box_diagonal(intake.mesh);
     if (!std::isfinite(intake.bounding_box_diagonal) || intake.bounding_box_diagonal > FLT_MAX)
         bad_mesh("the bounding box is too large: distances would not fit a 32-bit float");

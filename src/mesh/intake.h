@@ -11,13 +11,19 @@ struct Intake {
     std::vector<uint32_t>
         vertex_of_id; // per caller's id: its vertex in `mesh`, NONE where no triangle uses it
     std::vector<uint32_t> id_of_vertex; // per vertex of `mesh`: the first caller's id welded into it
-    uint64_t triangle_count = 0;        // of the caller's array
+    std::vector<uint32_t>
+        face_of_triangle; // per triangle of the caller's, NONE where it was dropped as degenerate
     uint64_t fingerprint = 0;
     double bounding_box_diagonal = 0; // of the used vertices
 };
 
+struct IntakeOptions {
+    double weld_tolerance = 0;
+    bool refuse_edges_of_many = false; // of more than two triangles
+};
+
 // Checks the caller's mesh and makes a clean one of it; throws Error naming the first offending element.
-Intake take_in(const geoidx_mesh& mesh, double weld_tolerance);
+Intake take_in(const geoidx_mesh& mesh, const IntakeOptions& options);
 
 // Tells one mesh from another by its numbers: positions (as doubles) and triangles in the caller's order.
 // Throws Error where the arrays cannot be read.

@@ -38,12 +38,16 @@ std::vector<uint32_t> weld_equal(const std::vector<Eigen::Vector3d>& positions) 
     return representative;
 }
 
-// Representatives by the cell of a grid whose cells are one tolerance wide: a neighbour is at most one cell
-// away.
+// Representatives by the cell of a grid whose cells are at least one tolerance wide: a neighbour is at most
+// one cell away.
 class RepresentativeGrid {
 public:
     RepresentativeGrid(const std::vector<Eigen::Vector3d>& positions, double tolerance)
-        : positions_(positions), tolerance_(tolerance) {}
+        : positions_(positions), tolerance_(tolerance), width_(tolerance) {
+        // Cells can be counted: a tolerance far below the rounding of the coordinates does not make them
+        // smaller.
+        for (const auto& p : positions) width_ = std::max(width_, p.cwiseAbs().maxCoeff() / LARGEST_CELL);
+    }
 
     uint32_t find_or_add(uint32_t i) {
         const Key cell = cell_of(positions_[i]);
@@ -60,8 +64,7 @@ private:
     Key cell_of(const Eigen::Vector3d& p) const {
         Key cell;
         for (int k = 0; k < 3; ++k)
-            cell[static_cast<size_t>(k)] =
-                static_cast<int64_t>(std::clamp(std::floor(p[k] / tolerance_), -4.0e18, 4.0e18));
+            cell[static_cast<size_t>(k)] = static_cast<int64_t>(std::floor(p[k] / width_));
         return cell;
     }
 
@@ -74,7 +77,9 @@ private:
     }
 
     const std::vector<Eigen::Vector3d>& positions_;
+    static constexpr double LARGEST_CELL = 4.0e18;
     double tolerance_;
+    double width_; // of a cell
     std::unordered_map<Key, std::vector<uint32_t>, KeyHash> cells_;
 };
 

@@ -14,10 +14,10 @@ public:
         : FieldSolver(static_cast<uint32_t>(function->id_of_vertex.size())), function_(std::move(function)) {}
 
 private:
-    void run(std::span<const uint32_t> sources, std::span<const uint32_t> targets, double) override {
-        set_targets(targets);
-        for (uint32_t i = 0; i < sources.size(); ++i) {
-            ask(sources[i]);
+    void run(const FieldRequest& request) override {
+        set_targets(request.targets);
+        for (uint32_t i = 0; i < request.sources.size(); ++i) {
+            ask(request.sources[i]);
             for (size_t k = 0; k < targets_.size(); ++k) improve(targets_[k], answer_[k], i);
         }
     }

@@ -13,13 +13,13 @@ public:
     }
 
 private:
-    void run(std::span<const uint32_t> sources, std::span<const uint32_t> targets, double radius) override {
+    void run(const FieldRequest& request) override {
         queue_.clear();
-        pending_.begin(targets);
-        for (uint32_t i = 0; i < sources.size(); ++i) reach(sources[i], 0, i);
+        pending_.begin(request);
+        for (uint32_t i = 0; i < request.sources.size(); ++i) reach(request.sources[i], 0, i);
         while (!queue_.empty()) {
             const auto event = queue_.pop();
-            if (event.distance > radius) break;
+            if (event.distance > request.radius) break;
             if (event.distance != distance(event.item)) continue;
             if (pending_.settle(event.item)) break;
             for (const auto& arc : (*arcs_)[event.item])

@@ -1,5 +1,6 @@
 #include "src/metric/metric.h"
 
+#include "format/error.h"
 #include "src/mesh/mesh.h"
 
 namespace geodesic {
@@ -7,13 +8,16 @@ namespace geodesic {
 FieldSolver::FieldSolver(uint32_t vertex_count)
     : distance_(vertex_count, UNREACHABLE), nearest_(vertex_count, NONE) {}
 
-void FieldSolver::solve(std::span<const uint32_t> sources, std::span<const uint32_t> targets, double radius) {
+void FieldSolver::solve(const FieldRequest& request) {
+    if (cancelled_ && *cancelled_)
+        throw Error(GEOIDX_ERROR_CANCELLED, "the progress callback cancelled the build");
     for (uint32_t vertex : touched_) {
         distance_[vertex] = UNREACHABLE;
         nearest_[vertex] = NONE;
     }
     touched_.clear();
-    run(sources, targets, radius);
+    point_distance_.assign(request.target_points.size(), UNREACHABLE);
+    run(request);
 }
 
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -10,24 +12,46 @@ namespace geodesic {
 
 inline constexpr double UNREACHABLE = std::numeric_limits<double>::infinity();
 
+// A point of a face: weights of its three corners, not negative, 1 in sum.
+struct SurfacePoint {
+    uint32_t face;
+    std::array<double, 3> weights;
+};
+
+// What a solve is asked for: distances from the nearest of the sources, vertices or points, to targets of
+// both kinds. No targets at all: every vertex is one.
+struct FieldRequest {
+    std::span<const uint32_t> sources, targets;
+    std::span<const SurfacePoint> source_points, target_points;
+    double radius = UNREACHABLE; // targets farther than this need not be final
+};
+
 // Computes distance fields; one thread's scratch, kept from source to source.
 class FieldSolver {
 public:
     explicit FieldSolver(uint32_t vertex_count);
     virtual ~FieldSolver() = default;
 
-    // Distances from the nearest of `sources`, until all `targets` are final or the front is farther than
-    // `radius`. No targets: every vertex is one.
+    // Every solve from now on throws Error CANCELLED once the flag, which must outlive the solver, is set.
+    void cancel_when(const std::atomic<bool>& flag) { cancelled_ = &flag; }
+
+    // Points only if the metric takes them.
+    void solve(const FieldRequest& request);
     void solve(std::span<const uint32_t> sources, std::span<const uint32_t> targets,
-               double radius = UNREACHABLE);
+               double radius = UNREACHABLE) {
+        solve({sources, targets, {}, {}, radius});
+    }
 
     // Of the latest solve. Final for targets up to `radius`; for other vertices an upper bound.
     double distance(uint32_t vertex) const { return distance_[vertex]; }
-    // Position in `sources` of the source that distance(vertex) was measured from; NONE if there is none.
+    // Position in `sources` of the source that distance(vertex) was measured from, or past them in
+    // `source_points`; NONE if there is none.
     uint32_t nearest(uint32_t vertex) const { return nearest_[vertex]; }
+    // Of target_points[i].
+    double point_distance(size_t i) const { return point_distance_[i]; }
 
 protected:
-    virtual void run(std::span<const uint32_t> sources, std::span<const uint32_t> targets, double radius) = 0;
+    virtual void run(const FieldRequest& request) = 0;
 
     // Lowers the distance of a vertex; false if it was that low already.
     bool improve(uint32_t vertex, double distance, uint32_t nearest) {
@@ -38,12 +62,21 @@ protected:
         return true;
     }
 
+    // Lowers the distance of a target point; false if it was that low already.
+    bool improve_point(size_t i, double distance) {
+        if (!(distance < point_distance_[i])) return false;
+        point_distance_[i] = distance;
+        return true;
+    }
+
     uint32_t vertex_count() const { return static_cast<uint32_t>(distance_.size()); }
 
 private:
     std::vector<double> distance_;
     std::vector<uint32_t> nearest_;
     std::vector<uint32_t> touched_;
+    std::vector<double> point_distance_;
+    const std::atomic<bool>* cancelled_ = nullptr;
 };
 
 // Counts down the targets of one solve as their distances become final.
@@ -51,14 +84,15 @@ class PendingTargets {
 public:
     explicit PendingTargets(uint32_t vertex_count) : epoch_of_(vertex_count, 0) {}
 
-    void begin(std::span<const uint32_t> targets) {
+    void begin(const FieldRequest& request) {
         if (++epoch_ == 0) {
             epoch_of_.assign(epoch_of_.size(), 0);
             epoch_ = 1;
         }
-        every_vertex_ = targets.empty();
-        remaining_ = 0;
-        for (uint32_t target : targets)
+        every_vertex_ = request.targets.empty() && request.target_points.empty();
+        point_pending_.assign(request.target_points.size(), 1);
+        remaining_ = request.target_points.size();
+        for (uint32_t target : request.targets)
             if (epoch_of_[target] != epoch_) {
                 epoch_of_[target] = epoch_;
                 ++remaining_;
@@ -72,10 +106,17 @@ public:
         return --remaining_ == 0;
     }
 
+    bool settle_point(size_t i) {
+        if (!point_pending_[i]) return false;
+        point_pending_[i] = 0;
+        return --remaining_ == 0;
+    }
+
 private:
     std::vector<uint32_t> epoch_of_;
+    std::vector<uint8_t> point_pending_;
     uint32_t epoch_ = 0;
-    uint32_t remaining_ = 0;
+    size_t remaining_ = 0;
     bool every_vertex_ = false;
 };
 
@@ -84,6 +125,8 @@ class Metric {
 public:
     virtual ~Metric() = default;
     virtual std::unique_ptr<FieldSolver> make_solver() const = 0;
+    // Whether sources and targets may be points of faces.
+    virtual bool takes_points() const { return false; }
 };
 
 }

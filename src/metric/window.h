@@ -27,6 +27,12 @@ struct Window {
     }
 };
 
+// Whether b is the same as a but for its interval.
+inline bool is_continued(const Window& a, const Window& b) {
+    return a.x == b.x && a.y == b.y && a.sigma == b.sigma && a.from_face == b.from_face &&
+           a.pending == b.pending;
+}
+
 // Where a window is lower than another on an interval: on [begin, end], empty if begin >= end.
 struct Advantage {
     double begin, end;

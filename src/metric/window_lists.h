@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,8 +10,8 @@
 
 namespace geodesic {
 
-// The lower envelope of the windows on every edge: per edge a list sorted along it, without overlaps. Memory
-// is kept from solve to solve; forgetting all lists costs nothing.
+// A list of windows for every edge that has any. Memory is kept from solve to solve and given back list by
+// list; forgetting all of them costs nothing.
 class WindowLists {
 public:
     explicit WindowLists(uint32_t edge_count) : lists_(edge_count) {}
@@ -20,34 +20,56 @@ public:
 
     std::span<Window> at(uint32_t edge) {
         const List& list = lists_[edge];
-        return list.epoch == epoch_ ? std::span(pool_.data() + list.first, list.count) : std::span<Window>();
+        return list.epoch == epoch_ && list.windows ? std::span(list.windows, list.count)
+                                                    : std::span<Window>();
     }
 
-    // Puts the parts of a window where it is the lowest into the edge's list and returns the smallest
-    // distance on them; infinity if there are none.
-    double insert(uint32_t edge, const Window& window);
+    // Replaces the list of an edge. The windows may not be those of the list itself.
+    void assign(uint32_t edge, std::span<const Window> windows);
+
+    // Whether a sweep is due: the lists have doubled since the latest one.
+    bool crowded() const { return room_in_use_ > sweep_at_; }
+
+    // Gives back the memory of the edges for which is_done(edge) holds: nothing more can be put into them.
+    template <class Predicate>
+    void sweep(Predicate is_done) {
+        std::erase_if(edges_, [&](uint32_t edge) {
+            if (!is_done(edge)) return false;
+            close(edge);
+            return true;
+        });
+        sweep_at_ = std::max(SMALLEST_SWEEP, 2 * room_in_use_);
+    }
+
+    bool closed(uint32_t edge) const {
+        return lists_[edge].epoch == epoch_ && lists_[edge].windows == nullptr;
+    }
 
 private:
     struct List {
+        Window* windows = nullptr; // NULL: closed
         uint32_t epoch = 0;
-        uint32_t first = 0;
-        uint32_t count = 0;
-        uint32_t size_class = 0; // room for FIRST_ROOM << size_class windows
+        uint32_t count = 0; // its room follows from it
     };
-    static constexpr uint32_t FIRST_ROOM = 4;
+    struct Chunk {
+        std::unique_ptr<Window[]> windows;
+        uint32_t room;
+    };
+    static constexpr uint32_t CHUNK_ROOM = 4096;
+    static constexpr uint64_t SMALLEST_SWEEP = 4096;
 
-    List& list_at(uint32_t edge);
-    void replace(List& list, uint32_t begin, uint32_t end, std::span<const Window> replacement);
-    uint32_t take_block(uint32_t size_class);
-    void challenge(const Window& challenger, const Window& holder);
-    void emit(const Window& window, double begin, double end);
+    void close(uint32_t edge);
+    Window* take_block(uint32_t size_class);
+    void give_back(const List& list);
 
     std::vector<List> lists_;
-    std::vector<Window> pool_;
-    std::array<std::vector<uint32_t>, 28> free_blocks_;
-    std::vector<Window> merged_; // of one insertion
-    const Window* challenger_ = nullptr;
-    double lowest_ = std::numeric_limits<double>::infinity();
+    std::vector<uint32_t> edges_; // that have a list
+    std::vector<Chunk> chunks_;
+    size_t chunk_ = 0; // the one that blocks are cut from,
+    uint32_t cut_ = 0; // from this window on
+    std::array<std::vector<Window*>, 48> free_blocks_;
+    uint64_t room_in_use_ = 0;
+    uint64_t sweep_at_ = SMALLEST_SWEEP;
     uint32_t epoch_ = 1;
 };
 

@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
+#include "src/metric/envelope.h"
 #include "src/metric/event_queue.h"
+#include "src/metric/target_points.h"
 #include "src/metric/window_lists.h"
 
 namespace geodesic {
@@ -17,17 +20,23 @@ constexpr double ANGLE_SLACK = 1e-6;
 
 double norm(double x, double y) { return std::sqrt(x * x + y * y); }
 
-// A window on its way through a face, seen from the end of the entry edge that the exit edge starts at: that
-// end is the origin, the other end of the entry edge at (length, 0), the apex at (apex_x, -apex_depth).
-struct Passage {
-    double length, apex_x, apex_depth;
-    double x, y; // the source
-    double near,
-        far; // the part of the entry edge whose rays leave through the exit edge; near is closer to 0
-    bool far_is_apex; // the far ray passes through the apex
+// The way through a face from its entry edge to one of the other two, seen from the end of the entry edge
+// that the exit edge starts at: that end is the origin, the other end of the entry edge at (entry_length, 0),
+// the apex at length * (along_x, -along_y).
+struct Exit {
+    double entry_length;
+    double length, along_x, along_y;
     uint32_t near_vertex, far_vertex, apex;
-    uint32_t tagged_exit;
+    uint32_t edge;
+    bool reversed; // the exit edge's own first vertex is the apex
     uint32_t face;
+};
+
+// Where a window and the two rays that leave through an exit are, in the frame of that exit.
+struct Beam {
+    double x, y;      // the source
+    double near, far; // where the rays cross the entry edge; near is closer to the origin
+    bool far_is_apex; // the far ray passes through the apex
 };
 
 class WindowPropagation final : public FieldSolver {
@@ -45,29 +54,41 @@ private:
     };
     static constexpr double NO_ANGLE = std::numeric_limits<double>::quiet_NaN();
 
-    void run(std::span<const uint32_t> sources, std::span<const uint32_t> targets, double radius) override;
+    void run(const FieldRequest& request) override;
+    void start(const FieldRequest& request);
     void clear();
     void reach(uint32_t vertex, double distance, uint32_t nearest, Arrival arrival);
+    void start_at(const SurfacePoint& point, uint32_t nearest);
+    void reach_point(uint32_t index, double distance);
     void settle(uint32_t vertex);
+    void reach_points_around(uint32_t vertex);
+    void reach_points_behind(const Window& window, const Side& side);
     double arrival_angle(uint32_t vertex) const;
     void spawn(uint32_t vertex);
     void spawn_into(uint32_t corner, uint32_t vertex);
+    void add_source_window(uint32_t edge, const PlanePoint& source, double sigma, uint32_t face,
+                           uint32_t nearest);
     void propagate_edge(uint32_t edge);
-    void propagate(const Window& window, const Side& side, uint32_t edge);
+    void cross(uint32_t edge, const Side& side);
+    void propagate(const Window& window, const Side& side, const Exit (&exits)[2]);
     void reach_apex(const Window& window, const Side& side, double split, double crossing);
-    void pass(const Window& window, const Passage& passage);
-    void insert(uint32_t edge, const Window& window);
+    void pass(const Window& window, const Beam& beam, const Exit& exit, std::vector<Window>& run);
+    void deliver(uint32_t edge, std::span<const Window> run, bool ascending);
+    void sweep();
 
     uint32_t edge_count() const { return static_cast<uint32_t>(mesh_->edge_length.size()); }
 
     std::shared_ptr<const IntrinsicMesh> mesh_;
     WindowLists lists_;
-    EventQueue queue_;                    // vertices by number, edges by vertex_count() + number
+    Envelope envelope_;
+    EventQueue queue_;                    // vertices by number, then edges, then target points
     std::vector<double> queued_distance_; // of the edge's live event
     std::vector<uint32_t> queued_edges_;
     std::vector<Arrival> arrival_;
     PendingTargets pending_;
-    std::vector<Window> batch_;
+    TargetPoints targets_;
+    std::vector<Window> runs_[2]; // windows on their way to the two exits of a face
+    double front_ = 0;            // distance of the latest event
 };
 
 void WindowPropagation::clear() {
@@ -77,23 +98,63 @@ void WindowPropagation::clear() {
     queued_edges_.clear();
 }
 
-void WindowPropagation::run(std::span<const uint32_t> sources, std::span<const uint32_t> targets,
-                            double radius) {
+void WindowPropagation::run(const FieldRequest& request) {
     clear();
-    pending_.begin(targets);
-    for (uint32_t i = 0; i < sources.size(); ++i) reach(sources[i], 0, i, {});
+    start(request);
+    const uint32_t first_edge = vertex_count(), first_point = first_edge + edge_count();
     while (!queue_.empty()) {
         const auto event = queue_.pop();
-        if (event.distance > radius) break;
-        if (event.item < vertex_count()) {
+        if (event.distance > request.radius) break;
+        front_ = event.distance;
+        if (event.item < first_edge) {
             if (event.distance != distance(event.item)) continue;
             settle(event.item);
             if (pending_.settle(event.item)) break;
-        } else {
-            const uint32_t edge = event.item - vertex_count();
+        } else if (event.item < first_point) {
+            const uint32_t edge = event.item - first_edge;
             if (event.distance == queued_distance_[edge]) propagate_edge(edge);
+            if (lists_.crowded()) sweep();
+        } else if (pending_.settle_point(event.item - first_point)) {
+            break;
         }
     }
+}
+
+void WindowPropagation::start(const FieldRequest& request) {
+    pending_.begin(request);
+    targets_.place(*mesh_, request.target_points);
+    for (uint32_t i = 0; i < request.sources.size(); ++i) reach(request.sources[i], 0, i, {});
+    auto nearest = static_cast<uint32_t>(request.sources.size());
+    for (const SurfacePoint& point : request.source_points) start_at(point, nearest++);
+}
+
+// A source inside a face lights its three edges and is seen by its corners and by the targets there.
+void WindowPropagation::start_at(const SurfacePoint& point, uint32_t nearest) {
+    for (uint32_t corner = 3 * point.face; corner < 3 * point.face + 3; ++corner) {
+        const Side& side = mesh_->sides.items[mesh_->side_of_corner[corner]];
+        const uint32_t edge = mesh_->edge_of_corner[corner];
+        const PlanePoint p = place_on_side(*mesh_, corner, point);
+        reach(side.apex, norm(p.x - side.apex_x, p.depth - side.apex_depth), nearest, {});
+        add_source_window(edge, p, 0, side.face, nearest);
+    }
+    for (const TargetPoint& target : targets_.of_face(point.face)) {
+        const PlanePoint from = place_on_side(*mesh_, 3 * point.face, point);
+        const PlanePoint& to = target.on_side[0];
+        reach_point(target.index, norm(from.x - to.x, from.depth - to.depth));
+    }
+}
+
+void WindowPropagation::add_source_window(uint32_t edge, const PlanePoint& source, double sigma,
+                                          uint32_t face, uint32_t nearest) {
+    const double length = mesh_->edge_length[edge];
+    Window window{0, length, source.x, source.depth, sigma, 0, 0, face, nearest & MAX_NEAREST, 1};
+    window.begin_distance = window.distance_at(0);
+    window.end_distance = window.distance_at(length);
+    deliver(edge, {&window, 1}, true);
+}
+
+void WindowPropagation::reach_point(uint32_t index, double distance) {
+    if (improve_point(index, distance)) queue_.push(distance, vertex_count() + edge_count() + index);
 }
 
 void WindowPropagation::reach(uint32_t vertex, double distance, uint32_t nearest, Arrival arrival) {
@@ -107,6 +168,29 @@ void WindowPropagation::settle(uint32_t vertex) {
     for (const Spoke& spoke : mesh_->spokes[vertex])
         reach(spoke.other, d + spoke.length, nearest(vertex), {spoke.edge, NO_ANGLE});
     if (d == 0 || mesh_->can_bend[vertex]) spawn(vertex);
+    if (!targets_.empty()) reach_points_around(vertex);
+}
+
+void WindowPropagation::reach_points_around(uint32_t vertex) {
+    for (uint32_t corner : mesh_->corners[vertex]) {
+        const Side& side = mesh_->sides.items[mesh_->side_of_corner[corner]];
+        for (const TargetPoint& target : targets_.of_face(side.face)) {
+            const PlanePoint& p = target.on_side[corner % 3];
+            reach_point(target.index, distance(vertex) + norm(p.x - side.apex_x, p.depth - side.apex_depth));
+        }
+    }
+}
+
+// Straight from the window's source where the line crosses the window, else around its nearer end.
+void WindowPropagation::reach_points_behind(const Window& window, const Side& side) {
+    const uint32_t corner = mesh_->corner_of_side[static_cast<size_t>(&side - mesh_->sides.items.data())];
+    for (const TargetPoint& target : targets_.of_face(side.face)) {
+        const PlanePoint& p = target.on_side[corner % 3];
+        const double height = window.y + p.depth;
+        const double split = height > 0 ? window.x + (p.x - window.x) * (window.y / height) : p.x;
+        const double crossing = std::clamp(split, window.begin, window.end);
+        reach_point(target.index, window.distance_at(crossing) + norm(crossing - p.x, p.depth));
+    }
 }
 
 double WindowPropagation::arrival_angle(uint32_t vertex) const {
@@ -136,27 +220,43 @@ void WindowPropagation::spawn(uint32_t vertex) {
 
 void WindowPropagation::spawn_into(uint32_t corner, uint32_t vertex) {
     const Side& side = mesh_->sides.items[mesh_->side_of_corner[corner]];
-    const uint32_t edge = mesh_->edge_of_corner[corner];
-    const double length = mesh_->edge_length[edge];
-    const double d = distance(vertex);
-    Window window{0, length, side.apex_x, side.apex_depth, d, 0, 0, side.face, nearest(vertex) & MAX_NEAREST,
-                  1};
-    window.begin_distance = window.distance_at(0);
-    window.end_distance = window.distance_at(length);
-    insert(edge, window);
+    add_source_window(mesh_->edge_of_corner[corner], {side.apex_x, side.apex_depth}, distance(vertex),
+                      side.face, nearest(vertex));
 }
 
 void WindowPropagation::propagate_edge(uint32_t edge) {
     queued_distance_[edge] = UNREACHABLE;
-    batch_.clear();
-    for (Window& window : lists_.at(edge))
-        if (window.pending) {
-            batch_.push_back(window);
-            window.pending = 0;
+    for (const Side& side : mesh_->sides[edge]) cross(edge, side);
+    for (Window& window : lists_.at(edge)) window.pending = 0;
+}
+
+// No point of an edge is farther than half of its length and the distances of its vertices together.
+void WindowPropagation::sweep() {
+    lists_.sweep([this](uint32_t edge) {
+        const auto [first, second] = mesh_->edge_vertices[edge];
+        return distance(first) + distance(second) + mesh_->edge_length[edge] < 2 * front_;
+    });
+}
+
+// Carries the pending windows of an edge into a face, to both other edges.
+void WindowPropagation::cross(uint32_t edge, const Side& side) {
+    const double length = mesh_->edge_length[edge];
+    const auto [first, second] = mesh_->edge_vertices[edge];
+    const auto exit = [&](double apex_x, uint32_t near, uint32_t far, uint32_t tagged_edge) {
+        const double exit_length = mesh_->edge_length[tagged_edge >> 1];
+        return Exit{length, exit_length, apex_x / exit_length, side.apex_depth / exit_length, near,
+                    far,    side.apex,   tagged_edge >> 1,     (tagged_edge & 1) != 0,        side.face};
+    };
+    const Exit exits[2] = {exit(side.apex_x, first, second, side.tagged_edge[0]),
+                           exit(length - side.apex_x, second, first, side.tagged_edge[1])};
+    for (auto& run : runs_) run.clear();
+    for (const Window& window : lists_.at(edge))
+        if (window.pending && window.from_face != side.face) {
+            propagate(window, side, exits);
+            if (!targets_.empty()) reach_points_behind(window, side);
         }
-    for (const Side& side : mesh_->sides[edge])
-        for (const Window& window : batch_)
-            if (window.from_face != side.face) propagate(window, side, edge);
+    deliver(exits[0].edge, runs_[0], !exits[0].reversed);
+    deliver(exits[1].edge, runs_[1], exits[1].reversed);
 }
 
 // The line to the apex crosses the edge at `split`. Where rounding has put that just outside of the window,
@@ -183,65 +283,73 @@ void WindowPropagation::reach_apex(const Window& window, const Side& side, doubl
 
 // Carries a window over its edge into a face: to the apex if that is in its light, and to the two other
 // edges.
-void WindowPropagation::propagate(const Window& window, const Side& side, uint32_t edge) {
+void WindowPropagation::propagate(const Window& window, const Side& side, const Exit (&exits)[2]) {
     const double height = window.y + side.apex_depth;
     // A source in line with the edge: its vertices carry that on, unless it lies on the edge, as the apex of
     // a face without area does.
     const bool on_edge = window.x > window.begin && window.x < window.end;
     if (!(window.y > 0) && !on_edge) return;
-    const double length = mesh_->edge_length[edge];
+    const double length = exits[0].entry_length;
     const double split = height > 0 ? window.x + (side.apex_x - window.x) * (window.y / height) : side.apex_x;
     const double crossing = std::clamp(split, window.begin, window.end);
     if (std::abs(split - crossing) <= TOUCH * length) reach_apex(window, side, split, crossing);
-    const auto [first, second] = mesh_->edge_vertices[edge];
     if (window.begin < split)
-        pass(window, {length, side.apex_x, side.apex_depth, window.x, window.y, window.begin,
-                      std::min(window.end, split), split <= window.end, first, second, side.apex,
-                      side.tagged_edge[0], side.face});
+        pass(window, {window.x, window.y, window.begin, std::min(window.end, split), split <= window.end},
+             exits[0], runs_[0]);
     if (window.end > split)
-        pass(window, {length, length - side.apex_x, side.apex_depth, length - window.x, window.y,
-                      length - window.end, length - std::max(window.begin, split), split >= window.begin,
-                      second, first, side.apex, side.tagged_edge[1], side.face});
+        pass(window,
+             {length - window.x, window.y, length - window.end, length - std::max(window.begin, split),
+              split >= window.begin},
+             exits[1], runs_[1]);
 }
 
-void WindowPropagation::pass(const Window& window, const Passage& p) {
-    const uint32_t exit = p.tagged_exit >> 1;
-    const double exit_length = mesh_->edge_length[exit];
-    // The share of the exit edge at which the ray through (t, 0) leaves.
+// Appends the part of a window that leaves through an exit to the run of that exit.
+void WindowPropagation::pass(const Window& window, const Beam& beam, const Exit& exit,
+                             std::vector<Window>& run) {
+    // Where on the exit edge the ray through (t, 0) leaves.
     const auto leave = [&](double t) {
-        const double denominator = p.y * p.apex_x + p.apex_depth * (p.x - t);
-        if (denominator > 0) return std::clamp(p.y * t / denominator, 0.0, 1.0);
+        const double denominator = beam.y * exit.along_x + exit.along_y * (beam.x - t);
+        if (denominator > 0) return std::clamp(beam.y * t / denominator, 0.0, exit.length);
         // All in one line, or a ray that misses the exit edge.
-        return p.y == 0 && p.apex_depth == 0 && p.apex_x > 0 ? std::clamp(t / p.apex_x, 0.0, 1.0) : 1.0;
+        return beam.y == 0 && exit.along_y == 0 && exit.along_x > 0 ? std::clamp(t, 0.0, exit.length)
+                                                                    : exit.length;
     };
-    const double near_share = p.near <= 0 ? 0 : leave(p.near);
-    const double far_share = p.far_is_apex ? 1 : leave(p.far);
-    const double near = near_share * exit_length, far = far_share * exit_length;
-    if (!(far - near > TIE * exit_length)) return;
-    const double x = (p.x * p.apex_x - p.y * p.apex_depth) / exit_length;
-    const double y = std::max(0.0, (p.apex_x * p.y + p.apex_depth * p.x) / exit_length);
+    const double near = beam.near <= 0 ? 0 : leave(beam.near);
+    const double far = beam.far_is_apex ? exit.length : leave(beam.far);
+    if (!(far - near > TIE * exit.length)) return;
+    const double x = beam.x * exit.along_x - beam.y * exit.along_y;
+    const double y = std::max(0.0, exit.along_x * beam.y + exit.along_y * beam.x);
     const double near_distance = window.sigma + norm(near - x, y);
     const double far_distance = window.sigma + norm(far - x, y);
 
     // Of no use where a path through a vertex of the face is shorter all along.
-    if (distance(p.near_vertex) + far < far_distance * (1 - TIE)) return;
-    if (distance(p.apex) + (exit_length - near) < near_distance * (1 - TIE)) return;
-    const double across = norm(p.length - near_share * p.apex_x, near_share * p.apex_depth);
-    if (distance(p.far_vertex) + across < near_distance * (1 - TIE)) return;
+    if (distance(exit.near_vertex) + far < far_distance * (1 - TIE)) return;
+    if (distance(exit.apex) + (exit.length - near) < near_distance * (1 - TIE)) return;
+    const double across = norm(exit.entry_length - near * exit.along_x, near * exit.along_y);
+    if (distance(exit.far_vertex) + across < near_distance * (1 - TIE)) return;
 
-    if (p.tagged_exit & 1)
-        insert(exit, {exit_length - far, exit_length - near, exit_length - x, y, window.sigma, far_distance,
-                      near_distance, p.face, window.nearest, 1});
+    if (exit.reversed)
+        run.push_back({exit.length - far, exit.length - near, exit.length - x, y, window.sigma, far_distance,
+                       near_distance, exit.face, window.nearest, 1});
     else
-        insert(exit, {near, far, x, y, window.sigma, near_distance, far_distance, p.face, window.nearest, 1});
+        run.push_back(
+            {near, far, x, y, window.sigma, near_distance, far_distance, exit.face, window.nearest, 1});
 }
 
-void WindowPropagation::insert(uint32_t edge, const Window& window) {
-    const double lowest = lists_.insert(edge, window);
-    if (!(lowest < queued_distance_[edge])) return;
+// Puts windows into the list of an edge; `ascending`: whether they come in the order of the edge.
+void WindowPropagation::deliver(uint32_t edge, std::span<const Window> run, bool ascending) {
+    if (run.empty() || lists_.closed(edge)) return;
+    envelope_.begin(lists_.at(edge));
+    if (ascending)
+        for (const Window& window : run) envelope_.insert(window);
+    else
+        for (const Window& window : std::views::reverse(run)) envelope_.insert(window);
+    if (envelope_.lowest() == UNREACHABLE) return;
+    lists_.assign(edge, envelope_.finish());
+    if (!(envelope_.lowest() < queued_distance_[edge])) return;
     if (queued_distance_[edge] == UNREACHABLE) queued_edges_.push_back(edge);
-    queued_distance_[edge] = lowest;
-    queue_.push(lowest, vertex_count() + edge);
+    queued_distance_[edge] = envelope_.lowest();
+    queue_.push(envelope_.lowest(), vertex_count() + edge);
 }
 
 }

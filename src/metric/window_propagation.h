@@ -14,6 +14,7 @@ class ExactMetric final : public Metric {
 public:
     explicit ExactMetric(const Mesh& mesh) : mesh_(std::make_shared<IntrinsicMesh>(mesh)) {}
     std::unique_ptr<FieldSolver> make_solver() const override;
+    bool takes_points() const override { return true; }
 
 private:
     std::shared_ptr<const IntrinsicMesh> mesh_;

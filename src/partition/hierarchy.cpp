@@ -28,15 +28,23 @@ uint32_t child_count(const HierarchyOptions& options, uint32_t level, double sha
     return std::max(1u, static_cast<uint32_t>(std::lround(count * share_of_faces / average_share)));
 }
 
+// Whoever gives the patches of three levels means three levels.
+uint32_t levels_named(std::span<const uint32_t> given) {
+    auto count = static_cast<uint32_t>(given.size());
+    while (count > 0 && given[count - 1] == 0) --count;
+    return count;
+}
+
 }
 
 std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_count,
                                       std::span<const uint32_t> given) {
     const double leaves = std::max(1.0, vertex_count / LEAF_VERTICES);
+    if (level_count == 0) level_count = levels_named(given);
     if (level_count == 0)
         level_count =
             std::max(1u, static_cast<uint32_t>(std::ceil(std::log(leaves) / std::log(LARGEST_SPLIT))));
-    level_count = std::min<uint32_t>(std::max<uint32_t>(level_count, 1), GEOIDX_MAX_LEVELS);
+    level_count = std::min<uint32_t>(level_count, GEOIDX_MAX_LEVELS);
     double remaining = leaves;
     uint32_t open = 0;
     std::vector<uint32_t> split(level_count, 0);
@@ -48,8 +56,11 @@ std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_coun
             remaining /= split[l];
     }
     const double each = open ? std::pow(std::max(1.0, remaining), 1.0 / open) : 0;
+    // Who asks for more levels than the vertices call for gets smaller leaves; only a mesh that is a leaf by
+    // itself is left whole.
+    const uint32_t fewest = level_count > 1 ? 2 : 1;
     for (uint32_t& count : split)
-        if (count == 0) count = std::max(1u, static_cast<uint32_t>(std::lround(each)));
+        if (count == 0) count = std::max(fewest, static_cast<uint32_t>(std::lround(each)));
     return split;
 }
 
@@ -67,8 +78,7 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
             Random random(seed_of_patch(options.seed, first + static_cast<uint32_t>(i)));
             const double share = static_cast<double>(patches[i].size()) / mesh.face_count();
             const uint32_t count = child_count(options, level, share);
-            children[i] =
-                split_patch(mesh, patches[i], count, options.lloyd_iterations, solver, random, workers);
+            children[i] = split_patch(mesh, patches[i], count, options.lloyd_iterations, solver, random);
         });
         std::vector<std::vector<uint32_t>> next;
         for (uint32_t i = 0; i < children.size(); ++i) {

@@ -21,7 +21,6 @@ struct Splitter {
     uint32_t lloyd_iterations;
     FieldSolver& solver;
     Random& random;
-    const Workers& workers;
     std::vector<uint8_t> inside; // per face of the mesh, scratch of has_one_ring
 };
 
@@ -31,7 +30,6 @@ std::vector<uint32_t> relaxed_cells(Splitter& splitter, std::span<const uint32_t
     auto seeds = poisson_disk_samples(splitter.solver, vertices, count, splitter.random);
     auto cell = voronoi_cells(splitter.solver, splitter.mesh, faces, seeds);
     for (uint32_t i = 0; i < splitter.lloyd_iterations; ++i) {
-        splitter.workers.check_cancelled();
         relax_seeds(splitter.solver, splitter.mesh, faces, cell, seeds);
         cell = voronoi_cells(splitter.solver, splitter.mesh, faces, seeds);
     }
@@ -116,7 +114,6 @@ std::vector<Faces> cut_off_one_face(const Mesh& mesh, const Faces& faces) {
 
 // Three cells around an annulus are discs.
 void split_until_one_ring(Splitter& splitter, Faces faces, std::vector<Faces>& done) {
-    splitter.workers.check_cancelled();
     if (faces.size() == 1 || has_one_ring(splitter, faces)) {
         done.push_back(std::move(faces));
         return;
@@ -130,8 +127,8 @@ void split_until_one_ring(Splitter& splitter, Faces faces, std::vector<Faces>& d
 
 std::vector<std::vector<uint32_t>> split_patch(const Mesh& mesh, std::span<const uint32_t> faces,
                                                uint32_t count, uint32_t lloyd_iterations, FieldSolver& solver,
-                                               Random& random, const Workers& workers) {
-    Splitter splitter{mesh, lloyd_iterations, solver, random, workers, {}};
+                                               Random& random) {
+    Splitter splitter{mesh, lloyd_iterations, solver, random, {}};
     splitter.inside.assign(mesh.face_count(), 0);
     std::vector<Faces> patches;
     for (Faces& part : connected_patches(mesh, faces, relaxed_cells(splitter, faces, count)))

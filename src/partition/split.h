@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "src/concurrency/workers.h"
 #include "src/mesh/mesh.h"
+#include "src/metric/metric.h"
 #include "src/partition/random.h"
 
 namespace geodesic {
@@ -14,6 +14,6 @@ namespace geodesic {
 // one border ring.
 std::vector<std::vector<uint32_t>> split_patch(const Mesh& mesh, std::span<const uint32_t> faces,
                                                uint32_t count, uint32_t lloyd_iterations, FieldSolver& solver,
-                                               Random& random, const Workers& workers);
+                                               Random& random);
 
 }

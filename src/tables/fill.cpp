@@ -1,6 +1,10 @@
 #include "src/tables/fill.h"
 
 #include <algorithm>
+#include <cfloat>
+#include <string>
+
+#include "format/error.h"
 
 namespace geodesic {
 
@@ -24,7 +28,11 @@ private:
     }
 
     float distance_to(const FieldSolver& solver, uint32_t number) const {
-        return static_cast<float>(solver.distance(vertex_of_number_[number]));
+        const double distance = solver.distance(vertex_of_number_[number]);
+        if (distance > double{FLT_MAX} && distance < UNREACHABLE)
+            throw Error(GEOIDX_ERROR_LIMIT, "the metric gives the distance " + std::to_string(distance) +
+                                                ", too large for a 32-bit float");
+        return static_cast<float>(distance);
     }
 
     void fill_border(FieldSolver& solver, uint32_t number) {

@@ -243,6 +243,16 @@ TEST_CASE("a detail longer than its buffer ends cleanly") {
     CHECK(std::string(geoidx_last_error()).size() < 200);
 }
 
+TEST_CASE("an edge with three triangles is refused only where the options say so") {
+    TestMesh mesh = two_triangles();
+    mesh.add_triangle(0, 2, mesh.add_vertex(0, 0, 5));
+    geoidx_build_options options = build_options();
+    options.refuse_edges_of_many = 1;
+    check_build_refused(mesh, options, GEOIDX_ERROR_BAD_MESH, "more than two");
+    options.refuse_edges_of_many = 0;
+    CHECK(build(mesh, options) != nullptr);
+}
+
 TEST_CASE("bad meshes are refused and the element is named") {
     const auto refused = [](const TestMesh& mesh, const char* detail) {
         check_build_refused(mesh, build_options(), GEOIDX_ERROR_BAD_MESH, detail);
@@ -255,9 +265,6 @@ TEST_CASE("bad meshes are refused and the element is named") {
     mesh = two_triangles();
     mesh.triangles[4] = 4;
     refused(mesh, "triangle 1");
-    mesh = two_triangles();
-    mesh.add_triangle(0, 2, mesh.add_vertex(0, 0, 5));
-    refused(mesh, "more than two");
     refused({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {}}, "triangles");
     refused({{}, {0, 1, 2}}, "vertices");
     refused({{0, 0, 0, 1, 0, 0, 1, 0, 0}, {0, 1, 2}}, "");

@@ -25,7 +25,7 @@ public:
             Solver() : FieldSolver(1) {}
 
         private:
-            void run(std::span<const uint32_t>, std::span<const uint32_t>, double) override {}
+            void run(const FieldRequest&) override {}
         };
         ++made;
         return std::make_unique<Solver>();

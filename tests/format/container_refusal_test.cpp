@@ -230,6 +230,19 @@ TEST_CASE("a raw size that the stored bytes cannot hold is refused") {
           GEOIDX_ERROR_CORRUPT);
 }
 
+TEST_CASE("a small file cannot ask for much memory: what packs too well is stored raw, and refused packed") {
+    const Bytes zeros(std::size_t{1} << 20);
+    ContainerWriter writer(0);
+    writer.add_bytes(make_tag("ZERO"), zeros);
+    const Bytes file = writer.finish();
+    CHECK(file.size() > zeros.size());
+    const std::uint32_t known[] = {make_tag("ZERO")};
+    CHECK(Container::parse(file, known).read_bytes(make_tag("ZERO"), zeros.size()) == zeros);
+
+    CHECK(parse_status(patched(sample(), record(FIRST) + RAW_SIZE, std::uint64_t{1} << 20, 8)) ==
+          GEOIDX_ERROR_CORRUPT);
+}
+
 TEST_CASE("a wrong checksum is told from other damage") {
     Bytes header = sample();
     put(header, HEADER_CHECKSUM, get(header, HEADER_CHECKSUM, 8) ^ 1, 8);

@@ -189,6 +189,8 @@ struct IndependentIndex {
     uint64_t id_count, triangle_count, seed, fingerprint;
     uint32_t metric;
     float bound_scale;
+    uint64_t metric_fingerprint;
+    uint32_t metric_flags;
     double delta, diagonal;
     std::vector<uint32_t> parent, first_child, child_count, level_begin;
     uint32_t inner_count, patch_count, border_vertex_count;
@@ -225,6 +227,8 @@ struct IndependentIndex {
         diagonal = meta.f64();
         meta.u32();
         for (int i = 0; i < 5; ++i) CHECK(!std::isnan(meta.f64()));
+        metric_fingerprint = meta.u64();
+        metric_flags = meta.u32();
         CHECK(meta.remaining() == 0);
     }
 
@@ -477,6 +481,8 @@ TEST_CASE("independent reader: borders, overlays and bounds are as SPEC.md has t
                                     double{index.bound_scale} * index.straight(table.rows[i], table.cols[j]) *
                                         (1 - 1e-6);
         CHECK(undercut == 0);
+        CHECK(index.metric_flags == (index.metric == 0 ? 1 : 0));
+        CHECK(index.metric_fingerprint == 0);
         CHECK(index.bound_scale > 0.99); // no metric here is shorter than the straight line
     }
 }

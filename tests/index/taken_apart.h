@@ -20,6 +20,8 @@ struct TakenApart {
         double delta, diagonal;
         uint32_t error_sources;
         double errors[5];
+        uint64_t metric_fingerprint;
+        uint32_t metric_flags;
     } meta;
     uint32_t level_count;
     uint64_t inner_count;
@@ -50,6 +52,8 @@ inline TakenApart take_apart(std::span<const std::byte> file) {
     parts.meta.diagonal = meta.f64();
     parts.meta.error_sources = meta.u32();
     for (double& error : parts.meta.errors) error = meta.f64();
+    parts.meta.metric_fingerprint = meta.u64();
+    parts.meta.metric_flags = meta.u32();
 
     const auto hierarchy_bytes = bytes(TAG_HIERARCHY);
     format::ByteReader hierarchy(hierarchy_bytes);
@@ -135,6 +139,8 @@ inline Bytes put_together(const TakenApart& parts, const TakenApart& shapes, uin
     bytes.f64(parts.meta.diagonal);
     bytes.u32(parts.meta.error_sources);
     for (double error : parts.meta.errors) bytes.f64(error);
+    bytes.u64(parts.meta.metric_fingerprint);
+    bytes.u32(parts.meta.metric_flags);
     add(TAG_META, bytes);
     bytes.take();
     bytes.u32(parts.level_count);

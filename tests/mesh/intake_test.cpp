@@ -29,12 +29,12 @@ Soup square() {
 }
 
 Intake take_in(const Soup& soup, double weld_tolerance = 0) {
-    return geodesic::take_in(view_of(soup), weld_tolerance);
+    return geodesic::take_in(view_of(soup), {weld_tolerance});
 }
 
 geoidx_status refusal(const geoidx_mesh& mesh, std::string* detail, double weld_tolerance = 0) {
     detail->clear();
-    return failure_of([&] { geodesic::take_in(mesh, weld_tolerance); }, detail);
+    return failure_of([&] { geodesic::take_in(mesh, {weld_tolerance, true}); }, detail);
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -80,14 +80,21 @@ void check_ids(const Intake& intake, const Soup& soup) {
 
 }
 
-TEST_CASE("intake: a clean mesh keeps its vertices, faces and numbers") {
+TEST_CASE("intake: a clean mesh keeps its vertices, faces and winding, in another order") {
     const Soup soup = torus(7, 5, 2, 0.5);
     const Intake intake = take_in(soup);
-    CHECK(intake.mesh.positions == soup.positions);
-    CHECK(intake.mesh.faces == soup.triangles);
-    CHECK(intake.triangle_count == soup.triangles.size());
+    CHECK(intake.mesh.vertex_count() == soup.vertex_count());
+    CHECK(intake.mesh.face_count() == soup.triangles.size());
+    REQUIRE(intake.face_of_triangle.size() == soup.triangles.size());
     check_ids(intake, soup);
-    for (uint32_t id = 0; id < soup.vertex_count(); ++id) CHECK(intake.vertex_of_id[id] == id);
+    std::set<uint32_t> faces;
+    for (size_t t = 0; t < soup.triangles.size(); ++t) {
+        faces.insert(intake.face_of_triangle[t]);
+        for (size_t k = 0; k < 3; ++k)
+            CHECK(intake.id_of_vertex[intake.mesh.faces[intake.face_of_triangle[t]][k]] ==
+                  soup.triangles[t][k]);
+    }
+    CHECK(faces.size() == soup.triangles.size());
     // 35 vertices, 70 faces: 105 edges, two faces each (a torus).
     CHECK(intake.mesh.edge_count() == 105);
 }
@@ -120,9 +127,10 @@ TEST_CASE("intake: float and double positions at any stride") {
             view.position_type = type;
             view.positions = bytes.data();
             view.position_stride = static_cast<uint32_t>(stride);
-            const Intake intake = geodesic::take_in(view, 0);
-            CHECK(intake.mesh.positions == expected.positions);
-            CHECK(intake.mesh.faces == soup.triangles);
+            const Intake intake = geodesic::take_in(view, {});
+            check_ids(intake, expected);
+            CHECK(intake.mesh.vertex_count() == expected.vertex_count());
+            CHECK(intake.mesh.face_count() == expected.triangles.size());
             CHECK(intake.fingerprint == mesh_fingerprint(view_of(expected)));
         }
         geoidx_mesh view = view_of(soup);
@@ -176,7 +184,10 @@ TEST_CASE("intake: degenerate triangles are dropped, before and after welding") 
     soup.triangles = {{0, 0, 1}, {0, 1, 2}, {1, 4, 2}, {0, 2, 3}, {3, 3, 3}, {4, 3, 1}};
     const Intake intake = take_in(soup);
     CHECK(faces_by_id(intake) == std::vector<std::set<uint32_t>>{{0, 1, 2}, {0, 2, 3}});
-    CHECK(intake.triangle_count == 6);
+    CHECK(intake.face_of_triangle == std::vector<uint32_t>{NONE, intake.face_of_triangle[1], NONE,
+                                                           intake.face_of_triangle[3], NONE,
+                                                           intake.face_of_triangle[5]});
+    CHECK(intake.face_of_triangle.size() == 6);
     check_ids(intake, soup);
 
     soup.triangles = {{0, 0, 1}, {1, 4, 2}};
@@ -190,7 +201,13 @@ TEST_CASE("intake: of duplicate triangles the first stays, in its place and with
     soup.positions.push_back({1, 1, 0}); // vertex 2 again
     soup.triangles = {{0, 3, 2}, {0, 1, 2}, {2, 0, 3}, {2, 1, 0}, {4, 0, 1}, {0, 1, 2}, {3, 4, 0}};
     const Intake intake = take_in(soup);
-    CHECK(intake.mesh.faces == Triangles{{0, 3, 2}, {0, 1, 2}});
+    REQUIRE(intake.mesh.face_count() == 2);
+    const uint32_t a = intake.face_of_triangle[0], b = intake.face_of_triangle[1];
+    CHECK(intake.face_of_triangle == std::vector<uint32_t>{a, b, a, b, b, b, a});
+    for (size_t k = 0; k < 3; ++k) {
+        CHECK(intake.id_of_vertex[intake.mesh.faces[a][k]] == soup.triangles[0][k]);
+        CHECK(intake.id_of_vertex[intake.mesh.faces[b][k]] == soup.triangles[1][k]);
+    }
 }
 
 TEST_CASE("intake: collinear corners make a triangle, not a degenerate one") {
@@ -234,7 +251,7 @@ TEST_CASE("intake: components, boundaries, genus, fans that meet and any winding
     }
 }
 
-TEST_CASE("intake: an edge with more than two triangles is refused, the first one named") {
+TEST_CASE("intake: an edge with more than two triangles is refused on request, the first one named") {
     Soup soup = square();
     soup.positions.insert(soup.positions.end(),
                           {{0, 0, 1}, {9, 0, 0}, {9, 1, 0}, {9, 0, 1}, {9, 1, 1}, {9, 2, 2}});
@@ -249,6 +266,12 @@ TEST_CASE("intake: an edge with more than two triangles is refused, the first on
     CHECK(names(detail, 2));
     CHECK(names(detail, 3)); // triangles there
     CHECK(!names(detail, 5));
+
+    const Intake intake = take_in(soup);
+    check_ids(intake, soup);
+    const auto vertex = [&](uint32_t id) { return intake.vertex_of_id[id]; };
+    CHECK(intake.mesh.edge_faces[find_edge(intake.mesh, vertex(0), vertex(2))].size() == 3);
+    CHECK(intake.mesh.edge_faces[find_edge(intake.mesh, vertex(5), vertex(6))].size() == 4);
 
     // A duplicate is dropped before edges are counted.
     soup.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 0, 1}};

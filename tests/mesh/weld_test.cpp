@@ -91,6 +91,16 @@ TEST_CASE("weld: without a tolerance only equal positions are one") {
     CHECK(weld(positions, 0) == weld_by_brute_force(positions, 0));
 }
 
+TEST_CASE("weld: a tolerance far below the rounding of the coordinates keeps the cells small") {
+    std::vector<Eigen::Vector3d> positions;
+    for (int i = 0; i < 30000; ++i) positions.emplace_back(i % 200, i / 200, 0.5);
+    positions.push_back(positions[7]);
+    auto expected = std::vector<uint32_t>(positions.size());
+    std::iota(expected.begin(), expected.end(), 0u);
+    expected.back() = 7;
+    CHECK(weld(positions, 1e-300) == expected);
+}
+
 TEST_CASE("weld: minus zero with a tolerance") {
     CHECK(weld({{0.0, 0, 0}, {-0.0, -0.0, 0}, {-1e-12, 0, 0}}, 1e-9) == std::vector<uint32_t>{0, 0, 0});
 }

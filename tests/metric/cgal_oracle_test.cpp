@@ -152,7 +152,7 @@ TEST_CASE("CGAL: scanned and modelled meshes of GEOIDX_MESHES") {
         view.vertex_count = file.vertex_count();
         view.triangles = file.triangles.data();
         view.triangle_count = file.triangle_count();
-        const Intake intake = take_in(view, 0);
+        const Intake intake = take_in(view, {});
         SurfaceMesh surface;
         const size_t refused = to_cgal(intake.mesh, surface);
         if (refused == 0) {

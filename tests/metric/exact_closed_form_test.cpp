@@ -150,6 +150,18 @@ Formula cone_formula(const Mesh& mesh, std::span<const Vector3d> rays) {
 
 }
 
+TEST_CASE("exact: edges of three triangles, a square with two fins unfolds for every pair") {
+    const Mesh mesh = mesh_of(comb(2));
+    const auto formula = [&](uint32_t a, uint32_t b) {
+        const Vector3d &p = mesh.positions[a], &q = mesh.positions[b];
+        const double along = std::abs(p.x() - q.x());
+        // Points of one fin see each other; all other paths go down to the square and up again.
+        const double across = along < 1e-9 ? std::abs(p.z() - q.z()) : along + p.z() + q.z();
+        return std::hypot(across, p.y() - q.y());
+    };
+    CHECK(worst_error(mesh, some_sources(mesh, 7), formula) < 1e-12);
+}
+
 TEST_CASE("exact, plane: a regular grid, every vertex as source") {
     const Mesh mesh = mesh_of(grid(12, 9, 12, 9));
     CHECK(worst_error(mesh, some_sources(mesh, 1), straight_line(mesh)) < 1e-9);

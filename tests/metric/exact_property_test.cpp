@@ -34,6 +34,7 @@ std::vector<Surface> surfaces() {
             {"Moebius strip", moebius(30, 4)},
             {"mixed winding", with_mixed_winding(bumpy_sphere(3, 2), 5)},
             {"pinched sheets", pinched_sheets(4)},
+            {"edges of three faces", comb(2)},
             {"two components", joined(sphere(2), jittered_grid(8, 3))}};
 }
 
@@ -292,7 +293,7 @@ TEST_CASE("exact: through intake, with welded, unused and duplicate elements") {
         if (f % 3 == 0) soup.triangles.push_back({ids[1], ids[0], ids[2]});
         if (f % 5 == 0) soup.triangles.push_back({ids[1], ids[1], ids[2]});
     }
-    const Intake intake = take_in(view_of(soup), 0);
+    const Intake intake = take_in(view_of(soup), {});
     const auto expected = exact_field(mesh_of(clean), 2);
     const auto d = exact_field(intake.mesh, intake.vertex_of_id[an_id_of[2]]);
     std::vector<double> found;

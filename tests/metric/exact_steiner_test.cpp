@@ -68,6 +68,7 @@ TEST_CASE("exact and Steiner points: boundaries, saddles and pinches") {
     check_between("saddle", cone(saddle_rays(10, 0.9), 5), 2);
     check_between("L", l_shape(5), 3);
     check_between("sheets", pinched_sheets(3), 4);
+    check_between("edges of three faces", comb(1), 5);
 }
 
 TEST_CASE("exact and Steiner points: one-sided and mixed winding") {

@@ -200,7 +200,6 @@ TEST_CASE("split_patch: a part of the mesh, into a partition of just its faces")
         CAPTURE(name);
         const Mesh mesh = mesh_of(soup);
         const ExactMetric metric(mesh);
-        const Workers workers(metric, 1, {});
         const auto solver = metric.make_solver();
         Faces faces;
         for (uint32_t f = 0; f < mesh.face_count(); ++f)
@@ -208,7 +207,7 @@ TEST_CASE("split_patch: a part of the mesh, into a partition of just its faces")
         for (uint32_t count : {1u, 3u, 10u, 500u}) {
             Random random(count);
             Faces together;
-            for (const Faces& patch : split_patch(mesh, faces, count, 2, *solver, random, workers)) {
+            for (const Faces& patch : split_patch(mesh, faces, count, 2, *solver, random)) {
                 CHECK(edge_connected(mesh, patch));
                 CHECK(border_rings(mesh, patch) <= 1);
                 together.insert(together.end(), patch.begin(), patch.end());
@@ -250,6 +249,10 @@ TEST_CASE("automatic_split: what the caller gives is kept, the rest fills up to 
     CHECK(split[1] > 1);
     CHECK(automatic_split(50, 2, std::vector<uint32_t>{3, 4}) == std::vector<uint32_t>{3, 4});
     CHECK(automatic_split(10, 100, {}).size() == GEOIDX_MAX_LEVELS);
+    // The levels that are named are meant, also where their number is automatic.
+    CHECK(automatic_split(50, 0, std::vector<uint32_t>{3, 4, 0, 0}) == std::vector<uint32_t>{3, 4});
+    // Levels asked for are levels, also of a small mesh.
+    for (uint32_t count : automatic_split(3000, 8, {})) CHECK(count >= 2);
     for (uint32_t level_count : {0u, 1u, 2u, 3u, 8u})
         for (uint32_t vertices : {1u, 3u, 100u, 5000u, 50000u, 1000000u, UINT32_MAX - 1}) {
             const auto counts = automatic_split(vertices, level_count, {});

@@ -220,6 +220,24 @@ Soup pinched_sheets(uint32_t half_cells) {
     return builder.soup;
 }
 
+Soup comb(uint32_t cells) {
+    LatticeBuilder builder;
+    const int n = static_cast<int>(cells);
+    const auto at = [&](int x, int y, int z) {
+        return builder.vertex({x, y, z}, [&](const std::array<int, 3>& key) -> Vector3d {
+            return Vector3d(key[0], key[1], key[2]) / (6.0 * n);
+        });
+    };
+    for (int y = 0; y < 6 * n; ++y) {
+        for (int x = 0; x < 6 * n; ++x)
+            add_quad(builder.soup, at(x, y, 0), at(x + 1, y, 0), at(x + 1, y + 1, 0), at(x, y + 1, 0));
+        for (int x : {2 * n, 4 * n})
+            for (int z = 0; z < 3 * n; ++z)
+                add_quad(builder.soup, at(x, y, z), at(x, y + 1, z), at(x, y + 1, z + 1), at(x, y, z + 1));
+    }
+    return builder.soup;
+}
+
 Soup cube(uint32_t cells) {
     LatticeBuilder builder;
     const int n = static_cast<int>(cells);

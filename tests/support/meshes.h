@@ -45,6 +45,9 @@ Soup annulus(uint32_t sectors, uint32_t rings);
 // Two grids that share one vertex: 0, at the origin, in the middle of the first (z = 0) and at a corner of
 // the second (x = 0, the others z > 0).
 Soup pinched_sheets(uint32_t half_cells);
+// The unit square, and two fins of height 1/2 that stand on it at x = 1/3 and x = 2/3, up to y = 1: edges of
+// three triangles. `cells` per 1/6.
+Soup comb(uint32_t cells);
 
 // ---- Other surfaces
 

@@ -259,7 +259,8 @@ fails_with 'inf\.obj.*vertex 2' build inf.obj -o x.geoidx
 fails_with 'range\.obj: line 1242:.*442' build range.obj -o x.geoidx
 fails_with 'empty\.obj: .*no vertices' build empty.obj -o x.geoidx
 fails_with 'no_faces\.obj: .*no triangles' build no_faces.obj -o x.geoidx
-fails_with 'fan\.obj: .*edge.* 0 .*1 .*3 triangles' build fan.obj -o x.geoidx
+fails_with 'fan\.obj: .*edge.* 0 .*1 .*3 triangles' build fan.obj -o x.geoidx --refuse-edges-of-many
+succeeds build fan.obj -o fan.geoidx
 fails_with 'missing\.obj: No such file' build missing.obj -o x.geoidx
 fails_with 'folder: is a directory' build folder -o x.geoidx
 fails_with '\.obj, \.ply, \.off, \.stl' build mesh.xyz -o x.geoidx
@@ -286,6 +287,7 @@ for output in folder nowhere/x grid.ply/x /proc/x; do
     fails_with "$output: " msad grid.obj.geoidx 0 -o x.f32 --mesh grid.obj --png $output
 done
 fails_with 'both -o and --png' msad grid.obj.geoidx 0 -o x --mesh grid.obj --png x
+fails_with 'both -o and --png' msad grid.obj.geoidx 0 -o x --mesh grid.obj --png ./folder/../x
 absent x.f32 x
 if [ -w /dev/full ]; then
     "$tool" info grid.obj.geoidx >/dev/full 2>err.txt

@@ -1,4 +1,6 @@
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -22,6 +24,77 @@ TEST_CASE("obj: vertices keep their order, the unused ones too") {
 TEST_CASE("obj: polygons become fans in the file's order") {
     const TriangleMesh mesh = read_obj("v 0 0 0\nv 5 0 0\nv 6 1 0\nv 0 1 0\nv -1 .5 0\nf 2 3 4 5 1\n");
     CHECK(mesh.triangles == Ids{1, 2, 3, 1, 3, 4, 1, 4, 0});
+}
+
+namespace {
+
+// Of the triangles and of the parts of them that overlap each other: equal where they do not overlap.
+double area_of(const TriangleMesh& mesh) {
+    double area = 0;
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+        const auto at = [&](size_t corner, size_t axis) {
+            return mesh.positions[3 * size_t{mesh.triangles[t + corner]} + axis];
+        };
+        double normal[3];
+        for (size_t k = 0; k < 3; ++k) {
+            const size_t u = (k + 1) % 3, v = (k + 2) % 3;
+            normal[k] =
+                (at(1, u) - at(0, u)) * (at(2, v) - at(0, v)) - (at(1, v) - at(0, v)) * (at(2, u) - at(0, u));
+        }
+        area += 0.5 * std::hypot(normal[0], normal[1], normal[2]);
+    }
+    return area;
+}
+
+}
+
+TEST_CASE(
+    "polygons with reflex corners are divided inside, whatever plane they lie in and corner they begin at") {
+    // An L of area 7; a chevron of area 2; a comb of area 14; winding both ways.
+    const std::vector<std::pair<double, std::vector<std::array<double, 2>>>> shapes = {
+        {7, {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}},
+        {2, {{0, 0}, {2, -2}, {1, 0}, {2, 2}}},
+        {14,
+         {{0, 0},
+          {7, 0},
+          {7, 2},
+          {6, 2},
+          {6, 1},
+          {5, 1},
+          {5, 2},
+          {4, 2},
+          {4, 1},
+          {3, 1},
+          {3, 3},
+          {2, 3},
+          {2, 1},
+          {1, 1},
+          {1, 4},
+          {0, 4}}}};
+    for (const auto& [area, shape] : shapes)
+        for (size_t begin = 0; begin < shape.size(); ++begin)
+            for (const std::array<size_t, 3>& axes :
+                 {std::array<size_t, 3>{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {1, 0, 2}}) {
+                std::string text, face = "f";
+                for (size_t i = 0; i < shape.size(); ++i) {
+                    double p[3];
+                    p[axes[0]] = shape[i][0] + 100;
+                    p[axes[1]] = shape[i][1];
+                    p[axes[2]] = 7;
+                    text += "v " + std::to_string(p[0]) + ' ' + std::to_string(p[1]) + ' ' +
+                            std::to_string(p[2]) + '\n';
+                    face += ' ' + std::to_string((begin + i) % shape.size() + 1);
+                }
+                const TriangleMesh mesh = read_obj(text + face + '\n');
+                CHECK(mesh.triangle_count() == shape.size() - 2);
+                CHECK(area_of(mesh) == doctest::Approx(area));
+            }
+}
+
+TEST_CASE("a polygon that crosses itself or has no area still gives its triangles") {
+    CHECK(read_obj("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n").triangle_count() == 2);
+    CHECK(read_obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 3 2 4\n").triangle_count() == 2);
+    CHECK(read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3 2 1\n").triangle_count() == 3);
 }
 
 TEST_CASE("obj: every form of a face's corner") {

@@ -46,11 +46,14 @@ void add_metric_options(CLI::App& command, MetricArguments& arguments) {
         .add_option("--weld-tolerance", arguments.weld_tolerance,
                     "vertices at most this far apart are one; 0: equal positions only")
         ->capture_default_str();
+    command.add_flag("--refuse-edges-of-many", arguments.refuse_edges_of_many,
+                     "fail where an edge has more than two triangles");
 }
 
 void apply(const MetricArguments& arguments, geoidx_build_options& options) {
     options.metric = metric_of_name(arguments.metric);
     options.weld_tolerance = arguments.weld_tolerance;
+    options.refuse_edges_of_many = arguments.refuse_edges_of_many ? 1 : 0;
 }
 
 }

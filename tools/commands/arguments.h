@@ -23,6 +23,7 @@ CLI::Validator whole_number();
 struct MetricArguments {
     std::string metric = "exact";
     double weld_tolerance = 0;
+    bool refuse_edges_of_many = false;
 };
 void add_metric_options(CLI::App& command, MetricArguments& arguments);
 void apply(const MetricArguments& arguments, geoidx_build_options& options);

@@ -74,7 +74,8 @@ void require_writable(const FieldOutput& output, std::span<const std::string> in
     require_writable(output.numbers, inputs);
     if (output.picture.empty()) return;
     require_writable(output.picture, inputs);
-    if (output.picture == output.numbers) throw Failure(output.picture + ": is both -o and --png");
+    if (is_same_path(output.picture, output.numbers))
+        throw Failure(output.picture + ": is both -o and --png");
 }
 
 void write_field(const FieldOutput& output, std::span<const float> distances, const TriangleMesh* mesh,

@@ -49,6 +49,9 @@ std::vector<Row> rows_of(const geoidx_info& info, const std::string& path, bool 
     const std::string patches = printed_patches(info, json ? ", " : " ");
     return {
         {"metric", "metric", metric_name(info.metric), true},
+        {"metric_fingerprint", "metric fingerprint", printed_fingerprint(info.metric_fingerprint), true},
+        {"metric_unfoldable", "metric can be unfolded",
+         info.metric_flags & GEOIDX_METRIC_UNFOLDABLE ? "1" : "0"},
         {"vertex_count", "vertices", std::to_string(info.vertex_count)},
         {"triangle_count", "triangles", std::to_string(info.triangle_count)},
         {"welded_vertex_count", "distinct used vertices", std::to_string(info.welded_vertex_count)},

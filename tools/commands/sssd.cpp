@@ -32,14 +32,17 @@ std::vector<float> index_distances(const geoidx& index, const std::string& path,
     return distances;
 }
 
-// The index keeps neither the caller's own metric nor the tolerance it was welded with.
+// The index keeps neither the caller's own metric or costs nor the tolerance it was welded with.
 Solver solver_like(const geoidx& index, const SssdArguments& arguments, const TriangleMesh& mesh) {
     geoidx_build_options options;
     geoidx_build_options_init(&options);
-    options.metric = info_of(index, arguments.index).metric;
+    const geoidx_info info = info_of(index, arguments.index);
+    options.metric = info.metric;
     options.weld_tolerance = arguments.weld_tolerance;
     if (options.metric == GEOIDX_METRIC_CALLBACK)
         throw Failure(arguments.index + ": was built with a program's own metric, unknown to --exact");
+    if (info.metric_fingerprint != 0)
+        throw Failure(arguments.index + ": was built with costs of its own, unknown to --exact");
     return make_solver(mesh, arguments.exact_mesh, options);
 }
 

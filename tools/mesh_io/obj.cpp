@@ -5,7 +5,7 @@
 #include <tiny_obj_loader.h>
 
 #include "tools/mesh_io/mesh_io.h"
-#include "tools/mesh_io/polygon_fan.h"
+#include "tools/mesh_io/polygons.h"
 #include "tools/mesh_io/text_scanner.h"
 
 namespace geodesic::tools {
@@ -66,6 +66,7 @@ struct ObjMesh {
     LineByLine lines;
     TriangleMesh mesh;
     HighestIndex highest;
+    Polygons polygons;
     std::vector<uint32_t> polygon;
 };
 
@@ -119,11 +120,11 @@ void on_face(void* user, tinyobj::index_t* indices, int index_count) {
         if (vertex > obj.highest.index) obj.highest = {vertex, obj.lines.line_number()};
         obj.polygon.push_back(vertex);
     }
-    append_fan(obj.polygon, obj.mesh.triangles);
+    obj.polygons.add(obj.polygon);
 }
 
 void require_known_vertices(const ObjMesh& obj) {
-    if (obj.mesh.triangles.empty() || obj.highest.index < obj.mesh.vertex_count()) return;
+    if (obj.polygons.empty() || obj.highest.index < obj.mesh.vertex_count()) return;
     throw MeshFileError(
         "line " + std::to_string(obj.highest.line_number) + ": " +
         out_of_range(std::to_string(obj.highest.index + uint64_t{1}), obj.mesh.vertex_count()));
@@ -144,6 +145,7 @@ TriangleMesh read_obj(std::string_view bytes) {
     if (!tinyobj::LoadObjWithCallback(stream, callbacks, &obj, nullptr, &warnings, &errors))
         throw MeshFileError(errors.substr(0, errors.find('\n')));
     require_known_vertices(obj);
+    obj.mesh.triangles = triangulate(obj.polygons, obj.mesh.positions);
     return std::move(obj.mesh);
 }
 

@@ -1,5 +1,5 @@
 #include "tools/mesh_io/mesh_io.h"
-#include "tools/mesh_io/polygon_fan.h"
+#include "tools/mesh_io/polygons.h"
 #include "tools/mesh_io/text_scanner.h"
 
 namespace geodesic::tools {
@@ -80,15 +80,16 @@ uint32_t take_index(const TextScanner& scanner, std::string_view& line, uint64_t
     return static_cast<uint32_t>(*index);
 }
 
-void read_face(TextScanner& scanner, uint64_t face, TriangleMesh& mesh, std::vector<uint32_t>& polygon) {
+void read_face(TextScanner& scanner, uint64_t face, uint64_t vertex_count, Polygons& polygons,
+               std::vector<uint32_t>& polygon) {
     std::string_view line;
     if (!scanner.next_filled_line(line)) scanner.fail("the file ends before face " + std::to_string(face));
     const uint64_t corners = take_count(scanner, line, "vertices of the face");
     if (corners < 3) scanner.fail("a face needs three vertices");
     polygon.clear();
     for (uint64_t corner = 0; corner < corners; ++corner)
-        polygon.push_back(take_index(scanner, line, mesh.vertex_count()));
-    append_fan(polygon, mesh.triangles);
+        polygon.push_back(take_index(scanner, line, vertex_count));
+    polygons.add(polygon);
 }
 
 }
@@ -101,8 +102,11 @@ TriangleMesh read_off(std::string_view bytes) {
     mesh.positions.reserve(3 * counts.vertices);
     for (uint64_t vertex = 0; vertex < counts.vertices; ++vertex)
         read_vertex(scanner, vertex, mesh.positions);
+    Polygons polygons;
     std::vector<uint32_t> polygon;
-    for (uint64_t face = 0; face < counts.faces; ++face) read_face(scanner, face, mesh, polygon);
+    for (uint64_t face = 0; face < counts.faces; ++face)
+        read_face(scanner, face, counts.vertices, polygons, polygon);
+    mesh.triangles = triangulate(polygons, mesh.positions);
     return mesh;
 }
 

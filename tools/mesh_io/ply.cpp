@@ -3,7 +3,7 @@
 
 #include "tools/mesh_io/mesh_io.h"
 #include "tools/mesh_io/ply_header.h"
-#include "tools/mesh_io/polygon_fan.h"
+#include "tools/mesh_io/polygons.h"
 #include "tools/mesh_io/text_scanner.h"
 
 namespace geodesic::tools {
@@ -167,13 +167,13 @@ void read_polygon(Values& values, const PlyProperty& property, uint64_t vertex_c
 }
 
 template <class Values>
-void read_faces(Values& values, const PlyElement& element, uint64_t vertex_count, TriangleMesh& mesh) {
+void read_faces(Values& values, const PlyElement& element, uint64_t vertex_count, Polygons& polygons) {
     std::vector<uint32_t> polygon;
     for (uint64_t face = 0; face < element.count; ++face)
         for (const PlyProperty& property : element.properties) {
             if (is_polygon(property)) {
                 read_polygon(values, property, vertex_count, polygon);
-                append_fan(polygon, mesh.triangles);
+                polygons.add(polygon);
             } else {
                 skip_property(values, property);
             }
@@ -202,16 +202,18 @@ template <class Values>
 TriangleMesh read_body(Values values, const PlyHeader& header) {
     const uint64_t vertex_count = vertex_count_of(header);
     TriangleMesh mesh;
+    Polygons polygons;
     for (const PlyElement& element : header.elements) {
         require_plausible(values, element);
         if (element.name == "vertex") {
             read_vertices(values, element, mesh);
         } else if (element.name == "face" && !element.properties.empty()) {
-            read_faces(values, element, vertex_count, mesh);
+            read_faces(values, element, vertex_count, polygons);
         } else {
             skip_element(values, element);
         }
     }
+    mesh.triangles = triangulate(polygons, mesh.positions);
     return mesh;
 }
 

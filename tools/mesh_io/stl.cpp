@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "tools/mesh_io/mesh_io.h"
-#include "tools/mesh_io/polygon_fan.h"
+#include "tools/mesh_io/polygons.h"
 #include "tools/mesh_io/text_scanner.h"
 
 namespace geodesic::tools {

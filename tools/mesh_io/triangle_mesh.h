@@ -6,7 +6,8 @@
 
 namespace geodesic::tools {
 
-// A mesh as its file has it: every vertex in the file's order, polygons as fans in the file's order.
+// A mesh as its file has it: every vertex in the file's order, polygons divided into triangles, in the file's
+// order.
 struct TriangleMesh {
     std::vector<double> positions;   // x, y, z of each vertex
     std::vector<uint32_t> triangles; // three vertex ids a triangle

@@ -1,0 +1,96 @@
+#include "src/metric/envelope.h"
+
+#include <algorithm>
+
+namespace geodesic {
+
+void Envelope::begin(std::span<const Window> holders) {
+    done_.clear();
+    taken_back_.clear();
+    rest_ = holders;
+    lowest_ = std::numeric_limits<double>::infinity();
+}
+
+void Envelope::skip_next() {
+    if (taken_back_.empty())
+        rest_ = rest_.subspan(1);
+    else
+        taken_back_.pop_back();
+}
+
+// Left of the cursor is what ends at t or before.
+void Envelope::move_cursor(double t) {
+    while (!done_.empty() && done_.back().end > t) {
+        taken_back_.push_back(done_.back());
+        done_.pop_back();
+    }
+    while (!at_end() && next()->end <= t) {
+        done_.push_back(*next());
+        skip_next();
+    }
+}
+
+void Envelope::insert(const Window& window) {
+    move_cursor(window.begin);
+    double covered = window.begin;
+    while (!at_end() && next()->begin < window.end) {
+        const Window holder = *next();
+        skip_next();
+        if (holder.begin > covered) emit_new(window, covered, holder.begin);
+        challenge(window, holder);
+        covered = holder.end;
+    }
+    if (window.end > covered) emit_new(window, covered, window.end);
+}
+
+std::span<const Window> Envelope::finish() {
+    done_.insert(done_.end(), taken_back_.rbegin(), taken_back_.rend());
+    done_.insert(done_.end(), rest_.begin(), rest_.end());
+    taken_back_.clear();
+    rest_ = {};
+    return done_;
+}
+
+// Puts down a part of a window, joined to the part before it where it goes on.
+void Envelope::emit(const Window& window, double begin, double end) {
+    if (!(end > begin)) return;
+    const double end_distance = end == window.end ? window.end_distance : window.distance_at(end);
+    if (!done_.empty() && done_.back().end == begin && is_continued(done_.back(), window)) {
+        done_.back().end = end;
+        done_.back().end_distance = end_distance;
+        return;
+    }
+    Window& part = done_.emplace_back(window);
+    if (begin != window.begin) part.begin_distance = window.distance_at(begin);
+    part.begin = begin;
+    part.end = end;
+    part.end_distance = end_distance;
+}
+
+void Envelope::emit_new(const Window& window, double begin, double end) {
+    if (!(end > begin)) return;
+    emit(window, begin, end);
+    lowest_ = std::min(lowest_, done_.back().smallest_distance());
+}
+
+// Puts down what is left of the holder, and of the challenger on the holder's interval.
+void Envelope::challenge(const Window& challenger, const Window& holder) {
+    const double s = std::max(challenger.begin, holder.begin);
+    const double t = std::min(challenger.end, holder.end);
+    const Advantage won = advantage(challenger, holder, s, t);
+    if (won.inside_out) {
+        emit(holder, holder.begin, s);
+        emit_new(challenger, s, won.begin);
+        emit(holder, won.begin, won.end);
+        emit_new(challenger, won.end, t);
+        emit(holder, t, holder.end);
+    } else if (won.begin < won.end) {
+        emit(holder, holder.begin, won.begin);
+        emit_new(challenger, won.begin, won.end);
+        emit(holder, won.end, holder.end);
+    } else {
+        emit(holder, holder.begin, holder.end);
+    }
+}
+
+}

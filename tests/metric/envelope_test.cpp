@@ -1,0 +1,146 @@
+// The lower envelope of windows on one edge, and the lists that keep one for every edge.
+#include "src/metric/envelope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "src/metric/window_lists.h"
+#include "tests/metric/windows.h"
+
+using namespace geodesic;
+using geodesic::test::random_window;
+using geodesic::test::uniform;
+
+namespace {
+
+double lowest_at(std::span<const Window> windows, double t) {
+    double lowest = HUGE_VAL;
+    for (const Window& w : windows)
+        if (w.begin <= t && t <= w.end) lowest = std::min(lowest, w.distance_at(t));
+    return lowest;
+}
+
+std::vector<Window> random_windows(std::mt19937_64& random, uint32_t count) {
+    std::vector<Window> windows;
+    for (uint32_t i = 0; i < count; ++i) {
+        const Window window = random_window(random, i);
+        if (window.end - window.begin > 1e-6) windows.push_back(window);
+    }
+    return windows;
+}
+
+void check_is_envelope(std::span<const Window> list, std::span<const Window> inserted,
+                       std::mt19937_64& random) {
+    size_t disordered = 0, wrong = 0;
+    for (size_t i = 0; i < list.size(); ++i) {
+        disordered += !(list[i].begin < list[i].end);
+        disordered += i > 0 && !(list[i - 1].end <= list[i].begin);
+        wrong += !(std::abs(list[i].begin_distance - list[i].distance_at(list[i].begin)) < 1e-12);
+        wrong += !(std::abs(list[i].end_distance - list[i].distance_at(list[i].end)) < 1e-12);
+    }
+    for (int k = 0; k < 500; ++k) {
+        const double t = uniform(random, 0, 1);
+        const double expected = lowest_at(inserted, t), found = lowest_at(list, t);
+        if (expected != found) wrong += !(std::abs(expected - found) < 1e-9);
+    }
+    CHECK(disordered == 0);
+    CHECK(wrong == 0);
+}
+
+}
+
+TEST_CASE("envelope: of many windows, in any order") {
+    std::mt19937_64 random(3);
+    Envelope envelope;
+    for (int round = 0; round < 100; ++round) {
+        auto windows = random_windows(random, 1 + static_cast<uint32_t>(random() % 40));
+        if (round % 3 == 1) std::ranges::sort(windows, {}, &Window::begin);
+        if (round % 3 == 2) std::ranges::sort(windows, std::greater<>{}, &Window::end);
+        envelope.begin({});
+        for (const Window& window : windows) envelope.insert(window);
+        check_is_envelope(envelope.finish(), windows, random);
+    }
+}
+
+TEST_CASE("envelope: a run of windows put into a list that is there") {
+    std::mt19937_64 random(5);
+    Envelope envelope;
+    for (int round = 0; round < 100; ++round) {
+        auto windows = random_windows(random, static_cast<uint32_t>(random() % 20));
+        envelope.begin({});
+        for (const Window& window : windows) envelope.insert(window);
+        const auto first = envelope.finish();
+        const std::vector<Window> holders(first.begin(), first.end());
+
+        const auto run = random_windows(random, static_cast<uint32_t>(random() % 20));
+        envelope.begin(holders);
+        CHECK(envelope.lowest() == HUGE_VAL);
+        for (const Window& window : run) envelope.insert(window);
+        windows.insert(windows.end(), run.begin(), run.end());
+        check_is_envelope(envelope.finish(), windows, random);
+    }
+}
+
+TEST_CASE("envelope: tells the smallest distance that a window has won") {
+    std::mt19937_64 random(4);
+    Envelope envelope;
+    for (int round = 0; round < 300; ++round) {
+        const Window holder = random_window(random, 0), window = random_window(random, 1);
+        if (!(holder.begin < holder.end) || !(window.begin < window.end)) continue;
+        envelope.begin({&holder, 1});
+        envelope.insert(window);
+        const double told = envelope.lowest();
+        double smallest = HUGE_VAL;
+        for (const Window& part : envelope.finish()) {
+            if (part.nearest != 1) continue;
+            for (int k = 0; k <= 200; ++k)
+                smallest =
+                    std::min(smallest, part.distance_at(part.begin + (part.end - part.begin) * k / 200));
+        }
+        if (smallest == HUGE_VAL) {
+            CHECK(told == HUGE_VAL);
+            continue;
+        }
+        CHECK(told <= smallest + 1e-12);
+        CHECK(told > smallest - 0.02); // between two samples it may dip a little
+    }
+}
+
+TEST_CASE("window lists: keep what was assigned last, until it is swept away") {
+    std::mt19937_64 random(7);
+    constexpr uint32_t EDGES = 300;
+    WindowLists lists(EDGES);
+    for (int round = 0; round < 4; ++round) {
+        lists.clear();
+        std::map<uint32_t, std::vector<Window>> expected;
+        size_t sweeps = 0, wrong = 0;
+        for (uint32_t step = 0; step < 4000; ++step) {
+            const auto edge = static_cast<uint32_t>(random() % EDGES);
+            if (lists.closed(edge)) continue;
+            const auto length = static_cast<uint32_t>(step % 97 == 0 ? 5000 : 1 + random() % 70);
+            std::vector<Window> windows(length, random_window(random, step));
+            lists.assign(edge, windows);
+            expected[edge] = std::move(windows);
+            if (!lists.crowded()) continue;
+            ++sweeps;
+            lists.sweep([](uint32_t e) { return e % 7 == 0; });
+            std::erase_if(expected, [](const auto& entry) { return entry.first % 7 == 0; });
+        }
+        for (uint32_t edge = 0; edge < EDGES; ++edge) {
+            const auto list = lists.at(edge);
+            const auto found = expected.find(edge);
+            const std::span<const Window> kept =
+                found == expected.end() ? std::span<const Window>() : found->second;
+            wrong += !std::ranges::equal(list, kept, [](const Window& a, const Window& b) {
+                return a.nearest == b.nearest && a.begin == b.begin && a.end == b.end;
+            });
+        }
+        CHECK(wrong == 0);
+        CHECK(sweeps > 1);
+    }
+}
