@@ -1,13 +1,17 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <future>
 #include <memory>
+
+#include <malloc.h>
 
 #include "bench/commands.h"
 #include "bench/report.h"
 #include "bench/statistics.h"
 #include "bench/workload.h"
+#include "tools/failure.h"
 #include "tools/library.h"
 
 namespace geodesic::bench {
@@ -22,6 +26,7 @@ struct MetricArguments {
     uint32_t fields = 20;
     uint32_t locals = 200;
     uint32_t threads = 2;
+    std::string beside;
     ReportArguments report;
 };
 
@@ -118,6 +123,50 @@ Timing run(std::span<const tools::Solver> solvers, const Model& model, const std
     return {median(durations), elapsed.wall};
 }
 
+// Bytes that malloc has given out.
+double heap_in_use() {
+    const auto info = mallinfo2();
+    return static_cast<double>(info.uordblks + info.hblkhd);
+}
+
+// What the first whole field of a solver makes it keep, and what the solver had before.
+Row memory_row(const Model& model, uint32_t source) {
+    const double before = heap_in_use();
+    const Solvers solvers = make_solvers(model, 1);
+    const double made = heap_in_use();
+    exact_field(*solvers[0], model, source);
+    const double solved = heap_in_use();
+    const auto vertices = static_cast<double>(model.mesh.vertex_count());
+    return {{"mesh", "mesh", model.name},
+            {"solver_bytes_per_vertex", "solver, bytes/vertex", (made - before) / vertices},
+            {"field_bytes_per_vertex", "first whole field, bytes/vertex", (solved - made) / vertices}};
+}
+
+// Another program's whole fields from the same sources: it is run as `PROGRAM MESH SOURCE...` and prints the
+// seconds of each.
+double other_seconds(const std::string& program, const Model& model, std::span<const uint32_t> sources) {
+    std::string command = program + " '" + model.path + "'";
+    for (const uint32_t source : sources) command += " " + std::to_string(source);
+    const std::unique_ptr<FILE, int (*)(FILE*)> output(popen(command.c_str(), "r"), pclose);
+    std::vector<double> seconds;
+    double value = 0;
+    while (output && std::fscanf(output.get(), "%lf", &value) == 1) seconds.push_back(value);
+    if (seconds.size() != sources.size()) throw tools::Failure(program + ": did not print a time a source");
+    std::ranges::nth_element(seconds, seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2));
+    return seconds[seconds.size() / 2];
+}
+
+Row beside_row(const Model& model, const std::string& program, std::span<const uint32_t> sources,
+               const Solvers& solvers) {
+    const double other =
+        other_seconds(program, model, sources) / static_cast<double>(model.mesh.vertex_count());
+    const double own = run(std::span(solvers).first(1), model, global_tasks(sources)).per_vertex.wall;
+    return {{"mesh", "mesh", model.name},
+            {"us_per_vertex", "µs/vertex", 1e6 * own},
+            {"other_us_per_vertex", program + ", µs/vertex", 1e6 * other},
+            {"ratio", "ratio", own / other}};
+}
+
 Row row_of(const Model& model, const std::string& field, const std::vector<Task>& tasks,
            std::span<const tools::Solver> solvers) {
     const Timing alone = run(solvers.first(1), model, tasks);
@@ -141,7 +190,15 @@ void warm_up(const Solvers& solvers, const Model& model, uint32_t source) {
            [&](geoidx_solver& solver, size_t) { exact_field(solver, model, source); });
 }
 
-void measure_model(const Model& model, const MetricArguments& arguments, std::vector<Row>& rows) {
+struct Tables {
+    Table times{"metric", "Exact distances without an index", {}};
+    Table memory{"memory", "Memory", {}};
+    Table beside{"beside", "Whole fields beside another program", {}};
+};
+
+void measure_model(const Model& model, const MetricArguments& arguments, Tables& tables) {
+    std::vector<Row>& rows = tables.times.rows;
+    tables.memory.rows.push_back(memory_row(model, 0));
     const Solvers solvers = make_solvers(model, arguments.threads);
     const auto sources = random_sources(*solvers[0], model, arguments.fields, SEED);
     warm_up(solvers, model, sources.front());
@@ -155,6 +212,9 @@ void measure_model(const Model& model, const MetricArguments& arguments, std::ve
         const std::vector<Task> tasks = shortened(largest, size);
         if (!tasks.empty()) rows.push_back(row_of(model, std::to_string(size), tasks, solvers));
     }
+    if (arguments.beside.empty()) return;
+    progress(model.name + ": " + arguments.beside);
+    tables.beside.rows.push_back(beside_row(model, arguments.beside, sources, solvers));
 }
 
 Row parameters_of(const MetricArguments& arguments) {
@@ -166,11 +226,13 @@ Row parameters_of(const MetricArguments& arguments) {
 
 void metric(const MetricArguments& arguments) {
     Report report("metric", parameters_of(arguments), arguments.report);
-    Table table{"metric", "Exact distances without an index", {}};
+    Tables tables;
     const size_t failed = for_each_model(arguments.meshes, arguments.folder, [&](const Model& model) {
-        measure_model(model, arguments, table.rows);
+        measure_model(model, arguments, tables);
     });
-    report.add(std::move(table));
+    report.add(std::move(tables.times));
+    report.add(std::move(tables.memory));
+    if (!arguments.beside.empty()) report.add(std::move(tables.beside));
     require_none(failed);
 }
 
@@ -187,6 +249,9 @@ void add_metric(CLI::App& app) {
     add("--fields", arguments->fields, "whole fields a mesh");
     add("--locals", arguments->locals, "local fields a size");
     add("--threads", arguments->threads, "at once, besides one alone");
+    command->add_option(
+        "--beside", arguments->beside,
+        "program to time beside, run as PROGRAM MESH SOURCE.., which prints the seconds of each field");
     add_report_options(*command, arguments->report);
     command->callback([arguments] { metric(*arguments); });
 }

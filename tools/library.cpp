@@ -57,6 +57,8 @@ const char* metric_name(uint32_t metric) {
         return "edges";
     case GEOIDX_METRIC_CALLBACK:
         return "callback";
+    case GEOIDX_METRIC_WEIGHTED:
+        return "weighted";
     default:
         return "unknown";
     }

@@ -3,13 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include <xxhash.h>
-
 #include "format/error.h"
 #include "src/build/measure.h"
-#include "src/metric/callback.h"
-#include "src/metric/edge_graph.h"
-#include "src/metric/window_propagation.h"
+#include "src/build/metric_options.h"
 #include "src/partition/hierarchy.h"
 #include "src/tables/borders.h"
 #include "src/tables/fill.h"
@@ -33,46 +29,6 @@ void check_options(const geoidx_build_options& options) {
         invalid("lloyd_iterations is " + std::to_string(options.lloyd_iterations) + ", more than 1000");
     if (options.metric_flags & ~uint32_t{GEOIDX_METRIC_UNFOLDABLE})
         invalid("metric_flags is " + std::to_string(options.metric_flags) + ", which has unknown flags");
-}
-
-uint32_t vertex_of_id(const Intake& intake, uint32_t id) {
-    if (id >= intake.vertex_of_id.size()) invalid("an edge cost names vertex " + std::to_string(id));
-    return intake.vertex_of_id[id];
-}
-
-// The edge lengths, lowered or raised to the caller's costs.
-std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options& options) {
-    std::vector<double> costs = edge_lengths(intake.mesh);
-    if (options.edge_cost_count == 0) return costs;
-    if (!options.edge_cost_vertices || !options.edge_costs)
-        invalid("edge_cost_count is set, but not its arrays");
-    std::vector<uint8_t> given(costs.size(), 0);
-    for (uint32_t i = 0; i < options.edge_cost_count; ++i) {
-        const uint32_t a = options.edge_cost_vertices[2 * size_t{i}];
-        const uint32_t b = options.edge_cost_vertices[2 * size_t{i} + 1];
-        const std::string name =
-            "the edge between vertices " + std::to_string(a) + " and " + std::to_string(b);
-        const double cost = options.edge_costs[i];
-        if (!(cost >= 0) || !std::isfinite(cost)) invalid(name + " has the cost " + std::to_string(cost));
-        const uint32_t from = vertex_of_id(intake, a), to = vertex_of_id(intake, b);
-        const uint32_t edge = from == NONE || to == NONE ? NONE : find_edge(intake.mesh, from, to);
-        if (edge == NONE) invalid(name + " is given a cost, but is no edge of the mesh");
-        costs[edge] = given[edge] ? std::min(costs[edge], cost) : cost;
-        given[edge] = 1;
-    }
-    return costs;
-}
-
-uint32_t metric_flags(const geoidx_build_options& options) {
-    if (options.metric == GEOIDX_METRIC_EXACT) return GEOIDX_METRIC_UNFOLDABLE;
-    return options.metric == GEOIDX_METRIC_CALLBACK ? options.metric_flags : 0;
-}
-
-uint64_t metric_fingerprint(const geoidx_build_options& options) {
-    if (options.metric != GEOIDX_METRIC_EDGES || options.edge_cost_count == 0) return 0;
-    const size_t count = options.edge_cost_count;
-    const uint64_t pairs = XXH3_64bits(options.edge_cost_vertices, 2 * count * sizeof(uint32_t));
-    return XXH3_64bits_withSeed(options.edge_costs, count * sizeof(double), pairs);
 }
 
 HierarchyOptions hierarchy_options(const Intake& intake, const geoidx_build_options& options) {
@@ -106,33 +62,13 @@ ProgressFunction progress_function(const geoidx_build_options& options) {
 
 }
 
-IntakeOptions intake_options(const geoidx_build_options& options) {
-    return {options.weld_tolerance, options.refuse_edges_of_many != 0};
-}
-
-std::unique_ptr<Metric> make_metric(const Intake& intake, const geoidx_build_options& options) {
-    switch (options.metric) {
-    case GEOIDX_METRIC_EXACT:
-        return std::make_unique<ExactMetric>(intake.mesh);
-    case GEOIDX_METRIC_EDGES:
-        return std::make_unique<EdgeGraphMetric>(intake.mesh, edge_costs(intake, options));
-    case GEOIDX_METRIC_CALLBACK:
-        if (!options.metric_callback)
-            invalid("metric is GEOIDX_METRIC_CALLBACK, but metric_callback is NULL");
-        return std::make_unique<CallbackMetric>(options.metric_callback, options.metric_user,
-                                                intake.id_of_vertex);
-    default:
-        invalid("metric " + std::to_string(options.metric) + " is not a GEOIDX_METRIC_*");
-    }
-}
-
 void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, Index& index) {
     check_options(options);
     const ProgressFunction progress = progress_function(options);
     if (progress && !progress(0, "mesh"))
         throw Error(GEOIDX_ERROR_CANCELLED, "the progress callback cancelled the build");
     const Intake intake = take_in(mesh, intake_options(options));
-    const auto metric = make_metric(intake, options);
+    const auto metric = make_metric(mesh, intake, options);
     describe(intake, options, index);
     Workers workers(*metric, options.threads, progress);
 

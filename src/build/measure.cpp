@@ -10,7 +10,7 @@ namespace geodesic {
 
 namespace {
 
-constexpr uint32_t SOURCES = 4;
+constexpr uint32_t SOURCES = 20;
 
 std::vector<double> relative_errors(const Index& index, std::span<const uint32_t> vertex_of_number,
                                     std::span<const uint32_t> id_of_vertex, uint32_t source,

@@ -104,39 +104,6 @@ void fill_info(const Index& index, geoidx_info& info) {
     info.error_max = index.error.max;
 }
 
-uint32_t solver_vertex(const geoidx_solver& solver, uint32_t id) {
-    if (id >= solver.intake.vertex_of_id.size())
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
-                    "vertex " + std::to_string(id) + " is out of range: the mesh has " +
-                        std::to_string(solver.intake.vertex_of_id.size()) + " vertices");
-    return solver.intake.vertex_of_id[id];
-}
-
-std::vector<uint32_t> used_vertices(const geoidx_solver& solver, std::span<const uint32_t> ids) {
-    std::vector<uint32_t> vertices;
-    for (uint32_t id : ids)
-        if (const uint32_t vertex = solver_vertex(solver, id); vertex != NONE) vertices.push_back(vertex);
-    return vertices;
-}
-
-void solve(geoidx_solver& solver, std::span<const uint32_t> sources, std::span<const uint32_t> targets,
-           bool all_targets, double* distances) {
-    const auto source_vertices = used_vertices(solver, sources);
-    const auto target_vertices = used_vertices(solver, targets);
-    if (!source_vertices.empty() && (all_targets || !target_vertices.empty()))
-        solver.solver->solve(source_vertices, target_vertices);
-    const auto distance_of = [&](uint32_t id) {
-        const uint32_t vertex = solver_vertex(solver, id);
-        if (vertex != NONE) return source_vertices.empty() ? UNREACHABLE : solver.solver->distance(vertex);
-        return std::find(sources.begin(), sources.end(), id) == sources.end() ? UNREACHABLE : 0.0;
-    };
-    const size_t count = all_targets ? solver.intake.vertex_of_id.size() : targets.size();
-    for (size_t i = 0; i < count; ++i) {
-        const uint32_t id = all_targets ? static_cast<uint32_t>(i) : targets[i];
-        distances[i] = distance_of(id);
-    }
-}
-
 }
 
 uint32_t geoidx_version(void) {
@@ -154,6 +121,7 @@ void geoidx_build_options_init(geoidx_build_options* options) {
     *options = {};
     options->struct_size = sizeof *options;
     options->lloyd_iterations = 4;
+    options->points_per_edge = 12;
 }
 
 void geoidx_open_options_init(geoidx_open_options* options) {
@@ -300,35 +268,5 @@ geoidx_status geoidx_query_msad(geoidx_query* query, const uint32_t* sources, ui
         require(query, "query is NULL");
         check_msad(sources, distances);
         query->query.msad({sources, source_count}, {distances, distance_count});
-    });
-}
-
-geoidx_status geoidx_solver_create(const geoidx_mesh* mesh, const geoidx_build_options* options,
-                                   geoidx_solver** out) {
-    if (out) *out = nullptr;
-    return guarded([&] {
-        require(out, "out is NULL");
-        require(mesh, "mesh is NULL");
-        const auto all_options = whole_or_default(options, geoidx_build_options_init);
-        auto solver = std::make_unique<geoidx_solver>();
-        solver->intake = take_in(whole(*mesh, geoidx_mesh_init), intake_options(all_options));
-        solver->metric = make_metric(solver->intake, all_options);
-        solver->solver = solver->metric->make_solver();
-        *out = solver.release();
-    });
-}
-
-void geoidx_solver_close(geoidx_solver* solver) { delete solver; }
-
-geoidx_status geoidx_solver_distances(geoidx_solver* solver, const uint32_t* sources, uint32_t source_count,
-                                      const uint32_t* targets, uint32_t target_count, double* distances) {
-    return guarded([&] {
-        require(solver, "solver is NULL");
-        require(sources, "sources is NULL");
-        require(source_count > 0, "there is no source");
-        require(distances || target_count == 0, "distances is NULL");
-        require(targets || target_count == solver->intake.vertex_of_id.size(),
-                "targets is NULL, but target_count is not the mesh's vertex_count");
-        solve(*solver, {sources, source_count}, {targets, targets ? target_count : 0}, !targets, distances);
     });
 }

@@ -81,9 +81,19 @@ std::vector<std::array<uint32_t, 3>> read_triangles(const geoidx_mesh& mesh) {
 bool is_degenerate(const std::array<uint32_t, 3>& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 struct CleanTriangles {
-    std::vector<std::array<uint32_t, 3>> kept; // in the caller's order
-    std::vector<uint32_t> kept_of_triangle;    // NONE where it is degenerate
+    std::vector<std::array<uint32_t, 3>> kept;                                  // in the caller's order
+    std::vector<uint32_t> kept_of_triangle;                                     // NONE where it is degenerate
+    std::unordered_map<uint32_t, std::array<uint32_t, 3>> corners_of_duplicate; // as in Intake
 };
+
+// Which corner of `kept` each corner of a triangle with the same vertices is.
+std::array<uint32_t, 3> matching_corners(const std::array<uint32_t, 3>& triangle,
+                                         const std::array<uint32_t, 3>& kept) {
+    std::array<uint32_t, 3> corners;
+    for (size_t k = 0; k < 3; ++k)
+        corners[k] = static_cast<uint32_t>(std::ranges::find(kept, triangle[k]) - kept.begin());
+    return corners;
+}
 
 // Drops triangles that are degenerate after welding, and all but the first of equal ones.
 CleanTriangles clean_triangles(std::vector<std::array<uint32_t, 3>> triangles,
@@ -112,7 +122,10 @@ CleanTriangles clean_triangles(std::vector<std::array<uint32_t, 3>> triangles,
         clean.kept_of_triangle.push_back(is_first                 ? static_cast<uint32_t>(clean.kept.size())
                                          : first_equal[i] == NONE ? NONE
                                                                   : clean.kept_of_triangle[first_equal[i]]);
-        if (is_first) clean.kept.push_back(triangles[i]);
+        if (is_first)
+            clean.kept.push_back(triangles[i]);
+        else if (first_equal[i] != NONE)
+            clean.corners_of_duplicate[i] = matching_corners(triangles[i], triangles[first_equal[i]]);
     }
     return clean;
 }
@@ -207,6 +220,7 @@ Intake take_in(const geoidx_mesh& mesh, const IntakeOptions& options) {
     if (clean.kept.empty()) bad_mesh("every triangle of the mesh is degenerate");
     number_used_vertices(intake, positions, representative, clean.kept);
     number_faces(intake, clean);
+    intake.corners_of_duplicate = std::move(clean.corners_of_duplicate);
     connect(intake.mesh);
     if (options.refuse_edges_of_many) refuse_edges_of_many(intake);
     intake.bounding_box_diagonal = bounding_box_diagonal(intake.mesh);

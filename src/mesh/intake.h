@@ -1,5 +1,7 @@
 #pragma once
 
+#include <unordered_map>
+
 #include "geoidx.h"
 #include "src/mesh/mesh.h"
 
@@ -13,6 +15,8 @@ struct Intake {
     std::vector<uint32_t> id_of_vertex; // per vertex of `mesh`: the first caller's id welded into it
     std::vector<uint32_t>
         face_of_triangle; // per triangle of the caller's, NONE where it was dropped as degenerate
+    // Of the triangles that repeat another: the corner of the face that each of their corners is.
+    std::unordered_map<uint32_t, std::array<uint32_t, 3>> corners_of_duplicate;
     uint64_t fingerprint = 0;
     double bounding_box_diagonal = 0; // of the used vertices
 };

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -27,40 +29,88 @@ uint32_t other_face_at(const Mesh& mesh, uint32_t edge, uint32_t face) {
     return faces[0] == face ? faces[1] : faces[0];
 }
 
-double angle_at(const Mesh& mesh, uint32_t corner) {
-    const auto& f = mesh.faces[corner / 3];
-    const uint32_t k = corner % 3;
-    const Eigen::Vector3d a = mesh.positions[f[(k + 1) % 3]] - mesh.positions[f[k]];
-    const Eigen::Vector3d b = mesh.positions[f[(k + 2) % 3]] - mesh.positions[f[k]];
-    return std::atan2(a.cross(b).norm(), a.dot(b));
+// Of a triangle with sides a, b, c: four times its area, and the angle opposite to a; stable for needles
+// (Kahan).
+double quadruple_area(double a, double b, double c) {
+    if (a < b) std::swap(a, b);
+    if (b < c) std::swap(b, c);
+    if (a < b) std::swap(a, b);
+    return std::sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)));
 }
 
-Side unfold(const Mesh& mesh, uint32_t edge, uint32_t face) {
+double angle_opposite(double a, double b, double c) {
+    if (b < c) std::swap(b, c);
+    const double mu = c >= a ? a - (b - c) : c - (b - a);
+    return 2 * std::atan2(std::sqrt(((b - c) + a) * mu), std::sqrt((b + (c + a)) * ((b - a) + c)));
+}
+
+// The shape of a face as positions or own lengths have it.
+class Shapes {
+public:
+    Shapes(const Mesh& mesh, std::span<const double> own_lengths) : mesh_(mesh), own_lengths_(own_lengths) {}
+
+    double length(uint32_t edge) const {
+        return own_lengths_.empty() ? mesh_.edge_length(edge) : own_lengths_[edge];
+    }
+
+    double angle(uint32_t corner) const {
+        const auto& f = mesh_.faces[corner / 3];
+        const uint32_t k = corner % 3;
+        if (!own_lengths_.empty()) {
+            const auto& edges = mesh_.face_edges[corner / 3];
+            return angle_opposite(own_lengths_[edges[k]], own_lengths_[edges[(k + 1) % 3]],
+                                  own_lengths_[edges[(k + 2) % 3]]);
+        }
+        const Eigen::Vector3d a = mesh_.positions[f[(k + 1) % 3]] - mesh_.positions[f[k]];
+        const Eigen::Vector3d b = mesh_.positions[f[(k + 2) % 3]] - mesh_.positions[f[k]];
+        return std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+
+    // Where the apex lies seen from an edge (see Side). `from_first`, `from_second`: the edges to it.
+    std::pair<double, double> apex(uint32_t edge, uint32_t vertex, uint32_t from_first,
+                                   uint32_t from_second) const {
+        if (!own_lengths_.empty()) {
+            const double base = own_lengths_[edge], a = own_lengths_[from_first],
+                         b = own_lengths_[from_second];
+            return {0.5 * (base + (a - b) * ((a + b) / base)), 0.5 * quadruple_area(base, a, b) / base};
+        }
+        const auto [first, second] = mesh_.edges[edge];
+        const Eigen::Vector3d along = (mesh_.positions[second] - mesh_.positions[first]).normalized();
+        const Eigen::Vector3d to_apex = mesh_.positions[vertex] - mesh_.positions[first];
+        return {to_apex.dot(along), to_apex.cross(along).norm()};
+    }
+
+private:
+    const Mesh& mesh_;
+    std::span<const double> own_lengths_;
+};
+
+Side unfold(const Mesh& mesh, const Shapes& shapes, uint32_t edge, uint32_t face) {
     const auto [first, second] = mesh.edges[edge];
     const auto& f = mesh.faces[face];
     uint32_t k = 0;
     while (f[k] == first || f[k] == second) ++k;
-    const Eigen::Vector3d along = (mesh.positions[second] - mesh.positions[first]).normalized();
-    const Eigen::Vector3d to_apex = mesh.positions[f[k]] - mesh.positions[first];
-    Side side{to_apex.dot(along), to_apex.cross(along).norm(), f[k], face, {}};
+    Side side{0, 0, f[k], face, {}};
+    uint32_t edge_from[2];
     for (uint32_t i = 0; i < 2; ++i) {
         const uint32_t from = mesh.edges[edge][i];
         const uint32_t opposite = f[(k + 1) % 3] == from ? (k + 2) % 3 : (k + 1) % 3;
-        const uint32_t e = mesh.face_edges[face][opposite];
+        const uint32_t e = edge_from[i] = mesh.face_edges[face][opposite];
         side.tagged_edge[i] = e << 1 | (mesh.edges[e][0] == f[k] ? 1u : 0u);
     }
+    std::tie(side.apex_x, side.apex_depth) = shapes.apex(edge, f[k], edge_from[0], edge_from[1]);
     return side;
 }
 
-void add_sides(const Mesh& mesh, IntrinsicMesh& out) {
+void add_sides(const Mesh& mesh, const Shapes& shapes, IntrinsicMesh& out) {
     out.edge_vertices = mesh.edges;
     out.side_of_corner.resize(mesh.faces.size() * 3);
     for (const auto& edges : mesh.face_edges)
         out.edge_of_corner.insert(out.edge_of_corner.end(), edges.begin(), edges.end());
     for (uint32_t e = 0; e < mesh.edge_count(); ++e) {
-        out.edge_length.push_back(mesh.edge_length(e));
+        out.edge_length.push_back(shapes.length(e));
         for (uint32_t face : mesh.edge_faces[e]) {
-            const Side side = unfold(mesh, e, face);
+            const Side side = unfold(mesh, shapes, e, face);
             const uint32_t corner = corner_at(mesh, face, side.apex);
             out.side_of_corner[corner] = static_cast<uint32_t>(out.sides.items.size());
             out.corner_of_side.push_back(corner);
@@ -137,14 +187,15 @@ bool can_bend(const IntrinsicMesh& mesh, uint32_t vertex) {
 
 }
 
-IntrinsicMesh::IntrinsicMesh(const Mesh& mesh) {
-    add_sides(mesh, *this);
+IntrinsicMesh::IntrinsicMesh(const Mesh& mesh, std::span<const double> own_lengths) {
+    const Shapes shapes(mesh, own_lengths);
+    add_sides(mesh, shapes, *this);
     add_spokes(mesh, *this);
     const size_t corner_count = mesh.faces.size() * 3;
     corner_begin.resize(corner_count);
     corner_angle.resize(corner_count);
     corner_first_edge.resize(corner_count);
-    for (uint32_t c = 0; c < corner_count; ++c) corner_angle[c] = angle_at(mesh, c);
+    for (uint32_t c = 0; c < corner_count; ++c) corner_angle[c] = shapes.angle(c);
     total_angle.resize(mesh.vertex_count());
     fan.resize(mesh.vertex_count());
     can_bend.resize(mesh.vertex_count());

@@ -34,7 +34,8 @@ enum class Fan : uint8_t {
 
 // The surface as window propagation reads it: lengths and unfolded faces, no positions.
 struct IntrinsicMesh {
-    explicit IntrinsicMesh(const Mesh& mesh);
+    // With own lengths, one per edge of the mesh, positions do not count; every face has an area then.
+    explicit IntrinsicMesh(const Mesh& mesh, std::span<const double> own_lengths = {});
 
     std::vector<double> edge_length;
     std::vector<std::array<uint32_t, 2>> edge_vertices;

@@ -184,14 +184,14 @@ void SteinerSearch::reach_exit(uint32_t tagged_edge, double apex_x, double apex_
 
 }
 
-WeightedMetric::WeightedMetric(const Mesh& mesh, std::span<const double> face_cost,
-                               uint32_t points_per_edge) {
+WeightedMetric::WeightedMetric(const Mesh& mesh, std::span<const double> face_cost, uint32_t points_per_edge,
+                               std::span<const double> own_lengths) {
     const uint64_t node_count = mesh.vertex_count() + uint64_t{mesh.edge_count()} * points_per_edge;
     if (node_count > UINT32_MAX / 2)
         throw Error(GEOIDX_ERROR_LIMIT, std::to_string(points_per_edge) + " points on each of " +
                                             std::to_string(mesh.edge_count()) + " edges are too many");
     auto graph = std::make_shared<Graph>(
-        Graph{IntrinsicMesh(mesh), {face_cost.begin(), face_cost.end()}, {}, points_per_edge});
+        Graph{IntrinsicMesh(mesh, own_lengths), {face_cost.begin(), face_cost.end()}, {}, points_per_edge});
     for (uint32_t e = 0; e < mesh.edge_count(); ++e) {
         const auto cost_of = [&](uint32_t face) { return face_cost[face]; };
         graph->edge_cost.push_back(cost_of(std::ranges::min(mesh.edge_faces[e], {}, cost_of)));

@@ -17,8 +17,10 @@ namespace geodesic {
 // cut the true path into, of the piece's cost times half of the spacing on the edge at each of its ends.
 class WeightedMetric final : public Metric {
 public:
-    // face_cost per face, positive and finite. Throws Error LIMIT where there are too many points.
-    WeightedMetric(const Mesh& mesh, std::span<const double> face_cost, uint32_t points_per_edge);
+    // face_cost per face, positive and finite; own_lengths as in IntrinsicMesh. Throws Error LIMIT where
+    // there are too many points.
+    WeightedMetric(const Mesh& mesh, std::span<const double> face_cost, uint32_t points_per_edge,
+                   std::span<const double> own_lengths = {});
     std::unique_ptr<FieldSolver> make_solver() const override;
     bool takes_points() const override { return true; }
 

@@ -230,11 +230,13 @@ void WindowPropagation::propagate_edge(uint32_t edge) {
     for (Window& window : lists_.at(edge)) window.pending = 0;
 }
 
-// No point of an edge is farther than half of its length and the distances of its vertices together.
+// No point of an edge is farther than half of its length and the distances of its vertices together. Windows
+// that are not propagated yet are at the front, but for rounding.
 void WindowPropagation::sweep() {
     lists_.sweep([this](uint32_t edge) {
         const auto [first, second] = mesh_->edge_vertices[edge];
-        return distance(first) + distance(second) + mesh_->edge_length[edge] < 2 * front_;
+        const double farthest = 0.5 * (distance(first) + distance(second) + mesh_->edge_length[edge]);
+        return farthest * (1 + TIE) < front_;
     });
 }
 

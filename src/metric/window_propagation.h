@@ -12,7 +12,9 @@ namespace geodesic {
 // vertex already beats (Xin and Wang 2009).
 class ExactMetric final : public Metric {
 public:
-    explicit ExactMetric(const Mesh& mesh) : mesh_(std::make_shared<IntrinsicMesh>(mesh)) {}
+    // own_lengths as in IntrinsicMesh.
+    explicit ExactMetric(const Mesh& mesh, std::span<const double> own_lengths = {})
+        : mesh_(std::make_shared<IntrinsicMesh>(mesh, own_lengths)) {}
     std::unique_ptr<FieldSolver> make_solver() const override;
     bool takes_points() const override { return true; }
 

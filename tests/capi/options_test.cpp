@@ -192,7 +192,7 @@ TEST_CASE("build options are validated") {
         options.level_count = levels;
         refused(options, "level_count");
     }
-    for (uint32_t metric : {3u, UINT32_MAX}) refused(build_options(metric), "metric");
+    for (uint32_t metric : {4u, UINT32_MAX}) refused(build_options(metric), "metric");
     refused(build_options(GEOIDX_METRIC_CALLBACK), "metric_callback");
     auto options = build_options();
     options.threads = UINT32_MAX;
@@ -289,4 +289,6 @@ TEST_CASE("a metric callback that fails or answers nonsense stops the build") {
         script.distance = distance;
         check_build_refused(mesh, options, GEOIDX_ERROR_CALLBACK, "distance");
     }
+    script.distance = 1e300;
+    check_build_refused(mesh, options, GEOIDX_ERROR_LIMIT, "32-bit float");
 }

@@ -186,7 +186,8 @@ TEST_CASE("a missing section is refused by name") {
 
 TEST_CASE("a section larger than the reader allows is refused before it is decoded") {
     Bytes zeros(100000);
-    for (std::size_t i = 0; i < zeros.size(); i += 500) zeros[i] = static_cast<std::byte>(i / 500); // packs less well
+    for (std::size_t i = 0; i < zeros.size(); i += 500)
+        zeros[i] = static_cast<std::byte>(i / 500); // packs less well
     const Bytes bomb = file_with(zstd_frame(zeros), Codec::Zstd, zeros.size());
     CHECK(read_status(bomb, zeros.size()) == GEOIDX_OK);
     CHECK(read_status(bomb, zeros.size() - 1) == GEOIDX_ERROR_CORRUPT);

@@ -1,0 +1,238 @@
+// Metrics that have parameters, and points of the surface, through the C API.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "tests/capi/refusals.h"
+
+using namespace geodesic::test;
+
+namespace {
+
+SolverHandle solver_of(const TestMesh& mesh, const geoidx_build_options& options) {
+    const geoidx_mesh view = mesh.view();
+    geoidx_solver* solver = nullptr;
+    require_success(geoidx_solver_create(&view, &options, &solver));
+    return SolverHandle(solver);
+}
+
+double distance(geoidx_solver* solver, uint32_t source, uint32_t target) {
+    double d = -1;
+    require_success(geoidx_solver_distances(solver, &source, 1, &target, 1, &d));
+    return d;
+}
+
+geoidx_build_options weighted(const std::vector<double>& costs) {
+    auto options = build_options(GEOIDX_METRIC_WEIGHTED, 1);
+    options.face_costs = costs.data();
+    options.face_cost_count = costs.size();
+    return options;
+}
+
+// The lengths of the sides of all triangles, each opposite to a corner.
+std::vector<double> sides_of(const TestMesh& mesh) {
+    std::vector<double> sides;
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3)
+        for (size_t k = 0; k < 3; ++k) {
+            double square = 0;
+            for (size_t axis = 0; axis < 3; ++axis) {
+                const auto at = [&](size_t corner) {
+                    return double{mesh.positions[3 * size_t{mesh.triangles[t + corner % 3]} + axis]};
+                };
+                square += std::pow(at(k + 1) - at(k + 2), 2);
+            }
+            sides.push_back(std::sqrt(square));
+        }
+    return sides;
+}
+
+geoidx_surface_point point(uint32_t triangle, double a, double b, double c) {
+    return {triangle, 0, {a, b, c}};
+}
+
+double point_distance(geoidx_solver* solver, const geoidx_surface_point& a, const geoidx_surface_point& b) {
+    double d = -1;
+    require_success(geoidx_solver_point_distances(solver, &a, 1, &b, 1, &d));
+    return d;
+}
+
+}
+
+TEST_CASE("face costs count, in the index and without one") {
+    const TestMesh mesh = hills(9, 9);
+    const std::vector<double> ones(mesh.triangles.size() / 3, 1), threes(ones.size(), 3);
+    const auto plain = build(mesh, weighted(ones)), dear = build(mesh, weighted(threes));
+    const auto exact = solver_of(mesh, build_options());
+    for (const auto& [a, b] : {std::pair{0u, 80u}, {5u, 60u}, {33u, 41u}}) {
+        CHECK(sssd(dear.get(), a, b) == doctest::Approx(3 * sssd(plain.get(), a, b)).epsilon(1e-6));
+        CHECK(sssd(plain.get(), a, b) >= distance(exact.get(), a, b) * (1 - 1e-6));
+        CHECK(sssd(plain.get(), a, b) <= distance(exact.get(), a, b) * 1.06);
+    }
+    CHECK(info_of(plain.get()).metric == GEOIDX_METRIC_WEIGHTED);
+    CHECK(info_of(plain.get()).metric_flags == 0);
+    CHECK(info_of(plain.get()).metric_fingerprint != info_of(dear.get()).metric_fingerprint);
+
+    // Two triangles, one dear: along the diagonal the cheap one counts.
+    const TestMesh square = two_triangles();
+    const auto solver = solver_of(square, weighted({1, 10}));
+    CHECK(distance(solver.get(), 0, 2) == doctest::Approx(std::sqrt(2.0)));
+    // To the far corner of the dear one: along the diagonal for a while, then off it at the critical angle,
+    // whose sine is 1 / 10. Half a diagonal lies between the corner and the diagonal, and before its foot.
+    const double half = std::sqrt(0.5), bent = half + half * std::sqrt(99.0);
+    CHECK(distance(solver.get(), 0, 3) >= bent * (1 - 1e-12));
+    CHECK(distance(solver.get(), 0, 3) <= bent * 1.005);
+    CHECK(distance(solver.get(), 0, 1) == doctest::Approx(1));
+}
+
+TEST_CASE("face costs are validated") {
+    const TestMesh mesh = hills(3, 3);
+    std::vector<double> costs(mesh.triangles.size() / 3, 1);
+    const auto refused = [&](const geoidx_build_options& options, const char* detail) {
+        check_build_refused(mesh, options, GEOIDX_ERROR_INVALID_ARGUMENT, detail);
+    };
+    for (double cost : {NOT_A_NUMBER, 0.0, -1.0, INFINITE}) {
+        costs[5] = cost;
+        refused(weighted(costs), "triangle 5");
+    }
+    costs[5] = 1;
+    auto options = weighted(costs);
+    options.face_costs = nullptr;
+    refused(options, "face_costs");
+    options = weighted(costs);
+    --options.face_cost_count;
+    refused(options, "face_cost_count");
+    options = weighted(costs);
+    options.points_per_edge = 1001;
+    refused(options, "points_per_edge");
+}
+
+TEST_CASE("a surface given by lengths is the surface that has them") {
+    TestMesh mesh = hills(8, 7);
+    const auto sides = sides_of(mesh);
+    const auto by_positions = solver_of(mesh, build_options());
+    // The same lengths on a mesh that lies flat and is scaled: positions do not count.
+    for (size_t v = 0; v < mesh.positions.size(); v += 3) mesh.positions[v + 2] = 0;
+    for (auto& coordinate : mesh.positions) coordinate *= 7;
+    auto options = build_options();
+    options.edge_lengths = sides.data();
+    options.edge_length_count = sides.size();
+    const auto by_lengths = solver_of(mesh, options);
+    for (uint32_t a : {0u, 20u, 55u})
+        for (uint32_t b = 0; b < 56; ++b)
+            CHECK(distance(by_lengths.get(), a, b) ==
+                  doctest::Approx(distance(by_positions.get(), a, b)).epsilon(1e-9));
+    const auto index = build(mesh, options);
+    CHECK(sssd(index.get(), 0, 55) >= distance(by_positions.get(), 0, 55) * (1 - 1e-6));
+    CHECK(sssd(index.get(), 0, 55) <= distance(by_positions.get(), 0, 55) * 1.05);
+    CHECK(info_of(index.get()).metric_fingerprint != 0);
+}
+
+TEST_CASE("lengths that no surface has are refused, and the triangle or the edge named") {
+    const TestMesh mesh = hills(4, 4);
+    const auto good = sides_of(mesh);
+    const auto refused = [&](const std::function<void(std::vector<double>&)>& change, const char* detail) {
+        auto sides = good;
+        change(sides);
+        auto options = build_options();
+        options.edge_lengths = sides.data();
+        options.edge_length_count = sides.size();
+        check_build_refused(mesh, options, GEOIDX_ERROR_BAD_MESH, detail);
+    };
+    for (double length : {0.0, -1.0, NOT_A_NUMBER, INFINITE})
+        refused([&](auto& sides) { sides[3 * 6 + 1] = length; }, "triangle 6 has a side of length");
+    refused([&](auto& sides) { sides[3 * 4] = sides[3 * 4 + 1] + sides[3 * 4 + 2] + 1; },
+            "triangle 4 has a side longer");
+    refused(
+        [&](auto& sides) {
+            sides[0] = 1;
+            sides[1] = 2;
+            sides[2] = 3;
+        },
+        "triangle 0 has no area");
+    refused(
+        [&](auto& sides) {
+            for (size_t k = 0; k < 3; ++k) sides[k] *= 1.001;
+        },
+        "two lengths");
+    auto options = build_options();
+    options.edge_lengths = good.data();
+    options.edge_length_count = good.size() - 1;
+    check_build_refused(mesh, options, GEOIDX_ERROR_INVALID_ARGUMENT, "edge_length_count");
+    options.edge_lengths = nullptr;
+    options.edge_length_count = good.size();
+    check_build_refused(mesh, options, GEOIDX_ERROR_INVALID_ARGUMENT, "edge_lengths");
+}
+
+TEST_CASE("a callback metric declares whether it can be unfolded") {
+    const TestMesh mesh = two_triangles();
+    auto options = build_options(GEOIDX_METRIC_CALLBACK, 1);
+    options.metric_callback = [](void*, uint32_t source, const uint32_t* targets, uint32_t count,
+                                 double* distances) {
+        for (uint32_t i = 0; i < count; ++i) distances[i] = targets[i] == source ? 0 : 1;
+        return geoidx_status{GEOIDX_OK};
+    };
+    CHECK(info_of(build(mesh, options).get()).metric_flags == 0);
+    options.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
+    CHECK(info_of(build(mesh, options).get()).metric_flags == GEOIDX_METRIC_UNFOLDABLE);
+    options.metric_flags = 2;
+    check_build_refused(mesh, options, GEOIDX_ERROR_INVALID_ARGUMENT, "metric_flags");
+    CHECK(info_of(build(mesh, build_options()).get()).metric_flags == GEOIDX_METRIC_UNFOLDABLE);
+    CHECK(info_of(build(mesh, build_options(GEOIDX_METRIC_EDGES)).get()).metric_flags == 0);
+}
+
+TEST_CASE("points of the surface") {
+    TestMesh mesh = two_triangles();                        // the unit square, 0-1-2 and 0-2-3
+    mesh.triangles.insert(mesh.triangles.end(), {2, 1, 0}); // triangle 2 repeats 0, its corners the other way
+    mesh.triangles.insert(mesh.triangles.end(), {0, 0, 1});
+    const auto solver = solver_of(mesh, build_options());
+    // (0.75, 0.25) and (0.25, 0.75), across the diagonal.
+    const auto a = point(0, 0.25, 0.5, 0.25), b = point(1, 0.25, 0.25, 0.5);
+    CHECK(point_distance(solver.get(), a, b) == doctest::Approx(std::sqrt(0.5)));
+    CHECK(point_distance(solver.get(), a, a) == 0);
+    CHECK(point_distance(solver.get(), a, point(1, 0, 0, 1)) == doctest::Approx(std::hypot(0.75, 0.75)));
+    const auto of_duplicate = point(2, 0.2, 0.7, 0.1), of_first = point(0, 0.1, 0.7, 0.2);
+    CHECK(point_distance(solver.get(), of_duplicate, of_first) == doctest::Approx(0).scale(1));
+    CHECK(point_distance(solver.get(), b, of_duplicate) ==
+          doctest::Approx(point_distance(solver.get(), b, of_first)));
+
+    const geoidx_surface_point both[] = {a, b};
+    double d[2];
+    require_success(geoidx_solver_point_distances(solver.get(), both, 2, both, 2, d));
+    CHECK(d[0] == 0);
+    CHECK(d[1] == 0);
+    require_success(geoidx_solver_point_distances(solver.get(), both, 2, nullptr, 0, nullptr));
+}
+
+TEST_CASE("points that are not on the surface are refused by name") {
+    TestMesh mesh = two_triangles();
+    mesh.triangles.insert(mesh.triangles.end(), {0, 0, 1});
+    const auto solver = solver_of(mesh, build_options());
+    const auto good = point(0, 1, 0, 0);
+    const auto refused = [&](const geoidx_surface_point& bad, const char* detail) {
+        double d[2];
+        const geoidx_surface_point points[] = {good, bad};
+        check_refused(geoidx_solver_point_distances(solver.get(), points, 2, &good, 1, d),
+                      GEOIDX_ERROR_INVALID_ARGUMENT, ("source 1" + std::string(detail)).c_str());
+        check_refused(geoidx_solver_point_distances(solver.get(), &good, 1, points, 2, d),
+                      GEOIDX_ERROR_INVALID_ARGUMENT, ("target 1" + std::string(detail)).c_str());
+    };
+    refused(point(3, 1, 0, 0), " is on triangle 3");
+    refused(point(2, 1, 0, 0), " is on triangle 2, which is degenerate");
+    refused(point(0, 1.5, -0.5, 0), " has the weight -0.5");
+    refused(point(0, NOT_A_NUMBER, 0.5, 0.5), " has the weight");
+    refused(point(0, 0.5, 0.4, 0), " has weights of 0.9");
+    refused(point(0, INFINITE, 0, 0), " has weights of");
+    double d = 0;
+    CHECK(geoidx_solver_point_distances(nullptr, &good, 1, &good, 1, &d) == GEOIDX_ERROR_INVALID_ARGUMENT);
+    CHECK(geoidx_solver_point_distances(solver.get(), nullptr, 1, &good, 1, &d) ==
+          GEOIDX_ERROR_INVALID_ARGUMENT);
+    CHECK(geoidx_solver_point_distances(solver.get(), &good, 0, &good, 1, &d) ==
+          GEOIDX_ERROR_INVALID_ARGUMENT);
+    CHECK(geoidx_solver_point_distances(solver.get(), &good, 1, &good, 1, nullptr) ==
+          GEOIDX_ERROR_INVALID_ARGUMENT);
+    const auto edges = solver_of(mesh, build_options(GEOIDX_METRIC_EDGES));
+    check_refused(geoidx_solver_point_distances(edges.get(), &good, 1, &good, 1, &d),
+                  GEOIDX_ERROR_INVALID_ARGUMENT, "vertices only");
+}
