@@ -31,6 +31,11 @@ void Envelope::move_cursor(double t) {
 }
 
 void Envelope::insert(const Window& window) {
+    if (at_end() && (done_.empty() || done_.back().end <= window.begin)) { // most windows come so
+        done_.push_back(window);
+        lowest_ = std::min(lowest_, window.smallest_distance());
+        return;
+    }
     move_cursor(window.begin);
     double covered = window.begin;
     while (!at_end() && next()->begin < window.end) {
