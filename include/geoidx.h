@@ -112,7 +112,7 @@ typedef struct geoidx_mesh {
     const void* positions;     /* x, y, z of each vertex, `position_stride` bytes apart */
     uint64_t vertex_count;     /* 1 .. 2^32 - 2 */
     const uint32_t* triangles; /* three vertex ids a triangle */
-    uint64_t triangle_count;   /* 1 .. 2^32 - 2 */
+    uint64_t triangle_count;   /* 1 .. 1431655764 */
     uint32_t position_stride;  /* bytes from one vertex to the next; 0: tightly packed */
     uint32_t reserved;         /* not read */
 } geoidx_mesh;
@@ -184,7 +184,7 @@ typedef struct geoidx_build_options {
     uint32_t reserved;        /* not read */
     /* GEOIDX_METRIC_EXACT and _WEIGHTED: a surface given by lengths instead of positions, which then only
      * weld and order vertices: edge_lengths[3 t + k] is the length of the edge opposite to corner k of
-     * triangle t, positive and finite, the same in all triangles at the edge (to 1e-9). A triangle whose
+     * triangle t, 1.2e-38 to 3.4e38, the same in all triangles at the edge (to 1e-9). A triangle whose
      * sides do not leave it an area is GEOIDX_ERROR_BAD_MESH, and named. */
     const double* edge_lengths; /* NULL (default): none */
     uint64_t edge_length_count; /* 3 times the mesh's triangle_count, or 0 (default) */

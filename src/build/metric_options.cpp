@@ -1,6 +1,8 @@
 #include "src/build/metric_options.h"
 
 #include <algorithm>
+#include <array>
+#include <cfloat>
 #include <cmath>
 #include <cstring>
 #include <span>
@@ -75,7 +77,7 @@ std::vector<double> face_costs(const Intake& intake, const geoidx_build_options&
 void check_sides(uint64_t triangle, std::span<const double, 3> sides) {
     const std::string name = "triangle " + std::to_string(triangle);
     for (double side : sides)
-        if (!(side > 0) || !std::isfinite(side))
+        if (!(side >= double{FLT_MIN} && side <= double{FLT_MAX}))
             bad_mesh(name + " has a side of length " + std::to_string(side));
     for (size_t k = 0; k < 3; ++k) {
         const double others = sides[(k + 1) % 3] + sides[(k + 2) % 3];
@@ -106,6 +108,13 @@ std::vector<double> own_lengths(const geoidx_mesh& mesh, const Intake& intake,
                          std::to_string(sides[k]) + " in triangle " + std::to_string(t));
             if (length == 0) length = sides[k];
         }
+    }
+    // With the lengths that were kept, the first ones.
+    for (uint64_t t = 0; t < mesh.triangle_count; ++t) {
+        const uint32_t face = intake.face_of_triangle[t];
+        if (face == NONE) continue;
+        const auto& edges = intake.mesh.face_edges[face];
+        check_sides(t, std::array{lengths[edges[0]], lengths[edges[1]], lengths[edges[2]]});
     }
     return lengths;
 }

@@ -17,15 +17,16 @@ namespace geodesic {
 
 namespace {
 
-constexpr uint64_t MAX_COUNT = UINT32_MAX - 1;
+constexpr uint64_t MOST_VERTICES = UINT32_MAX - 1;
+constexpr uint64_t MOST_TRIANGLES = MOST_VERTICES / 3; // their corners are counted in 32 bits
 
 [[noreturn]] void bad_mesh(const std::string& detail) { throw Error(GEOIDX_ERROR_BAD_MESH, detail); }
 
-void check_count(uint64_t count, const char* what) {
+void check_count(uint64_t count, uint64_t most, const char* what) {
     if (count == 0) bad_mesh(std::string("the mesh has no ") + what);
-    if (count > MAX_COUNT)
-        throw Error(GEOIDX_ERROR_LIMIT,
-                    "the mesh has " + std::to_string(count) + " " + what + ", more than 2^32 - 2");
+    if (count > most)
+        throw Error(GEOIDX_ERROR_LIMIT, "the mesh has " + std::to_string(count) + " " + what +
+                                            ", more than " + std::to_string(most));
 }
 
 size_t position_stride(const geoidx_mesh& mesh) {
@@ -41,8 +42,8 @@ void check_arrays(const geoidx_mesh& mesh) {
     if (mesh.position_type != GEOIDX_POSITION_FLOAT && mesh.position_type != GEOIDX_POSITION_DOUBLE)
         throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
                     "position_type " + std::to_string(mesh.position_type) + " is not a GEOIDX_POSITION_*");
-    check_count(mesh.vertex_count, "vertices");
-    check_count(mesh.triangle_count, "triangles");
+    check_count(mesh.vertex_count, MOST_VERTICES, "vertices");
+    check_count(mesh.triangle_count, MOST_TRIANGLES, "triangles");
     if (!mesh.positions) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "positions is NULL");
     if (!mesh.triangles) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "triangles is NULL");
 }
@@ -226,6 +227,8 @@ Intake take_in(const geoidx_mesh& mesh, const IntakeOptions& options) {
     intake.bounding_box_diagonal = bounding_box_diagonal(intake.mesh);
     if (!std::isfinite(intake.bounding_box_diagonal) || intake.bounding_box_diagonal > FLT_MAX)
         bad_mesh("the bounding box is too large: distances would not fit a 32-bit float");
+    if (intake.bounding_box_diagonal < FLT_MIN)
+        bad_mesh("the bounding box is too small: distances would not fit a 32-bit float");
     return intake;
 }
 

@@ -1,11 +1,14 @@
 #include "src/metric/intrinsic_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 #include <utility>
 
 #include <Eigen/Geometry>
+
+#include "format/error.h"
 
 namespace geodesic {
 
@@ -35,13 +38,37 @@ double quadruple_area(double a, double b, double c) {
     if (a < b) std::swap(a, b);
     if (b < c) std::swap(b, c);
     if (a < b) std::swap(a, b);
-    return std::sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)));
+    const double product = (1 + (b + c) / a) * ((c - (a - b)) / a) * ((c + (a - b)) / a) * (1 + (b - c) / a);
+    return a * a * std::sqrt(product);
 }
 
 double angle_opposite(double a, double b, double c) {
     if (b < c) std::swap(b, c);
     const double mu = c >= a ? a - (b - c) : c - (b - a);
     return 2 * std::atan2(std::sqrt(((b - c) + a) * mu), std::sqrt((b + (c + a)) * ((b - a) + c)));
+}
+
+// How much the two shorter sides of a face are longer than the longest.
+double slack(double a, double b, double c) {
+    const double longest = std::max({a, b, c});
+    return a == longest ? b - (a - c) : b == longest ? a - (b - c) : a - (c - b);
+}
+
+// Paths through a face without area have no direction. Where there is such a face, every edge is made longer
+// by as much as gives it one a few 1e-8 of its length high (intrinsic mollification, Sharp and Crane 2020):
+// then lengths, and not positions, make the surface. None where all faces have an area.
+std::vector<double> mollified_lengths(const Mesh& mesh) {
+    constexpr double SMALLEST_SLACK = 2e-15;
+    double addition = 0;
+    for (const auto& edges : mesh.face_edges) {
+        const double a = mesh.edge_length(edges[0]), b = mesh.edge_length(edges[1]),
+                     c = mesh.edge_length(edges[2]);
+        addition = std::max(addition, SMALLEST_SLACK * std::max({a, b, c}) - slack(a, b, c));
+    }
+    std::vector<double> lengths;
+    for (uint32_t e = 0; addition > 0 && e < mesh.edge_count(); ++e)
+        lengths.push_back(mesh.edge_length(e) + addition);
+    return lengths;
 }
 
 // The shape of a face as positions or own lengths have it.
@@ -188,7 +215,11 @@ bool can_bend(const IntrinsicMesh& mesh, uint32_t vertex) {
 }
 
 IntrinsicMesh::IntrinsicMesh(const Mesh& mesh, std::span<const double> own_lengths) {
-    const Shapes shapes(mesh, own_lengths);
+    if (mesh.edge_count() > UINT32_MAX / 2 || mesh.vertex_count() > UINT32_MAX / 2)
+        throw Error(GEOIDX_ERROR_LIMIT, "the mesh has more than 2^31 vertices or edges");
+    const std::vector<double> mollified =
+        own_lengths.empty() ? mollified_lengths(mesh) : std::vector<double>();
+    const Shapes shapes(mesh, own_lengths.empty() ? std::span<const double>(mollified) : own_lengths);
     add_sides(mesh, shapes, *this);
     add_spokes(mesh, *this);
     const size_t corner_count = mesh.faces.size() * 3;

@@ -17,6 +17,10 @@ struct PlanePoint {
 // The point in the plane of the side opposite to `corner` of its face.
 PlanePoint place_on_side(const IntrinsicMesh& mesh, uint32_t corner, const SurfacePoint& point);
 
+// The point as a point of every face that it lies on the border of, or of its only one.
+std::vector<SurfacePoint> in_all_faces(const IntrinsicMesh& mesh, const SurfacePoint& point);
+
+// A point on the border of faces is there once for each.
 struct TargetPoint {
     uint32_t face;
     uint32_t index;                    // in the request

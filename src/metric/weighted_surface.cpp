@@ -93,7 +93,10 @@ void SteinerSearch::start(const FieldRequest& request) {
     targets_.place(mesh(), request.target_points);
     for (uint32_t i = 0; i < request.sources.size(); ++i) reach(request.sources[i], 0, i, NONE);
     auto nearest = static_cast<uint32_t>(request.sources.size());
-    for (const SurfacePoint& point : request.source_points) start_at(point, nearest++);
+    for (const SurfacePoint& point : request.source_points) {
+        for (const SurfacePoint& alias : in_all_faces(mesh(), point)) start_at(alias, nearest);
+        ++nearest;
+    }
 }
 
 void SteinerSearch::start_at(const SurfacePoint& point, uint32_t nearest) {

@@ -47,7 +47,10 @@ public:
           pending_(vertex_count()) {}
 
 private:
-    // From where the path to a vertex comes: along an edge, or in a direction. A source has neither.
+    // From where the path to a vertex comes: along an edge, in a direction, or from a source that it is or
+    // that lies in a face around it. Paths may leave such a vertex any way: next to it rounding hides what
+    // the source itself sees.
+    static constexpr uint32_t FROM_SOURCE = NONE - 1;
     struct Arrival {
         uint32_t edge = NONE;
         double angle = NO_ANGLE; // around the vertex, as in IntrinsicMesh
@@ -123,7 +126,8 @@ void WindowPropagation::run(const FieldRequest& request) {
 void WindowPropagation::start(const FieldRequest& request) {
     pending_.begin(request);
     targets_.place(*mesh_, request.target_points);
-    for (uint32_t i = 0; i < request.sources.size(); ++i) reach(request.sources[i], 0, i, {});
+    for (uint32_t i = 0; i < request.sources.size(); ++i)
+        reach(request.sources[i], 0, i, {FROM_SOURCE, NO_ANGLE});
     auto nearest = static_cast<uint32_t>(request.sources.size());
     for (const SurfacePoint& point : request.source_points) start_at(point, nearest++);
 }
@@ -134,7 +138,8 @@ void WindowPropagation::start_at(const SurfacePoint& point, uint32_t nearest) {
         const Side& side = mesh_->sides.items[mesh_->side_of_corner[corner]];
         const uint32_t edge = mesh_->edge_of_corner[corner];
         const PlanePoint p = place_on_side(*mesh_, corner, point);
-        reach(side.apex, norm(p.x - side.apex_x, p.depth - side.apex_depth), nearest, {});
+        reach(side.apex, norm(p.x - side.apex_x, p.depth - side.apex_depth), nearest,
+              {FROM_SOURCE, NO_ANGLE});
         add_source_window(edge, p, 0, side.face, nearest);
     }
     for (const TargetPoint& target : targets_.of_face(point.face)) {
@@ -167,7 +172,7 @@ void WindowPropagation::settle(uint32_t vertex) {
     const double d = distance(vertex);
     for (const Spoke& spoke : mesh_->spokes[vertex])
         reach(spoke.other, d + spoke.length, nearest(vertex), {spoke.edge, NO_ANGLE});
-    if (d == 0 || mesh_->can_bend[vertex]) spawn(vertex);
+    if (arrival_[vertex].edge == FROM_SOURCE || mesh_->can_bend[vertex]) spawn(vertex);
     if (!targets_.empty()) reach_points_around(vertex);
 }
 
@@ -195,7 +200,7 @@ void WindowPropagation::reach_points_behind(const Window& window, const Side& si
 
 double WindowPropagation::arrival_angle(uint32_t vertex) const {
     const Arrival& arrival = arrival_[vertex];
-    if (arrival.edge == NONE) return arrival.angle;
+    if (arrival.edge >= FROM_SOURCE) return arrival.angle;
     for (uint32_t corner : mesh_->corners[vertex])
         if (mesh_->corner_first_edge[corner] == arrival.edge) return mesh_->corner_begin[corner];
     return mesh_->total_angle[vertex]; // the last edge of an open fan begins no corner
@@ -264,15 +269,14 @@ void WindowPropagation::cross(uint32_t edge, const Side& side) {
 // The line to the apex crosses the edge at `split`. Where rounding has put that just outside of the window,
 // the path bends at the window's end, `crossing`: longer by the square of the miss, but never too short.
 void WindowPropagation::reach_apex(const Window& window, const Side& side, double split, double crossing) {
-    const double height = window.y + side.apex_depth;
-    const double across = window.x - side.apex_x;
-    const double d = split == crossing
-                         ? window.sigma + norm(across, height)
-                         : window.distance_at(crossing) + norm(crossing - side.apex_x, side.apex_depth);
+    const bool straight = split == crossing;
+    const double height = straight ? window.y + side.apex_depth : side.apex_depth;
+    const double across = (straight ? window.x : crossing) - side.apex_x;
+    const double d = (straight ? window.sigma : window.distance_at(crossing)) + norm(across, height);
     if (!(d < distance(side.apex))) return;
     Arrival arrival;
     if (mesh_->can_bend[side.apex]) {
-        // The angle between the way back to the source and the edge to the entry edge's first vertex.
+        // The angle between the way back and the edge to the entry edge's first vertex.
         const double px = -side.apex_x, py = side.apex_depth;
         const double turn = std::atan2(std::abs(px * height - py * across), px * across + py * height);
         const uint32_t corner = mesh_->corner_of_side[static_cast<size_t>(&side - mesh_->sides.items.data())];
@@ -287,8 +291,7 @@ void WindowPropagation::reach_apex(const Window& window, const Side& side, doubl
 // edges.
 void WindowPropagation::propagate(const Window& window, const Side& side, const Exit (&exits)[2]) {
     const double height = window.y + side.apex_depth;
-    // A source in line with the edge: its vertices carry that on, unless it lies on the edge, as the apex of
-    // a face without area does.
+    // A source in line with the edge: its vertices carry that on, unless it lies on the edge.
     const bool on_edge = window.x > window.begin && window.x < window.end;
     if (!(window.y > 0) && !on_edge) return;
     const double length = exits[0].entry_length;

@@ -156,7 +156,19 @@ TEST_CASE("lengths that no surface has are refused, and the triangle or the edge
             for (size_t k = 0; k < 3; ++k) sides[k] *= 1.001;
         },
         "two lengths");
+    // Each triangle has an area of its own, but not with the length that its neighbour gives their edge.
+    const TestMesh pair = two_triangles();
     auto options = build_options();
+    options.edge_length_count = 6;
+    const double long_first[] = {1, 1, 1, 0.5, 0.5 - 1e-10, 1 - 0.5e-9};
+    options.edge_lengths = long_first;
+    check_build_refused(pair, options, GEOIDX_ERROR_BAD_MESH, "triangle 1");
+    for (double scale : {1e-80, 1e80})
+        refused(
+            [&](auto& sides) {
+                for (double& side : sides) side *= scale;
+            },
+            "triangle 0 has a side of length");
     options.edge_lengths = good.data();
     options.edge_length_count = good.size() - 1;
     check_build_refused(mesh, options, GEOIDX_ERROR_INVALID_ARGUMENT, "edge_length_count");

@@ -183,3 +183,49 @@ TEST_CASE("surface points: on a weighted surface, as if there were vertices, wit
         }
     }
 }
+
+TEST_CASE("surface points: next to a vertex, nearer than rounding can tell") {
+    for (const Soup& soup : {grid(12, 12, 12, 12), jittered_grid(10, 4)}) {
+        const Mesh mesh = mesh_of(soup);
+        const auto solver = ExactMetric(mesh).make_solver();
+        std::mt19937_64 random(3);
+        for (double offset : {1e-30, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-10, 1e-6})
+            for (int i = 0; i < 20; ++i) {
+                SurfacePoint point{static_cast<uint32_t>(random() % mesh.face_count()), {}};
+                const size_t corner = random() % 3;
+                for (double& weight : point.weights) weight = offset * uniform(random, 0, 1);
+                point.weights[corner] = 1 - point.weights[(corner + 1) % 3] - point.weights[(corner + 2) % 3];
+                const Vector3d from = position_of(mesh, point);
+                solver->solve({{}, {}, {&point, 1}, {}});
+                double worst = 0;
+                for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+                    const double d = (mesh.positions[v] - from).norm();
+                    if (d > 0.01) worst = std::max(worst, std::abs(solver->distance(v) / d - 1));
+                }
+                CAPTURE(offset);
+                CHECK(worst < 1e-9);
+            }
+    }
+}
+
+TEST_CASE("surface points: on an edge the cheaper face counts, whichever it is named in") {
+    Soup soup;
+    soup.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}};
+    soup.triangles = {{0, 1, 2}, {1, 0, 3}};
+    const Mesh mesh = mesh_of(soup);
+    const double costs[] = {1000, 1};
+    const auto solver = WeightedMetric(mesh, costs, 12).make_solver();
+    const SurfacePoint in_dear{0, {0.5, 0.5, 0}}, in_cheap{1, {0.5, 0.5, 0}}, along{0, {0.49, 0.51, 0}},
+        below{1, {0.35, 0.35, 0.3}}, corner{0, {1, 0, 0}};
+    const SurfacePoint targets[] = {in_dear, in_cheap, along, below, corner};
+    const double expected[] = {0, 0, 0.01, 0.3, 0.5};
+    for (const SurfacePoint& source : {in_dear, in_cheap}) {
+        solver->solve({{}, {}, {&source, 1}, targets});
+        for (size_t t = 0; t < 5; ++t)
+            CHECK(solver->point_distance(t) == doctest::Approx(expected[t]).epsilon(1e-9).scale(1e-3));
+    }
+    solver->solve({{}, {}, {&below, 1}, targets});
+    for (size_t t = 0; t < 2; ++t) CHECK(solver->point_distance(t) == doctest::Approx(0.3));
+    solver->solve({{}, {}, {&corner, 1}, targets});
+    for (size_t t = 0; t < 2; ++t) CHECK(solver->point_distance(t) == doctest::Approx(0.5));
+}
