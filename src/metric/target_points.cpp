@@ -62,8 +62,9 @@ void TargetPoints::place(const IntrinsicMesh& mesh, std::span<const SurfacePoint
 }
 
 std::span<const TargetPoint> TargetPoints::of_face(uint32_t face) const {
-    const auto found = std::ranges::equal_range(points_, face, {}, &TargetPoint::face);
-    return {found.begin(), found.end()};
+    const auto begin = std::ranges::lower_bound(points_, face, {}, &TargetPoint::face);
+    const auto end = std::ranges::upper_bound(points_, face, {}, &TargetPoint::face);
+    return {begin, end};
 }
 
 }

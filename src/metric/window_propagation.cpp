@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <ranges>
 
 #include "src/metric/envelope.h"
 #include "src/metric/event_queue.h"
@@ -348,7 +347,7 @@ void WindowPropagation::deliver(uint32_t edge, std::span<const Window> run, bool
     if (ascending)
         for (const Window& window : run) envelope_.insert(window);
     else
-        for (const Window& window : std::views::reverse(run)) envelope_.insert(window);
+        for (size_t i = run.size(); i > 0; --i) envelope_.insert(run[i - 1]);
     if (envelope_.lowest() == UNREACHABLE) return;
     lists_.assign(edge, envelope_.finish());
     if (!(envelope_.lowest() < queued_distance_[edge])) return;
