@@ -152,8 +152,7 @@ double other_seconds(const std::string& program, const Model& model, std::span<c
     double value = 0;
     while (output && std::fscanf(output.get(), "%lf", &value) == 1) seconds.push_back(value);
     if (seconds.size() != sources.size()) throw tools::Failure(program + ": did not print a time a source");
-    std::ranges::nth_element(seconds, seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2));
-    return seconds[seconds.size() / 2];
+    return median(std::move(seconds));
 }
 
 Row beside_row(const Model& model, const std::string& program, std::span<const uint32_t> sources,

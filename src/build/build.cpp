@@ -65,8 +65,7 @@ ProgressFunction progress_function(const geoidx_build_options& options) {
 void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, Index& index) {
     check_options(options);
     const ProgressFunction progress = progress_function(options);
-    if (progress && !progress(0, "mesh"))
-        throw Error(GEOIDX_ERROR_CANCELLED, "the progress callback cancelled the build");
+    if (progress && !progress(0, "mesh")) throw_cancelled();
     const Intake intake = take_in(mesh, intake_options(options));
     const auto metric = make_metric(mesh, intake, options);
     describe(intake, options, index);

@@ -6,8 +6,6 @@
 #include <mutex>
 #include <thread>
 
-#include "format/error.h"
-
 namespace geodesic {
 
 struct Workers::Failure {
@@ -37,7 +35,7 @@ void Workers::begin_stage(const char* name, double end_fraction) {
 }
 
 void Workers::check_cancelled() const {
-    if (cancelled_) throw Error(GEOIDX_ERROR_CANCELLED, "the progress callback cancelled the build");
+    if (cancelled_) throw_cancelled();
 }
 
 void Workers::report() {

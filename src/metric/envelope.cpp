@@ -4,11 +4,44 @@
 
 namespace geodesic {
 
-void Envelope::begin(std::span<const Window> holders) {
-    done_.clear();
+namespace {
+
+// Makes the second of two windows begin where the first ends, for the simple and most frequent case that both
+// stay and neither reaches beyond the other; false, and nothing done, otherwise.
+bool divide(Window& first, Window& second) {
+    if (first.end <= second.begin) return true;
+    if (second.begin <= first.begin || second.end <= first.end) return false;
+    const Advantage won = advantage(second, first, second.begin, first.end);
+    if (won.begin < won.end) {
+        if (won.inside_out || won.end < first.end) return false;
+        first.end = won.begin;
+        first.end_distance = first.distance_at(first.end);
+    }
+    if (second.begin < first.end) {
+        second.begin = first.end;
+        second.begin_distance = second.distance_at(second.begin);
+    }
+    return true;
+}
+
+}
+
+std::span<const Window> Envelope::merge(std::span<const Window> holders, std::span<Window> windows) {
+    lowest_ = std::numeric_limits<double>::infinity();
+    size_t divided = 0; // windows that are an envelope where they are
+    if (holders.empty())
+        for (; divided < windows.size(); ++divided) {
+            if (divided > 0 && !divide(windows[divided - 1], windows[divided])) break;
+            lowest_ = std::min(lowest_, windows[divided].smallest_distance());
+        }
+    if (divided == windows.size() && holders.empty()) return windows;
+    done_.assign(windows.begin(), windows.begin() + static_cast<std::ptrdiff_t>(divided));
     taken_back_.clear();
     rest_ = holders;
-    lowest_ = std::numeric_limits<double>::infinity();
+    for (Window& window : windows.subspan(divided)) insert(window);
+    done_.insert(done_.end(), taken_back_.rbegin(), taken_back_.rend());
+    done_.insert(done_.end(), rest_.begin(), rest_.end());
+    return done_;
 }
 
 void Envelope::skip_next() {
@@ -30,8 +63,8 @@ void Envelope::move_cursor(double t) {
     }
 }
 
-void Envelope::insert(const Window& window) {
-    if (at_end() && (done_.empty() || done_.back().end <= window.begin)) { // most windows come so
+void Envelope::insert(Window& window) {
+    if (at_end() && (done_.empty() || divide(done_.back(), window))) {
         done_.push_back(window);
         lowest_ = std::min(lowest_, window.smallest_distance());
         return;
@@ -46,14 +79,6 @@ void Envelope::insert(const Window& window) {
         covered = holder.end;
     }
     if (window.end > covered) emit_new(window, covered, window.end);
-}
-
-std::span<const Window> Envelope::finish() {
-    done_.insert(done_.end(), taken_back_.rbegin(), taken_back_.rend());
-    done_.insert(done_.end(), rest_.begin(), rest_.end());
-    taken_back_.clear();
-    rest_ = {};
-    return done_;
 }
 
 // Puts down a part of a window, joined to the part before it where it goes on.

@@ -8,22 +8,20 @@
 
 namespace geodesic {
 
-// The lower envelope of windows on one edge: begins as a list of windows sorted along the edge, without
-// overlaps, and takes more, one by one. Windows that come in the order of the edge cost a constant each.
+// The lower envelope of windows on one edge.
 class Envelope {
 public:
-    void begin(std::span<const Window> holders);
+    // Puts windows into a list that is sorted along the edge, without overlaps: the parts of each where it is
+    // the lowest. They may come in any order; where that is the order of the edge they cost a constant each.
+    // Changes the windows. The result, a list of the same kind, is valid until the next merge, and as long as
+    // `windows` are.
+    std::span<const Window> merge(std::span<const Window> holders, std::span<Window> windows);
 
-    // Puts in the parts of a window where it is the lowest.
-    void insert(const Window& window);
-
-    // The smallest distance on the parts put in so far; infinity if there are none.
+    // The smallest distance on the parts that the latest merge put in; infinity if there are none.
     double lowest() const { return lowest_; }
 
-    // The whole list, valid until the next begin.
-    std::span<const Window> finish();
-
 private:
+    void insert(Window& window);
     void move_cursor(double t);
     const Window* next() const { return !taken_back_.empty() ? &taken_back_.back() : rest_.data(); }
     bool at_end() const { return taken_back_.empty() && rest_.empty(); }

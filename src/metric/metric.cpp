@@ -5,12 +5,13 @@
 
 namespace geodesic {
 
+void throw_cancelled() { throw Error(GEOIDX_ERROR_CANCELLED, "the progress callback cancelled the build"); }
+
 FieldSolver::FieldSolver(uint32_t vertex_count)
     : distance_(vertex_count, UNREACHABLE), nearest_(vertex_count, NONE) {}
 
 void FieldSolver::solve(const FieldRequest& request) {
-    if (cancelled_ && *cancelled_)
-        throw Error(GEOIDX_ERROR_CANCELLED, "the progress callback cancelled the build");
+    if (cancelled_ && *cancelled_) throw_cancelled();
     for (uint32_t vertex : touched_) {
         distance_[vertex] = UNREACHABLE;
         nearest_[vertex] = NONE;

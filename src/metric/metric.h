@@ -26,6 +26,9 @@ struct FieldRequest {
     double radius = UNREACHABLE; // targets farther than this need not be final
 };
 
+// Throws Error CANCELLED.
+[[noreturn]] void throw_cancelled();
+
 // Computes distance fields; one thread's scratch, kept from source to source.
 class FieldSolver {
 public:

@@ -13,8 +13,6 @@ namespace {
 
 using Graph = WeightedMetric::Graph;
 
-double norm(double x, double y) { return std::sqrt(x * x + y * y); }
-
 // Dijkstra. Nodes are the vertices by number, then the Steiner points of edge 0, of edge 1 .., each from the
 // edge's first vertex to its second.
 class SteinerSearch final : public FieldSolver {

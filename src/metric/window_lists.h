@@ -24,6 +24,10 @@ public:
                                                     : std::span<Window>();
     }
 
+    // Ask for memory that is soon read: where the list is, and its windows.
+    void prefetch(uint32_t edge) const { __builtin_prefetch(&lists_[edge]); }
+    void prefetch_windows(uint32_t edge) const { __builtin_prefetch(lists_[edge].windows); }
+
     // Replaces the list of an edge. The windows may not be those of the list itself.
     void assign(uint32_t edge, std::span<const Window> windows);
 

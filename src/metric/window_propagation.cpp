@@ -17,18 +17,21 @@ constexpr double TIE = 1e-12;
 constexpr double TOUCH = 1e-5; // thin faces magnify rounding along their edges
 constexpr double ANGLE_SLACK = 1e-6;
 
-double norm(double x, double y) { return std::sqrt(x * x + y * y); }
+// Windows on their way to an edge, in the order of that edge.
+struct Run {
+    Window *begin, *end;
+    bool grows_at_end; // else they come in the opposite order
+};
 
 // The way through a face from its entry edge to one of the other two, seen from the end of the entry edge
-// that the exit edge starts at: that end is the origin, the other end of the entry edge at (entry_length, 0),
-// the apex at length * (along_x, -along_y).
+// that the exit edge starts at: that end is the origin, the entry edge lies on the x axis, the apex at length
+// * (along_x, -along_y).
 struct Exit {
-    double entry_length;
     double length, along_x, along_y;
-    uint32_t near_vertex, far_vertex, apex;
-    uint32_t edge;
+    uint32_t near_vertex, apex;
+    uint32_t edge, face;
     bool reversed; // the exit edge's own first vertex is the apex
-    uint32_t face;
+    Run run;
 };
 
 // Where a window and the two rays that leave through an exit are, in the frame of that exit.
@@ -55,12 +58,18 @@ private:
         double angle = NO_ANGLE; // around the vertex, as in IntrinsicMesh
     };
     static constexpr double NO_ANGLE = std::numeric_limits<double>::quiet_NaN();
+    struct EdgeWindow {
+        uint32_t edge;
+        Window window;
+    };
 
     void run(const FieldRequest& request) override;
     void start(const FieldRequest& request);
+    void prefetch(uint32_t item) const;
     void clear();
     void reach(uint32_t vertex, double distance, uint32_t nearest, Arrival arrival);
-    void start_at(const SurfacePoint& point, uint32_t nearest);
+    void start_at(const SurfacePoint& point, uint32_t nearest, std::vector<EdgeWindow>& lit);
+    std::span<Window> lower_envelope(std::vector<Window>& windows);
     void reach_point(uint32_t index, double distance);
     void settle(uint32_t vertex);
     void reach_points_around(uint32_t vertex);
@@ -68,14 +77,14 @@ private:
     double arrival_angle(uint32_t vertex) const;
     void spawn(uint32_t vertex);
     void spawn_into(uint32_t corner, uint32_t vertex);
-    void add_source_window(uint32_t edge, const PlanePoint& source, double sigma, uint32_t face,
-                           uint32_t nearest);
+    Window source_window(uint32_t edge, const PlanePoint& source, double sigma, uint32_t face,
+                         uint32_t nearest) const;
     void propagate_edge(uint32_t edge);
     void cross(uint32_t edge, const Side& side);
-    void propagate(const Window& window, const Side& side, const Exit (&exits)[2]);
+    void propagate(const Window& window, double length, const Side& side, Exit (&exits)[2]);
     void reach_apex(const Window& window, const Side& side, double split, double crossing);
-    void pass(const Window& window, const Beam& beam, const Exit& exit, std::vector<Window>& run);
-    void deliver(uint32_t edge, std::span<const Window> run, bool ascending);
+    void pass(const Window& window, const Beam& beam, Exit& exit);
+    void deliver(uint32_t edge, std::span<Window> run);
     void sweep();
 
     uint32_t edge_count() const { return static_cast<uint32_t>(mesh_->edge_length.size()); }
@@ -89,7 +98,7 @@ private:
     std::vector<Arrival> arrival_;
     PendingTargets pending_;
     TargetPoints targets_;
-    std::vector<Window> runs_[2]; // windows on their way to the two exits of a face
+    std::vector<Window> runs_[2]; // room for the windows on their way to the two exits of a face
     double front_ = 0;            // distance of the latest event
 };
 
@@ -108,6 +117,7 @@ void WindowPropagation::run(const FieldRequest& request) {
         const auto event = queue_.pop();
         if (event.distance > request.radius) break;
         front_ = event.distance;
+        if (!queue_.empty()) prefetch(queue_.top().item);
         if (event.item < first_edge) {
             if (event.distance != distance(event.item)) continue;
             settle(event.item);
@@ -122,24 +132,56 @@ void WindowPropagation::run(const FieldRequest& request) {
     }
 }
 
+// Asks for the memory of an event while the one before it is worked on: a tenth of the time is waiting for
+// it.
+void WindowPropagation::prefetch(uint32_t item) const {
+    if (item < vertex_count()) {
+        __builtin_prefetch(mesh_->spokes[item].data());
+    } else if (item - vertex_count() < edge_count()) {
+        const uint32_t edge = item - vertex_count();
+        lists_.prefetch_windows(edge);
+        __builtin_prefetch(mesh_->sides[edge].data());
+        __builtin_prefetch(&mesh_->edge_length[edge]);
+    }
+}
+
 void WindowPropagation::start(const FieldRequest& request) {
     pending_.begin(request);
     targets_.place(*mesh_, request.target_points);
     for (uint32_t i = 0; i < request.sources.size(); ++i)
         reach(request.sources[i], 0, i, {FROM_SOURCE, NO_ANGLE});
     auto nearest = static_cast<uint32_t>(request.sources.size());
-    for (const SurfacePoint& point : request.source_points) start_at(point, nearest++);
+    std::vector<EdgeWindow> lit;
+    for (const SurfacePoint& point : request.source_points) start_at(point, nearest++, lit);
+    std::ranges::stable_sort(lit, {}, &EdgeWindow::edge);
+    std::vector<Window> windows;
+    for (size_t i = 0; i < lit.size(); ++i) {
+        windows.push_back(lit[i].window);
+        if (i + 1 < lit.size() && lit[i + 1].edge == lit[i].edge) continue;
+        deliver(lit[i].edge, lower_envelope(windows));
+        windows.clear();
+    }
+}
+
+// Halves first: put in one by one, each of many sources in a face would be compared with all before it.
+std::span<Window> WindowPropagation::lower_envelope(std::vector<Window>& windows) {
+    if (windows.size() < 2) return windows;
+    const auto middle = windows.begin() + static_cast<std::ptrdiff_t>(windows.size() / 2);
+    std::vector<Window> first(windows.begin(), middle), second(middle, windows.end());
+    const auto merged = envelope_.merge(lower_envelope(first), lower_envelope(second));
+    windows.assign(merged.begin(), merged.end());
+    return windows;
 }
 
 // A source inside a face lights its three edges and is seen by its corners and by the targets there.
-void WindowPropagation::start_at(const SurfacePoint& point, uint32_t nearest) {
+void WindowPropagation::start_at(const SurfacePoint& point, uint32_t nearest, std::vector<EdgeWindow>& lit) {
     for (uint32_t corner = 3 * point.face; corner < 3 * point.face + 3; ++corner) {
         const Side& side = mesh_->sides.items[mesh_->side_of_corner[corner]];
         const uint32_t edge = mesh_->edge_of_corner[corner];
         const PlanePoint p = place_on_side(*mesh_, corner, point);
         reach(side.apex, norm(p.x - side.apex_x, p.depth - side.apex_depth), nearest,
               {FROM_SOURCE, NO_ANGLE});
-        add_source_window(edge, p, 0, side.face, nearest);
+        lit.push_back({edge, source_window(edge, p, 0, side.face, nearest)});
     }
     for (const TargetPoint& target : targets_.of_face(point.face)) {
         const PlanePoint from = place_on_side(*mesh_, 3 * point.face, point);
@@ -148,13 +190,14 @@ void WindowPropagation::start_at(const SurfacePoint& point, uint32_t nearest) {
     }
 }
 
-void WindowPropagation::add_source_window(uint32_t edge, const PlanePoint& source, double sigma,
-                                          uint32_t face, uint32_t nearest) {
+// What a source in a face, or at its corner, lights of an edge of the face: all of it.
+Window WindowPropagation::source_window(uint32_t edge, const PlanePoint& source, double sigma, uint32_t face,
+                                        uint32_t nearest) const {
     const double length = mesh_->edge_length[edge];
     Window window{0, length, source.x, source.depth, sigma, 0, 0, face, nearest & MAX_NEAREST, 1};
     window.begin_distance = window.distance_at(0);
     window.end_distance = window.distance_at(length);
-    deliver(edge, {&window, 1}, true);
+    return window;
 }
 
 void WindowPropagation::reach_point(uint32_t index, double distance) {
@@ -224,8 +267,10 @@ void WindowPropagation::spawn(uint32_t vertex) {
 
 void WindowPropagation::spawn_into(uint32_t corner, uint32_t vertex) {
     const Side& side = mesh_->sides.items[mesh_->side_of_corner[corner]];
-    add_source_window(mesh_->edge_of_corner[corner], {side.apex_x, side.apex_depth}, distance(vertex),
-                      side.face, nearest(vertex));
+    const uint32_t edge = mesh_->edge_of_corner[corner];
+    Window window =
+        source_window(edge, {side.apex_x, side.apex_depth}, distance(vertex), side.face, nearest(vertex));
+    deliver(edge, {&window, 1});
 }
 
 void WindowPropagation::propagate_edge(uint32_t edge) {
@@ -248,21 +293,31 @@ void WindowPropagation::sweep() {
 void WindowPropagation::cross(uint32_t edge, const Side& side) {
     const double length = mesh_->edge_length[edge];
     const auto [first, second] = mesh_->edge_vertices[edge];
-    const auto exit = [&](double apex_x, uint32_t near, uint32_t far, uint32_t tagged_edge) {
-        const double exit_length = mesh_->edge_length[tagged_edge >> 1];
-        return Exit{length, exit_length, apex_x / exit_length, side.apex_depth / exit_length, near,
-                    far,    side.apex,   tagged_edge >> 1,     (tagged_edge & 1) != 0,        side.face};
+    const std::span<const Window> windows = lists_.at(edge);
+    const auto exit_at = [&](size_t k, double apex_x, uint32_t near) {
+        const uint32_t exit_edge = side.tagged_edge[k] >> 1;
+        const bool reversed = (side.tagged_edge[k] & 1) != 0, grows_at_end = reversed == (k == 1);
+        if (runs_[k].size() < windows.size()) runs_[k].resize(windows.size());
+        Window* const begin = runs_[k].data() + (grows_at_end ? 0 : windows.size());
+        const double exit_length = mesh_->edge_length[exit_edge];
+        lists_.prefetch(exit_edge);
+        return Exit{exit_length,
+                    apex_x / exit_length,
+                    side.apex_depth / exit_length,
+                    near,
+                    side.apex,
+                    exit_edge,
+                    side.face,
+                    reversed,
+                    {begin, begin, grows_at_end}};
     };
-    const Exit exits[2] = {exit(side.apex_x, first, second, side.tagged_edge[0]),
-                           exit(length - side.apex_x, second, first, side.tagged_edge[1])};
-    for (auto& run : runs_) run.clear();
-    for (const Window& window : lists_.at(edge))
+    Exit exits[2] = {exit_at(0, side.apex_x, first), exit_at(1, length - side.apex_x, second)};
+    for (const Window& window : windows)
         if (window.pending && window.from_face != side.face) {
-            propagate(window, side, exits);
+            propagate(window, length, side, exits);
             if (!targets_.empty()) reach_points_behind(window, side);
         }
-    deliver(exits[0].edge, runs_[0], !exits[0].reversed);
-    deliver(exits[1].edge, runs_[1], exits[1].reversed);
+    for (const Exit& exit : exits) deliver(exit.edge, {exit.run.begin, exit.run.end});
 }
 
 // The line to the apex crosses the edge at `split`. Where rounding has put that just outside of the window,
@@ -288,28 +343,26 @@ void WindowPropagation::reach_apex(const Window& window, const Side& side, doubl
 
 // Carries a window over its edge into a face: to the apex if that is in its light, and to the two other
 // edges.
-void WindowPropagation::propagate(const Window& window, const Side& side, const Exit (&exits)[2]) {
+void WindowPropagation::propagate(const Window& window, double length, const Side& side, Exit (&exits)[2]) {
     const double height = window.y + side.apex_depth;
     // A source in line with the edge: its vertices carry that on, unless it lies on the edge.
     const bool on_edge = window.x > window.begin && window.x < window.end;
     if (!(window.y > 0) && !on_edge) return;
-    const double length = exits[0].entry_length;
     const double split = height > 0 ? window.x + (side.apex_x - window.x) * (window.y / height) : side.apex_x;
     const double crossing = std::clamp(split, window.begin, window.end);
     if (std::abs(split - crossing) <= TOUCH * length) reach_apex(window, side, split, crossing);
     if (window.begin < split)
         pass(window, {window.x, window.y, window.begin, std::min(window.end, split), split <= window.end},
-             exits[0], runs_[0]);
+             exits[0]);
     if (window.end > split)
         pass(window,
              {length - window.x, window.y, length - window.end, length - std::max(window.begin, split),
               split >= window.begin},
-             exits[1], runs_[1]);
+             exits[1]);
 }
 
 // Appends the part of a window that leaves through an exit to the run of that exit.
-void WindowPropagation::pass(const Window& window, const Beam& beam, const Exit& exit,
-                             std::vector<Window>& run) {
+void WindowPropagation::pass(const Window& window, const Beam& beam, Exit& exit) {
     // Where on the exit edge the ray through (t, 0) leaves.
     const auto leave = [&](double t) {
         const double denominator = beam.y * exit.along_x + exit.along_y * (beam.x - t);
@@ -329,27 +382,21 @@ void WindowPropagation::pass(const Window& window, const Beam& beam, const Exit&
     // Of no use where a path through a vertex of the face is shorter all along.
     if (distance(exit.near_vertex) + far < far_distance * (1 - TIE)) return;
     if (distance(exit.apex) + (exit.length - near) < near_distance * (1 - TIE)) return;
-    const double across = norm(exit.entry_length - near * exit.along_x, near * exit.along_y);
-    if (distance(exit.far_vertex) + across < near_distance * (1 - TIE)) return;
 
+    Window& passed = exit.run.grows_at_end ? *exit.run.end++ : *--exit.run.begin;
     if (exit.reversed)
-        run.push_back({exit.length - far, exit.length - near, exit.length - x, y, window.sigma, far_distance,
-                       near_distance, exit.face, window.nearest, 1});
+        passed = {exit.length - far, exit.length - near, exit.length - x, y, window.sigma, far_distance,
+                  near_distance,     exit.face,          window.nearest,  1};
     else
-        run.push_back(
-            {near, far, x, y, window.sigma, near_distance, far_distance, exit.face, window.nearest, 1});
+        passed = {near, far, x, y, window.sigma, near_distance, far_distance, exit.face, window.nearest, 1};
 }
 
-// Puts windows into the list of an edge; `ascending`: whether they come in the order of the edge.
-void WindowPropagation::deliver(uint32_t edge, std::span<const Window> run, bool ascending) {
+// Puts windows into the list of an edge.
+void WindowPropagation::deliver(uint32_t edge, std::span<Window> run) {
     if (run.empty() || lists_.closed(edge)) return;
-    envelope_.begin(lists_.at(edge));
-    if (ascending)
-        for (const Window& window : run) envelope_.insert(window);
-    else
-        for (size_t i = run.size(); i > 0; --i) envelope_.insert(run[i - 1]);
+    const std::span<const Window> merged = envelope_.merge(lists_.at(edge), run);
     if (envelope_.lowest() == UNREACHABLE) return;
-    lists_.assign(edge, envelope_.finish());
+    lists_.assign(edge, merged);
     if (!(envelope_.lowest() < queued_distance_[edge])) return;
     if (queued_distance_[edge] == UNREACHABLE) queued_edges_.push_back(edge);
     queued_distance_[edge] = envelope_.lowest();

@@ -61,9 +61,8 @@ TEST_CASE("envelope: of many windows, in any order") {
         auto windows = random_windows(random, 1 + static_cast<uint32_t>(random() % 40));
         if (round % 3 == 1) std::ranges::sort(windows, {}, &Window::begin);
         if (round % 3 == 2) std::ranges::sort(windows, std::greater<>{}, &Window::end);
-        envelope.begin({});
-        for (const Window& window : windows) envelope.insert(window);
-        check_is_envelope(envelope.finish(), windows, random);
+        auto scratch = windows;
+        check_is_envelope(envelope.merge({}, scratch), windows, random);
     }
 }
 
@@ -72,17 +71,13 @@ TEST_CASE("envelope: a run of windows put into a list that is there") {
     Envelope envelope;
     for (int round = 0; round < 100; ++round) {
         auto windows = random_windows(random, static_cast<uint32_t>(random() % 20));
-        envelope.begin({});
-        for (const Window& window : windows) envelope.insert(window);
-        const auto first = envelope.finish();
+        auto scratch = windows;
+        const auto first = envelope.merge({}, scratch);
         const std::vector<Window> holders(first.begin(), first.end());
 
-        const auto run = random_windows(random, static_cast<uint32_t>(random() % 20));
-        envelope.begin(holders);
-        CHECK(envelope.lowest() == HUGE_VAL);
-        for (const Window& window : run) envelope.insert(window);
+        auto run = random_windows(random, static_cast<uint32_t>(random() % 20));
         windows.insert(windows.end(), run.begin(), run.end());
-        check_is_envelope(envelope.finish(), windows, random);
+        check_is_envelope(envelope.merge(holders, run), windows, random);
     }
 }
 
@@ -90,13 +85,13 @@ TEST_CASE("envelope: tells the smallest distance that a window has won") {
     std::mt19937_64 random(4);
     Envelope envelope;
     for (int round = 0; round < 300; ++round) {
-        const Window holder = random_window(random, 0), window = random_window(random, 1);
+        const Window holder = random_window(random, 0);
+        Window window = random_window(random, 1);
         if (!(holder.begin < holder.end) || !(window.begin < window.end)) continue;
-        envelope.begin({&holder, 1});
-        envelope.insert(window);
+        const auto merged = envelope.merge({&holder, 1}, {&window, 1});
         const double told = envelope.lowest();
         double smallest = HUGE_VAL;
-        for (const Window& part : envelope.finish()) {
+        for (const Window& part : merged) {
             if (part.nearest != 1) continue;
             for (int k = 0; k <= 200; ++k)
                 smallest =

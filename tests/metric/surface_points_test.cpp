@@ -150,6 +150,22 @@ TEST_CASE("surface points: a corner given as a point is the vertex, the nearest 
     }
 }
 
+TEST_CASE("surface points: hundreds of sources in one face") {
+    const Mesh mesh = mesh_of(bumpy_sphere(2, 9));
+    const auto solver = ExactMetric(mesh).make_solver();
+    auto points = random_points(mesh, 400, 12);
+    for (SurfacePoint& point : points) point.face = 17;
+    std::vector<double> nearest(mesh.vertex_count(), UNREACHABLE);
+    for (const SurfacePoint& point : points) {
+        solver->solve({{}, {}, {&point, 1}, {}});
+        for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
+            nearest[v] = std::min(nearest[v], solver->distance(v));
+    }
+    solver->solve({{}, {}, points, {}});
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
+        CHECK(solver->distance(v) == doctest::Approx(nearest[v]).epsilon(1e-11));
+}
+
 TEST_CASE("surface points: stopping at a point leaves its distance as it is") {
     const Mesh mesh = mesh_of(torus(24, 12, 2, 0.7));
     const auto solver = ExactMetric(mesh).make_solver();

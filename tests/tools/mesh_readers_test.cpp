@@ -28,7 +28,7 @@ TEST_CASE("obj: polygons become fans in the file's order") {
 
 namespace {
 
-// Of the triangles and of the parts of them that overlap each other: equal where they do not overlap.
+// Sum of the areas of the triangles: the area of the polygon if they do not overlap.
 double area_of(const TriangleMesh& mesh) {
     double area = 0;
     for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
