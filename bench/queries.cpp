@@ -15,8 +15,9 @@ struct QueriesArguments {
     std::vector<std::string> meshes;
     std::string folder;
     std::string index; // file; empty: build
-    uint32_t n1 = 0;
-    uint32_t n2 = 0;
+    std::string engine = tools::ENGINE_NAMES[GEOIDX_ENGINE_GRAPH];
+    std::vector<uint32_t> patches;
+    uint32_t exact_vertices = 0;
     double delta = 0;
     uint32_t threads = 2;
     uint32_t error_sources = 20;
@@ -24,9 +25,9 @@ struct QueriesArguments {
 };
 
 geoidx_build_options build_options(const QueriesArguments& arguments) {
-    const std::vector<uint32_t> two_levels{arguments.n1, arguments.n2};
-    geoidx_build_options options =
-        options_for(arguments.threads, arguments.n1 ? two_levels : std::vector<uint32_t>{});
+    geoidx_build_options options = options_for(arguments.threads, arguments.patches);
+    options.engine = tools::engine_of_name(arguments.engine);
+    if (arguments.exact_vertices) options.exact_vertices = arguments.exact_vertices;
     options.delta = arguments.delta;
     return options;
 }
@@ -74,6 +75,7 @@ Row measured(const Model& model, const QueriesArguments& arguments, Report& repo
 
 Row parameters_of(const QueriesArguments& arguments) {
     Row row{{"index", "index", arguments.index.empty() ? "built" : arguments.index},
+            {"engine", "engine", arguments.engine},
             {"threads", "build threads", uint64_t{arguments.threads}}};
     const Row workload = workload_parameters(arguments.error_sources);
     row.insert(row.end(), workload.begin(), workload.end());
@@ -95,10 +97,18 @@ void queries(const QueriesArguments& arguments) {
 void add_index_options(CLI::App& command, QueriesArguments& arguments) {
     CLI::Option* const index =
         command.add_option("--index", arguments.index, "index file, instead of building");
-    CLI::Option* const n1 = command.add_option("--n1", arguments.n1, "patches of level 1");
-    CLI::Option* const n2 = command.add_option("--n2", arguments.n2, "patches that each is split into");
-    n1->check(CLI::PositiveNumber)->needs(n2)->excludes(index);
-    n2->check(CLI::PositiveNumber)->needs(n1)->excludes(index);
+    command
+        .add_option("--patches", arguments.patches,
+                    "patches of level 1, then patches each patch is split into, level by level (n1,n2,...)")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber)
+        ->excludes(index);
+    command.add_option("--engine", arguments.engine, "graph or overlay")
+        ->check(CLI::IsMember(tools::ENGINE_NAMES))
+        ->excludes(index)
+        ->capture_default_str();
+    command.add_option("--exact-vertices", arguments.exact_vertices, "as geoidx_build_options")
+        ->excludes(index);
     command.add_option("--delta", arguments.delta, "pruning threshold, % of the bounding-box diagonal")
         ->excludes(index)
         ->capture_default_str();

@@ -143,6 +143,18 @@ typedef geoidx_status (*geoidx_metric_fn)(void* user, uint32_t source, const uin
  * Called from the thread that called geoidx_build only, at least a few times a second. */
 typedef int32_t (*geoidx_progress_fn)(void* user, float fraction, const char* stage);
 
+/* How an index answers. */
+enum {
+    /* The paper's way: a search over the tables of every patch's border. Exact within its tables; a path
+     * crosses borders at vertices, so that distances are never below the metric's. */
+    GEOIDX_ENGINE_GRAPH = 0,
+    /* Tables of all borders of a patch's children to each other, 16 bits an entry: a query is a fixed
+     * sequence of min-plus products. Where the metric is GEOIDX_METRIC_UNFOLDABLE a path may cross a border
+     * between two vertices, and distances may be a little below the metric's. Building takes time linear in
+     * the vertices. */
+    GEOIDX_ENGINE_OVERLAY = 1
+};
+
 enum { GEOIDX_MAX_LEVELS = 8 };
 
 typedef struct geoidx_build_options {
@@ -181,13 +193,18 @@ typedef struct geoidx_build_options {
     const double* face_costs;
     uint64_t face_cost_count; /* the mesh's triangle_count */
     uint32_t points_per_edge; /* default 12: within 0.5 % of Snell's law on a grid of 16 x 16 cells */
-    uint32_t reserved;        /* not read */
+    uint32_t engine;          /* GEOIDX_ENGINE_*; default GEOIDX_ENGINE_GRAPH */
     /* GEOIDX_METRIC_EXACT and _WEIGHTED: a surface given by lengths instead of positions, which then only
      * weld and order vertices: edge_lengths[3 t + k] is the length of the edge opposite to corner k of
      * triangle t, 1.2e-38 to 3.4e38, the same in all triangles at the edge (to 1e-9). A triangle whose
      * sides do not leave it an area is GEOIDX_ERROR_BAD_MESH, and named. */
     const double* edge_lengths; /* NULL (default): none */
     uint64_t edge_length_count; /* 3 times the mesh's triangle_count, or 0 (default) */
+    /* GEOIDX_ENGINE_OVERLAY: tables of patches of up to this many vertices hold the metric's own distances,
+     * those of larger ones are put together from these; default 400. Larger is more exact, and building
+     * takes longer. */
+    uint32_t exact_vertices;
+    uint32_t reserved; /* not read */
 } geoidx_build_options;
 
 GEOIDX_API void geoidx_build_options_init(geoidx_build_options* options);
@@ -211,7 +228,8 @@ typedef struct geoidx_info {
     uint64_t triangle_count;      /* of the caller's array */
     uint64_t welded_vertex_count; /* distinct vertices after welding that a triangle uses */
     uint64_t mesh_fingerprint;
-    uint64_t table_entries;       /* floats in all tables */
+    uint64_t table_entries;       /* distances in all tables; of a symmetric one below the diagonal, but for
+                                     border tables */
     uint64_t border_vertex_count; /* vertices on a border of the last level, after pruning */
     double bounding_box_diagonal;
     double delta;
@@ -229,7 +247,7 @@ typedef struct geoidx_info {
     uint64_t
         metric_fingerprint; /* of what decides the metric besides the mesh (costs, lengths); 0: nothing */
     uint32_t metric_flags;  /* GEOIDX_METRIC_UNFOLDABLE */
-    uint32_t reserved;      /* 0 */
+    uint32_t engine;        /* GEOIDX_ENGINE_* */
 } geoidx_info;
 
 /* ---- Building, saving, opening
@@ -275,8 +293,10 @@ GEOIDX_API geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_i
 /* ---- Queries (paper section 3.4)
  * ----------------------------------------------------------------------------- */
 
-/* Single source, single destination. Symmetric bit for bit; 0 for a vertex and itself; exact to float
- * precision for two vertices of one leaf. Never below the metric by more than float rounding. */
+/* Single source, single destination. Symmetric bit for bit; 0 for a vertex and itself. Two vertices of one
+ * leaf are as far apart as the metric says: to float precision by GEOIDX_ENGINE_GRAPH, whose distances are
+ * never below the metric by more than that, and to 1/65532 of the leaf's longest distance by
+ * GEOIDX_ENGINE_OVERLAY. */
 GEOIDX_API geoidx_status geoidx_sssd(const geoidx* index, uint32_t source, uint32_t target, float* distance);
 
 /* pair_count pairs: source_target_pairs[2 i] and [2 i + 1] give distances[i]. */

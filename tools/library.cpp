@@ -68,4 +68,8 @@ uint32_t metric_of_name(const std::string& name) {
     return name == "edges" ? GEOIDX_METRIC_EDGES : GEOIDX_METRIC_EXACT;
 }
 
+uint32_t engine_of_name(const std::string& name) {
+    return name == ENGINE_NAMES[GEOIDX_ENGINE_OVERLAY] ? GEOIDX_ENGINE_OVERLAY : GEOIDX_ENGINE_GRAPH;
+}
+
 }

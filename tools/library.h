@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -33,5 +34,8 @@ Solver make_solver(const TriangleMesh& mesh, const std::string& path, const geoi
 
 const char* metric_name(uint32_t metric);
 uint32_t metric_of_name(const std::string& name);
+
+inline constexpr std::array<const char*, 2> ENGINE_NAMES{"graph", "overlay"}; // by GEOIDX_ENGINE_*
+uint32_t engine_of_name(const std::string& name);
 
 }

@@ -10,6 +10,7 @@
 #include "src/tables/borders.h"
 #include "src/tables/fill.h"
 #include "src/tables/layout.h"
+#include "src/tables/overlay_fill.h"
 #include "src/tables/pruning.h"
 
 namespace geodesic {
@@ -27,13 +28,16 @@ void check_options(const geoidx_build_options& options) {
     if (options.threads > 1024) invalid("threads is " + std::to_string(options.threads) + ", more than 1024");
     if (options.lloyd_iterations > 1000)
         invalid("lloyd_iterations is " + std::to_string(options.lloyd_iterations) + ", more than 1000");
+    if (options.engine > GEOIDX_ENGINE_OVERLAY)
+        invalid("engine " + std::to_string(options.engine) + " is not a GEOIDX_ENGINE_*");
     if (options.metric_flags & ~uint32_t{GEOIDX_METRIC_UNFOLDABLE})
         invalid("metric_flags is " + std::to_string(options.metric_flags) + ", which has unknown flags");
 }
 
 HierarchyOptions hierarchy_options(const Intake& intake, const geoidx_build_options& options) {
     HierarchyOptions result;
-    result.split = automatic_split(intake.mesh.vertex_count(), options.level_count, options.patches);
+    result.split = automatic_split(intake.mesh.vertex_count(), options.level_count, options.patches,
+                                   options.engine == GEOIDX_ENGINE_OVERLAY ? OVERLAY_SPLIT : GRAPH_SPLIT);
     for (size_t level = 0; level < result.split.size(); ++level)
         result.in_proportion.push_back(options.patches[level] == 0);
     result.lloyd_iterations = options.lloyd_iterations;
@@ -47,10 +51,18 @@ void describe(const Intake& intake, const geoidx_build_options& options, Index& 
     index.mesh_fingerprint = intake.fingerprint;
     index.bounding_box_diagonal = intake.bounding_box_diagonal;
     index.seed = options.seed;
+    index.engine = options.engine;
     index.metric = options.metric;
     index.metric_flags = metric_flags(options);
     index.metric_fingerprint = metric_fingerprint(options);
     index.delta = options.delta;
+}
+
+void fill_tables(const Mesh& mesh, std::span<const uint32_t> vertex_of_number,
+                 const geoidx_build_options& options, Workers& workers, Index& index) {
+    if (options.engine == GEOIDX_ENGINE_GRAPH) return fill_graph_tables(index, vertex_of_number, workers);
+    const bool unfold = (index.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
+    fill_overlay_tables(mesh, vertex_of_number, {options.exact_vertices, unfold}, workers, index);
 }
 
 ProgressFunction progress_function(const geoidx_build_options& options) {
@@ -79,7 +91,7 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
                                                  options.delta / 100 * intake.bounding_box_diagonal, workers);
     const auto vertex_of_number = lay_out(intake, hierarchy, leaves_at_vertex, is_border, workers, index);
     workers.begin_stage("tables", 0.98);
-    fill_tables(index, vertex_of_number, workers);
+    fill_tables(intake.mesh, vertex_of_number, options, workers, index);
     workers.begin_stage("accuracy", 1);
     index.error = measure_error(index, vertex_of_number, intake.id_of_vertex, workers);
 }

@@ -77,6 +77,17 @@ void check_msad(const uint32_t* sources, const float* distances) {
     require(distances, "distances is NULL");
 }
 
+uint64_t table_entries(const Index& index) {
+    uint64_t entries =
+        index.border_tables.size() + index.crossing_table_begin.back() + index.internal_table_begin.back();
+    if (index.engine == GEOIDX_ENGINE_OVERLAY)
+        for (uint32_t p = 0; p < index.first_leaf(); ++p) {
+            const uint64_t size = index.overlay_size(p);
+            entries += size ? size * (size - 1) / 2 : 0;
+        }
+    return entries;
+}
+
 void fill_info(const Index& index, geoidx_info& info) {
     info.metric = index.metric;
     info.metric_flags = index.metric_flags;
@@ -85,8 +96,8 @@ void fill_info(const Index& index, geoidx_info& info) {
     info.triangle_count = index.triangle_count;
     info.welded_vertex_count = index.vertex_count();
     info.mesh_fingerprint = index.mesh_fingerprint;
-    info.table_entries =
-        index.border_tables.size() + index.crossing_tables.size() + index.internal_tables.size();
+    info.engine = index.engine;
+    info.table_entries = table_entries(index);
     info.border_vertex_count = index.border_vertex_count();
     info.bounding_box_diagonal = index.bounding_box_diagonal;
     info.delta = index.delta;
@@ -122,6 +133,7 @@ void geoidx_build_options_init(geoidx_build_options* options) {
     options->struct_size = sizeof *options;
     options->lloyd_iterations = 4;
     options->points_per_edge = 12;
+    options->exact_vertices = 400;
 }
 
 void geoidx_open_options_init(geoidx_open_options* options) {

@@ -12,9 +12,9 @@ Index::Index(std::pmr::memory_resource* memory)
     : level_begin(memory), parent(memory), child_begin(memory), number_of_id(memory), positions(memory),
       owned_begin(memory), internal_begin(memory), border_begin(memory), border(memory),
       border_table_begin(memory), crossing_table_begin(memory), internal_table_begin(memory),
-      border_tables(memory), crossing_tables(memory), internal_tables(memory), overlay_position(memory),
-      patch_of_slot(memory), overlay_begin(memory), slot_begin(memory), slots(memory), place_begin(memory),
-      places(memory), leaf_of_internal(memory), owner(memory) {}
+      border_tables(memory), crossing_tables(memory), internal_tables(memory), overlay_tables(memory),
+      overlay_position(memory), patch_of_slot(memory), overlay_begin(memory), slot_begin(memory),
+      slots(memory), place_begin(memory), places(memory), leaf_of_internal(memory), owner(memory) {}
 
 void allocate_tables(Index& index) {
     index.border_table_begin.assign(1, 0);
@@ -30,11 +30,28 @@ void allocate_tables(Index& index) {
         index.internal_table_begin.push_back(index.internal_table_begin.back() +
                                              (internal ? internal * (internal - 1) / 2 : 0));
     }
+    index.overlay_tables.table_begin.assign(1, 0);
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) {
+        const uint64_t size = index.overlay_size(p);
+        index.overlay_tables.table_begin.push_back(index.overlay_tables.table_begin.back() + size * size);
+    }
     constexpr uint64_t MOST = uint64_t{1} << 40;
     for (uint64_t entries : {index.border_table_begin.back(), index.crossing_table_begin.back(),
-                             index.internal_table_begin.back()})
+                             index.internal_table_begin.back(), index.overlay_tables.table_begin.back()})
         if (entries > MOST)
             throw Error(GEOIDX_ERROR_LIMIT, "the tables would have " + std::to_string(entries) + " entries");
+    if (index.engine == GEOIDX_ENGINE_OVERLAY) {
+        for (uint32_t p = 0; p < index.patch_count(); ++p)
+            if (index.border_size(p) > UINT16_MAX)
+                throw Error(GEOIDX_ERROR_LIMIT, "the border of patch " + std::to_string(p) + " has " +
+                                                    std::to_string(index.border_size(p)) +
+                                                    " vertices, more than the overlay engine can take");
+        index.overlay_tables.tables.resize(index.overlay_tables.table_begin.back() + OverlayTables::PADDING);
+        index.overlay_tables.crossing_tables.resize(index.crossing_table_begin.back() +
+                                                    OverlayTables::PADDING);
+        index.overlay_tables.internal_tables.resize(index.internal_table_begin.back());
+        return;
+    }
     index.border_tables.resize(index.border_table_begin.back());
     index.crossing_tables.resize(index.crossing_table_begin.back());
     index.internal_tables.resize(index.internal_table_begin.back());

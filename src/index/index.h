@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geoidx.h"
+#include "src/index/overlay_tables.h"
 #include "src/mesh/mesh.h"
 
 namespace geodesic {
@@ -38,8 +39,9 @@ struct Index {
     // What the mesh and the options were.
     uint64_t id_count = 0, triangle_count = 0, mesh_fingerprint = 0, seed = 0;
     uint32_t metric = 0;
-    uint32_t metric_flags = 0;       // GEOIDX_METRIC_*
-    uint64_t metric_fingerprint = 0; // of what decides the metric besides the mesh; 0: nothing
+    uint32_t engine = GEOIDX_ENGINE_GRAPH; // GEOIDX_ENGINE_*: which tables there are
+    uint32_t metric_flags = 0;             // GEOIDX_METRIC_*
+    uint64_t metric_fingerprint = 0;       // of what decides the metric besides the mesh; 0: nothing
     double delta = 0, bounding_box_diagonal = 0;
     MeasuredError error;
     // distance(a, b) >= bound_scale * |a - b|: what keeps A* admissible under any metric.
@@ -57,11 +59,12 @@ struct Index {
     Array<uint32_t> border_begin;   // the border of patch p: border[border_begin[p]] ..
     Array<uint32_t> border;         // numbers, sorted along the border ring
 
-    // Tables of distances.
+    // Where tables begin, of either engine.
     Array<uint64_t> border_table_begin;   // per patch: Bv x Bv, full, rows and columns in border order
     Array<uint64_t> crossing_table_begin; // per leaf: Bv x Iv, a row per border vertex
     Array<uint64_t> internal_table_begin; // per leaf: Iv x Iv below the diagonal, row by row
-    Array<float> border_tables, crossing_tables, internal_tables;
+    Array<float> border_tables, crossing_tables, internal_tables; // of the graph engine
+    OverlayTables overlay_tables;                                 // of the overlay engine
 
     // Derived from the above by derive().
     // A slot is an index in `border`: a place of a vertex in one patch's border.
@@ -103,20 +106,35 @@ struct Index {
         return {places.data() + place_begin[border_vertex], places.data() + place_begin[border_vertex + 1]};
     }
 
+    // Place of an entry of the overlay table of an inner patch; entries of a row stand side by side as long
+    // as their columns are the border's, or owned.
+    uint64_t overlay_place(uint32_t patch, uint64_t i, uint64_t j) const {
+        const uint64_t border = border_size(patch), size = overlay_size(patch);
+        return overlay_tables.table_begin[patch] +
+               (j < border ? i * border + j : size * border + i * (size - border) + j - border);
+    }
+
     const float* border_row(uint32_t patch, uint32_t position) const {
         return border_tables.data() + border_table_begin[patch] + uint64_t{position} * border_size(patch);
     }
+    // Places of entries in the crossing and internal tables of a leaf; internal vertices by position in it,
+    // i != j.
+    uint64_t crossing_place(uint32_t leaf, uint32_t border_position, uint32_t internal) const {
+        return crossing_table_begin[leaf - first_leaf()] + uint64_t{border_position} * internal_size(leaf) +
+               internal;
+    }
+    uint64_t internal_place(uint32_t leaf, uint32_t i, uint32_t j) const {
+        return internal_table_begin[leaf - first_leaf()] +
+               (i > j ? below_diagonal(i, j) : below_diagonal(j, i));
+    }
     const float* crossing_row(uint32_t leaf, uint32_t position) const {
-        return crossing_tables.data() + crossing_table_begin[leaf - first_leaf()] +
-               uint64_t{position} * internal_size(leaf);
+        return crossing_tables.data() + crossing_place(leaf, position, 0);
     }
     // Place of the pair i > j in a table below the diagonal.
     static uint64_t below_diagonal(uint64_t i, uint64_t j) { return i * (i - 1) / 2 + j; }
     // Distance of two internal vertices of a leaf, given by their positions in it.
     float internal_distance(uint32_t leaf, uint32_t i, uint32_t j) const {
-        if (i == j) return 0;
-        return internal_tables[internal_table_begin[leaf - first_leaf()] +
-                               (i > j ? below_diagonal(i, j) : below_diagonal(j, i))];
+        return i == j ? 0 : internal_tables[internal_place(leaf, i, j)];
     }
 };
 

@@ -17,8 +17,14 @@ inline constexpr uint32_t TAG_BORDER_TABLES = format::make_tag("BVBV");
 inline constexpr uint32_t TAG_CROSSING_TABLES = format::make_tag("BVIV");
 inline constexpr uint32_t TAG_INTERNAL_TABLES = format::make_tag("IVIV");
 
+// Of the overlay engine only.
+inline constexpr uint32_t TAG_QUANTA = format::make_tag("QUAN");
+inline constexpr uint32_t TAG_SEGMENTS = format::make_tag("SEGM");
+inline constexpr uint32_t TAG_OVERLAY_TABLES = format::make_tag("OVOV");
+
 inline constexpr std::array INDEX_TAGS{
     TAG_META,    TAG_HIERARCHY,     TAG_VERTICES,        TAG_POSITIONS,
-    TAG_BORDERS, TAG_BORDER_TABLES, TAG_CROSSING_TABLES, TAG_INTERNAL_TABLES};
+    TAG_BORDERS, TAG_BORDER_TABLES, TAG_CROSSING_TABLES, TAG_INTERNAL_TABLES,
+    TAG_QUANTA,  TAG_SEGMENTS,      TAG_OVERLAY_TABLES};
 
 }

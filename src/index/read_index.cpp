@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "format/bytes.h"
@@ -11,7 +13,7 @@ namespace geodesic {
 namespace {
 
 constexpr uint64_t MAX_BYTES = uint64_t{1} << 40; // of one section of numbers
-constexpr uint64_t META_BYTES = 104;
+constexpr uint64_t META_BYTES = 108;
 
 [[noreturn]] void corrupt(const std::string& detail) { throw Error(GEOIDX_ERROR_CORRUPT, detail); }
 
@@ -32,7 +34,10 @@ void read_meta(const format::Container& container, Index& index) {
         *value = reader.f64();
     index.metric_fingerprint = reader.u64();
     index.metric_flags = reader.u32();
+    index.engine = reader.u32();
     reader.expect_end();
+    if (index.engine > GEOIDX_ENGINE_OVERLAY)
+        corrupt("section META: engine " + std::to_string(index.engine) + " is not known");
     if (index.id_count == 0 || index.id_count > UINT32_MAX - 1)
         corrupt("section META: the mesh has " + std::to_string(index.id_count) + " vertices");
     if (!(index.bound_scale >= 0 && index.bound_scale <= 1))
@@ -159,6 +164,10 @@ public:
         shapes_.push_back({rows, cols});
         entries_ += uint64_t{rows} * cols;
     }
+    void add_folded(uint32_t size) {
+        const FoldedShape shape = folded_shape(size);
+        add(shape.rows, shape.cols);
+    }
 
     std::vector<float> read(const format::Container& container, uint32_t tag) const {
         if (container.section(tag).raw_size != entries_ * sizeof(float))
@@ -184,20 +193,35 @@ private:
     uint64_t entries_ = 0;
 };
 
-void read_tables(const format::Container& container, Index& index) {
-    MatrixReader border, crossing, internal;
-    for (uint32_t p = 1; p < index.patch_count(); ++p) {
-        const FoldedShape shape = folded_shape(index.border_size(p));
-        border.add(shape.rows, shape.cols);
-    }
-    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf) {
-        crossing.add(index.border_size(leaf), index.internal_size(leaf));
-        const FoldedShape shape = folded_shape(index.internal_size(leaf));
-        internal.add(shape.rows, shape.cols);
-    }
+MatrixReader crossing_reader(const Index& index) {
+    MatrixReader reader;
+    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf)
+        reader.add(index.border_size(leaf), index.internal_size(leaf));
+    return reader;
+}
+
+MatrixReader internal_reader(const Index& index) {
+    MatrixReader reader;
+    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf)
+        reader.add_folded(index.internal_size(leaf));
+    return reader;
+}
+
+// Calls visit(place in the internal tables, k) for the k-th entry that the file holds.
+template <class Visit>
+void for_each_internal_pair(const Index& index, const Visit& visit) {
+    size_t next = 0;
+    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf)
+        for_each_folded(index.internal_size(leaf),
+                        [&](uint32_t i, uint32_t j) { visit(index.internal_place(leaf, i, j), next++); });
+}
+
+void read_graph_tables(const format::Container& container, Index& index) {
+    MatrixReader border;
+    for (uint32_t p = 1; p < index.patch_count(); ++p) border.add_folded(index.border_size(p));
     const auto border_values = border.read(container, TAG_BORDER_TABLES);
-    const auto crossing_values = crossing.read(container, TAG_CROSSING_TABLES);
-    const auto internal_values = internal.read(container, TAG_INTERNAL_TABLES);
+    const auto crossing_values = crossing_reader(index).read(container, TAG_CROSSING_TABLES);
+    const auto internal_values = internal_reader(index).read(container, TAG_INTERNAL_TABLES);
 
     allocate_tables(index);
     size_t next = 0;
@@ -209,13 +233,85 @@ void read_tables(const format::Container& container, Index& index) {
         });
     }
     index.crossing_tables.assign(crossing_values.begin(), crossing_values.end());
-    next = 0;
-    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf) {
-        float* table = index.internal_tables.data() + index.internal_table_begin[leaf - index.first_leaf()];
-        for_each_folded(index.internal_size(leaf), [&](uint32_t i, uint32_t j) {
-            table[Index::below_diagonal(i, j)] = internal_values[next++];
+    for_each_internal_pair(
+        index, [&](uint64_t place, size_t k) { index.internal_tables[place] = internal_values[k]; });
+}
+
+uint16_t code_of(float value) {
+    if (value == std::numeric_limits<float>::infinity()) return OverlayTables::UNREACHED;
+    const auto code = static_cast<uint16_t>(std::min(value, float{OverlayTables::LARGEST}));
+    if (static_cast<float>(code) != value)
+        corrupt("a table holds " + std::to_string(value) + ", which is no code of a distance");
+    return code;
+}
+
+void read_overlay_tables(const format::Container& container, Index& index) {
+    MatrixReader overlay;
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) overlay.add_folded(index.overlay_size(p));
+    const auto overlay_values = overlay.read(container, TAG_OVERLAY_TABLES);
+    const auto crossing_values = crossing_reader(index).read(container, TAG_CROSSING_TABLES);
+    const auto internal_values = internal_reader(index).read(container, TAG_INTERNAL_TABLES);
+
+    allocate_tables(index);
+    OverlayTables& tables = index.overlay_tables;
+    size_t next = 0;
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) {
+        for_each_folded(index.overlay_size(p), [&](uint32_t i, uint32_t j) {
+            tables.tables[index.overlay_place(p, i, j)] = tables.tables[index.overlay_place(p, j, i)] =
+                code_of(overlay_values[next++]);
         });
     }
+    std::ranges::transform(crossing_values, tables.crossing_tables.begin(), code_of);
+    for_each_internal_pair(index, [&](uint64_t place, size_t k) {
+        tables.internal_tables[place] = code_of(internal_values[k]);
+    });
+}
+
+void read_quanta(const format::Container& container, Index& index) {
+    const auto bytes = container.read_bytes(TAG_QUANTA, uint64_t{index.patch_count()} * sizeof(float));
+    format::ByteReader reader(bytes, "section QUAN");
+    index.overlay_tables.quantum.resize(index.patch_count());
+    reader.f32_array(index.overlay_tables.quantum);
+    reader.expect_end();
+    for (float quantum : index.overlay_tables.quantum)
+        if (!(quantum >= 0) || !std::isfinite(quantum))
+            corrupt("section QUAN: the quantum " + std::to_string(quantum));
+}
+
+void read_segments(const format::Container& container, Index& index) {
+    const size_t count = index.border.size();
+    const auto bytes = container.read_bytes(TAG_SEGMENTS, count * (sizeof(uint32_t) + sizeof(float)));
+    format::ByteReader reader(bytes, "section SEGM");
+    OverlayTables& tables = index.overlay_tables;
+    tables.next.resize(count);
+    tables.segment_length.resize(count);
+    tables.previous.assign(count, NONE);
+    reader.u32_array(tables.next);
+    reader.f32_array(tables.segment_length);
+    reader.expect_end();
+    for (uint32_t slot = 0; slot < count; ++slot) {
+        if (tables.next[slot] == NONE) continue;
+        const uint32_t patch = index.patch_of_slot[slot], next = tables.next[slot];
+        if (next >= index.border_size(patch) || index.border_begin[patch] + next == slot)
+            corrupt("section SEGM: position " + std::to_string(next) + " on the border of patch " +
+                    std::to_string(patch));
+        uint32_t& previous = tables.previous[index.border_begin[patch] + next];
+        if (previous != NONE) corrupt("section SEGM: two segments end at one vertex");
+        previous = slot - index.border_begin[patch];
+        if (!(tables.segment_length[slot] > 0) || !std::isfinite(tables.segment_length[slot]))
+            corrupt("section SEGM: a segment of length " + std::to_string(tables.segment_length[slot]));
+    }
+}
+
+void read_tables(const format::Container& container, Index& index) {
+    const bool overlay = index.engine == GEOIDX_ENGINE_OVERLAY;
+    for (uint32_t tag : {TAG_QUANTA, TAG_SEGMENTS, TAG_OVERLAY_TABLES, TAG_BORDER_TABLES})
+        if (container.has(tag) != (overlay == (tag != TAG_BORDER_TABLES)))
+            corrupt("section " + format::tag_text(tag) + " does not go with the engine");
+    if (!overlay) return read_graph_tables(container, index);
+    read_overlay_tables(container, index);
+    read_quanta(container, index);
+    read_segments(container, index);
 }
 
 void read_content(const format::Container& container, Index& index) {

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "format/bytes.h"
 #include "format/matrix_png.h"
 #include "src/index/folded_triangle.h"
@@ -23,6 +25,7 @@ std::vector<std::byte> meta_bytes(const Index& index) {
         writer.f64(value);
     writer.u64(index.metric_fingerprint);
     writer.u32(index.metric_flags);
+    writer.u32(index.engine);
     return writer.take();
 }
 
@@ -104,6 +107,61 @@ Images internal_images(const Index& index) {
     return images;
 }
 
+// ---- The overlay engine's: codes, as floats
+
+float code_value(uint16_t code) {
+    return code == OverlayTables::UNREACHED ? std::numeric_limits<float>::infinity()
+                                            : static_cast<float>(code);
+}
+
+std::vector<std::byte> quantum_bytes(const Index& index) {
+    format::ByteWriter writer;
+    writer.f32_array(index.overlay_tables.quantum);
+    return writer.take();
+}
+
+std::vector<std::byte> segment_bytes(const Index& index) {
+    format::ByteWriter writer;
+    writer.u32_array(index.overlay_tables.next);
+    writer.f32_array(index.overlay_tables.segment_length);
+    return writer.take();
+}
+
+Images overlay_images(const Index& index) {
+    const OverlayTables& tables = index.overlay_tables;
+    Images images;
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) {
+        add_folded(images, index.overlay_size(p), [&](uint32_t i, uint32_t j) {
+            return code_value(tables.tables[index.overlay_place(p, i, j)]);
+        });
+    }
+    return images;
+}
+
+Images crossing_code_images(const Index& index) {
+    Images images;
+    std::vector<float> values;
+    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf) {
+        const uint32_t rows = index.border_size(leaf), cols = index.internal_size(leaf);
+        if (!rows || !cols) continue;
+        values.clear();
+        const uint16_t* codes =
+            index.overlay_tables.crossing_tables.data() + index.crossing_place(leaf, 0, 0);
+        for (size_t i = 0; i < size_t{rows} * cols; ++i) values.push_back(code_value(codes[i]));
+        images.add(values, rows, cols);
+    }
+    return images;
+}
+
+Images internal_code_images(const Index& index) {
+    Images images;
+    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf)
+        add_folded(images, index.internal_size(leaf), [&](uint32_t i, uint32_t j) {
+            return code_value(index.overlay_tables.internal_tables[index.internal_place(leaf, i, j)]);
+        });
+    return images;
+}
+
 void add_images(format::ContainerWriter& writer, uint32_t tag, const Images& images) {
     writer.add_encoded_matrices(tag, images.streams, images.raw_size);
 }
@@ -117,9 +175,17 @@ std::vector<std::byte> write_index(const Index& index) {
     writer.add_bytes(TAG_VERTICES, vertex_bytes(index));
     writer.add_bytes(TAG_POSITIONS, position_bytes(index));
     writer.add_bytes(TAG_BORDERS, border_bytes(index));
-    add_images(writer, TAG_BORDER_TABLES, border_images(index));
-    add_images(writer, TAG_CROSSING_TABLES, crossing_images(index));
-    add_images(writer, TAG_INTERNAL_TABLES, internal_images(index));
+    if (index.engine == GEOIDX_ENGINE_OVERLAY) {
+        writer.add_bytes(TAG_QUANTA, quantum_bytes(index));
+        writer.add_bytes(TAG_SEGMENTS, segment_bytes(index));
+        add_images(writer, TAG_OVERLAY_TABLES, overlay_images(index));
+        add_images(writer, TAG_CROSSING_TABLES, crossing_code_images(index));
+        add_images(writer, TAG_INTERNAL_TABLES, internal_code_images(index));
+    } else {
+        add_images(writer, TAG_BORDER_TABLES, border_images(index));
+        add_images(writer, TAG_CROSSING_TABLES, crossing_images(index));
+        add_images(writer, TAG_INTERNAL_TABLES, internal_images(index));
+    }
     return writer.finish();
 }
 

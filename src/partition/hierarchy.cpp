@@ -11,11 +11,6 @@ namespace geodesic {
 
 namespace {
 
-// Measured on a scan of 43,243 vertices (bench/): larger leaves answer faster and more exactly, but the file
-// grows.
-constexpr double LEAF_VERTICES = 120;
-constexpr double LARGEST_SPLIT = 40;
-
 uint64_t seed_of_patch(uint64_t seed, uint32_t patch) {
     return Random(seed ^ (uint64_t{patch} << 20)).next();
 }
@@ -38,12 +33,12 @@ uint32_t levels_named(std::span<const uint32_t> given) {
 }
 
 std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_count,
-                                      std::span<const uint32_t> given) {
-    const double leaves = std::max(1.0, vertex_count / LEAF_VERTICES);
+                                      std::span<const uint32_t> given, const SplitShape& shape) {
+    const double leaves = std::max(1.0, vertex_count / shape.leaf_vertices);
     if (level_count == 0) level_count = levels_named(given);
     if (level_count == 0)
         level_count =
-            std::max(1u, static_cast<uint32_t>(std::ceil(std::log(leaves) / std::log(LARGEST_SPLIT))));
+            std::max(1u, static_cast<uint32_t>(std::ceil(std::log(leaves) / std::log(shape.largest_split))));
     level_count = std::min<uint32_t>(level_count, GEOIDX_MAX_LEVELS);
     double remaining = leaves;
     uint32_t open = 0;

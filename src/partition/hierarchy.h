@@ -32,10 +32,20 @@ struct HierarchyOptions {
     std::vector<uint8_t> in_proportion = {};
 };
 
+// What an automatic hierarchy aims at.
+struct SplitShape {
+    double leaf_vertices;
+    double largest_split;
+};
+
+// Measured on scans of 35,000 to 50,000 vertices (bench/). Graph: larger leaves answer faster and more
+// exactly, but the file grows. Overlay: the fewest table entries.
+inline constexpr SplitShape GRAPH_SPLIT{120, 40}, OVERLAY_SPLIT{60, 6};
+
 // How many levels, and how many patches each patch is split into, for a mesh of this size; counts given by
 // the caller (not 0) are kept.
 std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_count,
-                                      std::span<const uint32_t> given);
+                                      std::span<const uint32_t> given, const SplitShape& shape);
 
 // The paper's section 3.1. Every patch hangs together over edges and has at most one border ring, so that a
 // level can have more patches than asked for.

@@ -1,66 +1,32 @@
 #pragma once
 
 #include <span>
+#include <variant>
 
-#include "src/index/index.h"
-#include "src/query/arc_queue.h"
+#include "src/query/graph_query.h"
+#include "src/query/overlay_query.h"
 
 namespace geodesic {
 
-// One thread's scratch for queries on one index; the index must outlive it. Ids are checked: Error
-// INVALID_ARGUMENT names one that is out of range.
+// One thread's scratch for queries on one index, by the engine that the index was built for; the index must
+// outlive it. Ids are checked: Error INVALID_ARGUMENT names one that is out of range.
 class Query {
 public:
     Query(const Index& index, std::pmr::memory_resource* memory);
 
-    // Single source, single destination (paper 3.4): symmetric bit for bit.
+    // Single source, single destination: symmetric bit for bit.
     float sssd(uint32_t source_id, uint32_t target_id);
 
-    // Multiple sources, all destinations (paper 3.4): distances[id] to the nearest source.
+    // Multiple sources, all destinations: distances[id] to the nearest source.
     void msad(std::span<const uint32_t> source_ids, std::span<float> distances);
 
 private:
     uint32_t number_of(uint32_t id) const;
 
-    // msad.cpp
-    void start_from(uint32_t source);
-    void start_from_internal(uint32_t source);
-    void climb();
-    void descend();
-    void cross_overlay(uint32_t patch, uint32_t start_count);
-    void activate(uint32_t slot);
-    uint32_t nearest_active_child(uint32_t patch) const;
-    void cross_child(uint32_t patch, uint32_t child);
-    void pass_on(uint32_t patch, uint32_t slot, float distance);
-    void fill_leaf(uint32_t leaf);
-
-    // sssd.cpp
-    float same_leaf_distance(uint32_t a, uint32_t b) const;
-    float search(uint32_t source, uint32_t target);
-    void allow_ancestors(uint32_t source, uint32_t target);
-    void open(uint32_t node, float distance, uint32_t target);
-    void relax_border_vertex(uint32_t node, float distance, uint32_t target);
-
     const Index& index_;
-    ArcQueue queue_; // of SSSD
-
-    // MSAD: distances by number; which inner patches have sources below them.
-    Array<float> distance_;
-    Array<uint8_t> has_sources_;
-    // The overlay that is being crossed: distances per slot, so that a table row meets them side by side; per
-    // child the slots whose rows have not been looked at since their distance fell, in the child's part of
-    // the array.
-    Array<float> slot_distance_;
-    Array<uint8_t> slot_is_active_;
-    Array<uint32_t> active_slots_;
-    Array<uint32_t> active_count_; // per patch
-    Array<float> nearest_active_;  // per patch: no active slot is nearer; infinity without one
-    Array<float> crossed_;         // of one child's border, while its rows are looked at
-
-    // SSSD: distances of border vertices, valid where the epoch is the current one; likewise allowed patches.
-    Array<float> search_distance_;
-    Array<uint32_t> search_epoch_, allowed_epoch_;
-    uint32_t epoch_ = 0;
+    std::variant<GraphQuery, OverlayQuery> engine_;
+    Array<uint32_t> sources_; // of MSAD, by number
+    Array<float> distance_;   // by number
 };
 
 }

@@ -108,7 +108,7 @@ void set_bound_scale(Index& index, Workers& workers) {
 
 }
 
-void fill_tables(Index& index, std::span<const uint32_t> vertex_of_number, Workers& workers) {
+void fill_graph_tables(Index& index, std::span<const uint32_t> vertex_of_number, Workers& workers) {
     RowFiller filler(index, vertex_of_number);
     workers.run(index.vertex_count(), [&](FieldSolver& solver, size_t number) {
         filler.fill(solver, static_cast<uint32_t>(number));

@@ -9,6 +9,6 @@ namespace geodesic {
 
 // Fills the tables of a laid out index with distances on the whole surface (paper 3.2), and bound_scale.
 // vertex_of_number: the mesh vertex of each number.
-void fill_tables(Index& index, std::span<const uint32_t> vertex_of_number, Workers& workers);
+void fill_graph_tables(Index& index, std::span<const uint32_t> vertex_of_number, Workers& workers);
 
 }

@@ -90,6 +90,7 @@ TEST_CASE("crafted META") {
         check_corrupt("diagonal", set(&Meta::diagonal, diagonal));
     for (size_t i = 0; i < 5; ++i)
         check_corrupt("error", [i](TakenApart& parts) { parts.meta.errors[i] = double{NOT_A_NUMBER}; });
+    for (uint32_t engine : {1u, 2u, UINT32_MAX}) check_corrupt("engine", set(&Meta::engine, engine));
     check_corrupt("bytes too many",
                   [](TakenApart& parts) { parts.extra_bytes[TAG_META] = Bytes(1, std::byte{0}); });
 }
@@ -248,7 +249,9 @@ TEST_CASE("matrices of another shape, and too many or too few, are refused") {
 }
 
 TEST_CASE("a section that is missing is refused") {
-    for (uint32_t tag : INDEX_TAGS) {
+    const auto container = format::Container::parse(original().file, INDEX_TAGS);
+    for (const format::Section& section : container.sections()) {
+        const uint32_t tag = section.tag;
         CAPTURE(format::tag_text(tag));
         check_corrupt("missing", [&](TakenApart& parts) { parts.missing_tag = tag; });
     }

@@ -9,8 +9,9 @@ using namespace geodesic::test;
 namespace {
 
 // A few KB, two levels, all sections with content.
-Bytes small_index() {
-    auto options = build_options(GEOIDX_METRIC_EDGES, 2);
+Bytes small_index(uint32_t engine = GEOIDX_ENGINE_GRAPH) {
+    auto options = build_options(GEOIDX_METRIC_EXACT, 2);
+    options.engine = engine;
     options.patches[0] = options.patches[1] = 2;
     return save(build(grid(5, 4, 0.2), options).get());
 }
@@ -41,32 +42,39 @@ bool is_refused(const Bytes& bytes) {
 }
 
 TEST_CASE("an index cut at any length is refused") {
-    const Bytes whole = small_index();
-    REQUIRE(whole.size() < 10000);
-    for (size_t size = 0; size < whole.size(); ++size) {
-        const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)); // no byte beyond
-        if (!is_refused(cut) || open_status(cut) != GEOIDX_ERROR_TRUNCATED) {
-            CAPTURE(size);
-            CHECK(is_refused(cut));
-            CHECK(open_status(cut) == GEOIDX_ERROR_TRUNCATED);
+    for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
+        const Bytes whole = small_index(engine);
+        REQUIRE(whole.size() < 10000);
+        for (size_t size = 0; size < whole.size(); ++size) {
+            const Bytes cut(whole.begin(),
+                            whole.begin() + static_cast<std::ptrdiff_t>(size)); // no byte beyond
+            if (!is_refused(cut) || open_status(cut) != GEOIDX_ERROR_TRUNCATED) {
+                CAPTURE(engine);
+                CAPTURE(size);
+                CHECK(is_refused(cut));
+                CHECK(open_status(cut) == GEOIDX_ERROR_TRUNCATED);
+            }
         }
     }
 }
 
 TEST_CASE("an index with any byte changed is refused") {
-    const Bytes whole = small_index();
-    Bytes changed = whole;
-    for (size_t i = 0; i < whole.size(); ++i) {
-        for (int flip : {0x01, 0x80, 0xFF, 0x24}) {
-            changed[i] = whole[i] ^ static_cast<std::byte>(flip);
-            if (is_refused(changed)) continue;
-            CAPTURE(i);
-            CAPTURE(flip);
-            CHECK(is_refused(changed));
+    for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
+        const Bytes whole = small_index(engine);
+        Bytes changed = whole;
+        for (size_t i = 0; i < whole.size(); ++i) {
+            for (int flip : {0x01, 0x80, 0xFF, 0x24}) {
+                changed[i] = whole[i] ^ static_cast<std::byte>(flip);
+                if (is_refused(changed)) continue;
+                CAPTURE(engine);
+                CAPTURE(i);
+                CAPTURE(flip);
+                CHECK(is_refused(changed));
+            }
+            changed[i] = whole[i];
         }
-        changed[i] = whole[i];
+        CHECK(open_status(changed) == GEOIDX_OK);
     }
-    CHECK(open_status(changed) == GEOIDX_OK);
 }
 
 TEST_CASE("an index with bytes after its end is refused") {

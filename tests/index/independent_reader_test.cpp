@@ -229,6 +229,7 @@ struct IndependentIndex {
         for (int i = 0; i < 5; ++i) CHECK(!std::isnan(meta.f64()));
         metric_fingerprint = meta.u64();
         metric_flags = meta.u32();
+        CHECK(meta.u32() == GEOIDX_ENGINE_GRAPH);
         CHECK(meta.remaining() == 0);
     }
 

@@ -21,7 +21,7 @@ struct TakenApart {
         uint32_t error_sources;
         double errors[5];
         uint64_t metric_fingerprint;
-        uint32_t metric_flags;
+        uint32_t metric_flags, engine;
     } meta;
     uint32_t level_count;
     uint64_t inner_count;
@@ -54,6 +54,7 @@ inline TakenApart take_apart(std::span<const std::byte> file) {
     for (double& error : parts.meta.errors) error = meta.f64();
     parts.meta.metric_fingerprint = meta.u64();
     parts.meta.metric_flags = meta.u32();
+    parts.meta.engine = meta.u32();
 
     const auto hierarchy_bytes = bytes(TAG_HIERARCHY);
     format::ByteReader hierarchy(hierarchy_bytes);
@@ -141,6 +142,7 @@ inline Bytes put_together(const TakenApart& parts, const TakenApart& shapes, uin
     for (double error : parts.meta.errors) bytes.f64(error);
     bytes.u64(parts.meta.metric_fingerprint);
     bytes.u32(parts.meta.metric_flags);
+    bytes.u32(parts.meta.engine);
     add(TAG_META, bytes);
     bytes.take();
     bytes.u32(parts.level_count);

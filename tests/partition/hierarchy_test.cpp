@@ -241,21 +241,22 @@ TEST_CASE("hierarchy: in proportion, a patch twice as large has twice the childr
 
 TEST_CASE("automatic_split: what the caller gives is kept, the rest fills up to small leaves") {
     const std::vector<uint32_t> given{17, 0, 5};
-    const auto split = automatic_split(1000000, 4, given);
+    const auto split = automatic_split(1000000, 4, given, GRAPH_SPLIT);
     REQUIRE(split.size() == 4);
     CHECK(split[0] == 17);
     CHECK(split[2] == 5);
     CHECK(split[1] == split[3]);
     CHECK(split[1] > 1);
-    CHECK(automatic_split(50, 2, std::vector<uint32_t>{3, 4}) == std::vector<uint32_t>{3, 4});
-    CHECK(automatic_split(10, 100, {}).size() == GEOIDX_MAX_LEVELS);
+    CHECK(automatic_split(50, 2, std::vector<uint32_t>{3, 4}, GRAPH_SPLIT) == std::vector<uint32_t>{3, 4});
+    CHECK(automatic_split(10, 100, {}, GRAPH_SPLIT).size() == GEOIDX_MAX_LEVELS);
     // The levels that are named are meant, also where their number is automatic.
-    CHECK(automatic_split(50, 0, std::vector<uint32_t>{3, 4, 0, 0}) == std::vector<uint32_t>{3, 4});
+    CHECK(automatic_split(50, 0, std::vector<uint32_t>{3, 4, 0, 0}, GRAPH_SPLIT) ==
+          std::vector<uint32_t>{3, 4});
     // Levels asked for are levels, also of a small mesh.
-    for (uint32_t count : automatic_split(3000, 8, {})) CHECK(count >= 2);
+    for (uint32_t count : automatic_split(3000, 8, {}, GRAPH_SPLIT)) CHECK(count >= 2);
     for (uint32_t level_count : {0u, 1u, 2u, 3u, 8u})
         for (uint32_t vertices : {1u, 3u, 100u, 5000u, 50000u, 1000000u, UINT32_MAX - 1}) {
-            const auto counts = automatic_split(vertices, level_count, {});
+            const auto counts = automatic_split(vertices, level_count, {}, GRAPH_SPLIT);
             REQUIRE(!counts.empty());
             CHECK(counts.size() <= GEOIDX_MAX_LEVELS);
             if (level_count) CHECK(counts.size() == level_count);
@@ -270,11 +271,11 @@ TEST_CASE("automatic_split: what the caller gives is kept, the rest fills up to 
                 if (vertices >= 5000) CHECK(vertices / leaves >= 32);
             }
         }
-    CHECK(automatic_split(1, 0, {}) == std::vector<uint32_t>{1});
+    CHECK(automatic_split(1, 0, {}, GRAPH_SPLIT) == std::vector<uint32_t>{1});
     // More levels for more vertices, never fewer.
     size_t before = 1;
     for (uint32_t vertices = 100; vertices < 100000000; vertices *= 2) {
-        const size_t levels = automatic_split(vertices, 0, {}).size();
+        const size_t levels = automatic_split(vertices, 0, {}, GRAPH_SPLIT).size();
         CHECK(levels >= before);
         before = levels;
     }

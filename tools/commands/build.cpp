@@ -18,6 +18,8 @@ struct BuildArguments {
     std::string mesh;
     std::string output;
     MetricArguments metric;
+    std::string engine = ENGINE_NAMES[GEOIDX_ENGINE_GRAPH];
+    uint32_t exact_vertices = 0;
     double delta = 0;
     uint32_t levels = 0;
     std::vector<uint32_t> patches;
@@ -35,6 +37,8 @@ geoidx_build_options build_options(const BuildArguments& arguments, ProgressBar&
     geoidx_build_options options;
     geoidx_build_options_init(&options);
     apply(arguments.metric, options);
+    options.engine = engine_of_name(arguments.engine);
+    options.exact_vertices = arguments.exact_vertices;
     options.delta = arguments.delta;
     options.seed = arguments.seed;
     options.threads = arguments.threads;
@@ -83,6 +87,14 @@ void build(const BuildArguments& arguments) {
 }
 
 void add_shape_options(CLI::App& command, BuildArguments& arguments) {
+    command.add_option("--engine", arguments.engine, "what answers queries: graph (the paper's) or overlay")
+        ->check(CLI::IsMember(ENGINE_NAMES))
+        ->capture_default_str();
+    command
+        .add_option("--exact-vertices", arguments.exact_vertices,
+                    "of the overlay engine: largest patch whose tables are the metric's own distances")
+        ->check(whole_number())
+        ->capture_default_str();
     command.add_option("--delta", arguments.delta, "pruning threshold, % of the bounding-box diagonal")
         ->capture_default_str();
     command.add_option("--levels", arguments.levels, "levels of patches; 0: automatic")
@@ -108,6 +120,7 @@ void add_build(CLI::App& app) {
     geoidx_build_options_init(&defaults);
     arguments->lloyd_iterations = defaults.lloyd_iterations;
     arguments->seed = defaults.seed;
+    arguments->exact_vertices = defaults.exact_vertices;
 
     CLI::App* command = app.add_subcommand("build", "build the index of a mesh");
     command->add_option("MESH", arguments->mesh, "mesh file: .obj, .ply, .off or .stl")->required();

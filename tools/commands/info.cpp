@@ -49,6 +49,7 @@ std::vector<Row> rows_of(const geoidx_info& info, const std::string& path, bool 
     const std::string patches = printed_patches(info, json ? ", " : " ");
     return {
         {"metric", "metric", metric_name(info.metric), true},
+        {"engine", "engine", info.engine < ENGINE_NAMES.size() ? ENGINE_NAMES[info.engine] : "unknown", true},
         {"metric_fingerprint", "metric fingerprint", printed_fingerprint(info.metric_fingerprint), true},
         {"metric_unfoldable", "metric can be unfolded",
          info.metric_flags & GEOIDX_METRIC_UNFOLDABLE ? "1" : "0"},

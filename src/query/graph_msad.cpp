@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <experimental/simd>
 #include <limits>
-#include <string>
 
-#include "format/error.h"
-#include "src/query/query.h"
+#include "src/query/graph_query.h"
 
 namespace geodesic {
 
@@ -28,37 +26,19 @@ void add_row(float d, std::span<const float> row, float* distances) {
 
 }
 
-uint32_t Query::number_of(uint32_t id) const {
-    if (id >= index_.id_count)
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "vertex " + std::to_string(id) +
-                                                       " is out of range: the mesh has " +
-                                                       std::to_string(index_.id_count) + " vertices");
-    return index_.number_of_id[id];
-}
-
 // First the overlays above the sources, upwards, so that every border of theirs knows its distance; then all
 // overlays downwards from their outer borders; then the leaves.
-void Query::msad(std::span<const uint32_t> source_ids, std::span<float> distances) {
-    if (distances.size() != index_.id_count)
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "distance_count is " + std::to_string(distances.size()) +
-                                                       ", but the mesh has " +
-                                                       std::to_string(index_.id_count) + " vertices");
-    if (source_ids.empty()) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "there is no source");
+void GraphQuery::msad(std::span<const uint32_t> sources, std::span<float> distance) {
+    distance_ = distance;
     std::fill(distance_.begin(), distance_.end(), INFINITE);
     std::fill(has_sources_.begin(), has_sources_.end(), uint8_t{0});
-    for (uint32_t id : source_ids)
-        if (const uint32_t source = number_of(id); source != NONE) start_from(source);
+    for (uint32_t source : sources) start_from(source);
     climb();
     descend();
     for (uint32_t leaf = index_.first_leaf(); leaf < index_.patch_count(); ++leaf) fill_leaf(leaf);
-    for (size_t id = 0; id < distances.size(); ++id) {
-        const uint32_t number = index_.number_of_id[id];
-        distances[id] = number == NONE ? INFINITE : distance_[number];
-    }
-    for (uint32_t id : source_ids) distances[id] = 0; // also a source that no triangle uses
 }
 
-void Query::start_from(uint32_t source) {
+void GraphQuery::start_from(uint32_t source) {
     distance_[source] = 0;
     if (index_.is_border(source))
         has_sources_[index_.owner[source]] = 1;
@@ -66,7 +46,7 @@ void Query::start_from(uint32_t source) {
         start_from_internal(source);
 }
 
-void Query::start_from_internal(uint32_t source) {
+void GraphQuery::start_from_internal(uint32_t source) {
     const uint32_t leaf = index_.leaf_of(source);
     const uint32_t first = index_.first_internal(leaf), own = source - first;
     const auto border = index_.border_of(leaf);
@@ -77,7 +57,7 @@ void Query::start_from_internal(uint32_t source) {
     has_sources_[index_.parent[leaf]] = 1;
 }
 
-void Query::climb() {
+void GraphQuery::climb() {
     for (uint32_t p = index_.first_leaf(); p-- > 0;) {
         if (!has_sources_[p]) continue;
         cross_overlay(p, index_.overlay_size(p));
@@ -85,14 +65,14 @@ void Query::climb() {
     }
 }
 
-void Query::descend() {
+void GraphQuery::descend() {
     for (uint32_t p = 1; p < index_.first_leaf(); ++p) cross_overlay(p, index_.border_size(p));
 }
 
 // Shortest paths over the tables of a patch's children, from the first start_count overlay positions.
 // Children take turns, the one with the nearest active slot next; whole rows are read side by side, which
 // outweighs that a distance may fall again later.
-void Query::cross_overlay(uint32_t patch, uint32_t start_count) {
+void GraphQuery::cross_overlay(uint32_t patch, uint32_t start_count) {
     const uint32_t first = index_.border_begin[index_.child_begin[patch]];
     const uint32_t last = index_.border_begin[index_.child_begin[patch + 1]];
     for (uint32_t slot = first; slot < last; ++slot) {
@@ -103,7 +83,7 @@ void Query::cross_overlay(uint32_t patch, uint32_t start_count) {
     for (uint32_t slot = first; slot < last; ++slot) distance_[index_.border[slot]] = slot_distance_[slot];
 }
 
-void Query::activate(uint32_t slot) {
+void GraphQuery::activate(uint32_t slot) {
     const uint32_t child = index_.patch_of_slot[slot];
     nearest_active_[child] = std::min(nearest_active_[child], slot_distance_[slot]);
     if (slot_is_active_[slot]) return;
@@ -111,7 +91,7 @@ void Query::activate(uint32_t slot) {
     active_slots_[index_.border_begin[child] + active_count_[child]++] = slot;
 }
 
-uint32_t Query::nearest_active_child(uint32_t patch) const {
+uint32_t GraphQuery::nearest_active_child(uint32_t patch) const {
     uint32_t nearest = NONE;
     float smallest = INFINITE;
     for (uint32_t child = index_.child_begin[patch]; child < index_.child_begin[patch + 1]; ++child)
@@ -124,7 +104,7 @@ uint32_t Query::nearest_active_child(uint32_t patch) const {
 
 // Tables hold whole-surface distances, so a distance that fell over a child's table needs not cross it again:
 // only the other children's slots of that vertex become active.
-void Query::cross_child(uint32_t patch, uint32_t child) {
+void GraphQuery::cross_child(uint32_t patch, uint32_t child) {
     const uint32_t first = index_.border_begin[child], size = index_.border_size(child);
     std::copy_n(slot_distance_.begin() + first, size, crossed_.begin());
     for (uint32_t i = 0; i < active_count_[child]; ++i) {
@@ -138,14 +118,14 @@ void Query::cross_child(uint32_t patch, uint32_t child) {
         if (crossed_[k] < slot_distance_[first + k]) pass_on(patch, first + k, crossed_[k]);
 }
 
-void Query::pass_on(uint32_t patch, uint32_t slot, float distance) {
+void GraphQuery::pass_on(uint32_t patch, uint32_t slot, float distance) {
     for (uint32_t copy : index_.slots_of(patch, index_.overlay_position[slot])) {
         slot_distance_[copy] = distance;
         if (copy != slot) activate(copy);
     }
 }
 
-void Query::fill_leaf(uint32_t leaf) {
+void GraphQuery::fill_leaf(uint32_t leaf) {
     const auto border = index_.border_of(leaf);
     const uint32_t size = index_.internal_size(leaf);
     for (uint32_t b = 0; b < border.size(); ++b)

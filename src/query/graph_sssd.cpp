@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/query/query.h"
+#include "src/query/graph_query.h"
 
 namespace geodesic {
 
@@ -34,18 +34,13 @@ float bound(const Index& index, uint32_t a, uint32_t b) {
 
 }
 
-float Query::sssd(uint32_t source_id, uint32_t target_id) {
-    const uint32_t a = number_of(source_id), b = number_of(target_id);
-    if (source_id == target_id) return 0;
-    if (a == NONE || b == NONE) return INFINITE;
-    const auto [low, high] = std::minmax(a, b);
+float GraphQuery::sssd(uint32_t low, uint32_t high) {
     const float direct = same_leaf_distance(low, high);
     return direct < INFINITE ? direct : search(low, high);
 }
 
 // The table's distance of two vertices that a leaf or a border has in common; infinity if there is none.
-float Query::same_leaf_distance(uint32_t low, uint32_t high) const {
-    if (low == high) return 0;
+float GraphQuery::same_leaf_distance(uint32_t low, uint32_t high) const {
     if (index_.is_border(high)) {
         for (const BorderPlace& a : index_.places_of(low))
             for (const BorderPlace& b : index_.places_of(high))
@@ -60,7 +55,7 @@ float Query::same_leaf_distance(uint32_t low, uint32_t high) const {
 }
 
 // The search may cross the overlays of both vertices' ancestors up to the first common one, and no others.
-void Query::allow_ancestors(uint32_t source, uint32_t target) {
+void GraphQuery::allow_ancestors(uint32_t source, uint32_t target) {
     if (++epoch_ == 0) {
         std::fill(search_epoch_.begin(), search_epoch_.end(), 0u);
         std::fill(allowed_epoch_.begin(), allowed_epoch_.end(), 0u);
@@ -80,14 +75,14 @@ void Query::allow_ancestors(uint32_t source, uint32_t target) {
     }
 }
 
-void Query::open(uint32_t node, float distance, uint32_t target) {
+void GraphQuery::open(uint32_t node, float distance, uint32_t target) {
     if (search_epoch_[node] == epoch_ && !(distance < search_distance_[node])) return;
     search_epoch_[node] = epoch_;
     search_distance_[node] = distance;
     queue_.push(distance + bound(index_, node, target), node);
 }
 
-void Query::relax_border_vertex(uint32_t node, float distance, uint32_t target) {
+void GraphQuery::relax_border_vertex(uint32_t node, float distance, uint32_t target) {
     for (const BorderPlace& place : index_.places_of(node)) {
         if (allowed_epoch_[index_.parent[place.patch]] != epoch_) continue;
         const auto border = index_.border_of(place.patch);
@@ -96,7 +91,7 @@ void Query::relax_border_vertex(uint32_t node, float distance, uint32_t target) 
     }
 }
 
-float Query::search(uint32_t source, uint32_t target) {
+float GraphQuery::search(uint32_t source, uint32_t target) {
     allow_ancestors(source, target);
     queue_.clear();
     if (index_.is_border(source)) {

@@ -1,0 +1,200 @@
+#include "src/tables/closure.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "src/index/unfolding.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
+
+// What a distance must fall by, as a share of it, to count: less is rounding.
+constexpr float PROGRESS = 1e-6f;
+// What a way over border vertices must gain to be straightened, which costs much more.
+constexpr float WORTH_STRAIGHTENING = 1e-4f;
+
+bool is_lower(float a, float b, float share) { return a < b * (1 - share); }
+
+// The way from a source over a border vertex to a target, straightened over the segments near that vertex.
+// from(i) and to(i): distances of border position i.
+template <class From, class To>
+float straightened(const OverlayTables& tables, uint32_t first_slot, uint32_t position, const From& from,
+                   const To& to) {
+    const float best = from(position) + to(position);
+    const OverlayTables::Neighbourhood near = tables.around(first_slot, position);
+    const UnfoldedSegments segments(by_segment([&](int k) { return from(near.position[k]); }),
+                                    FourFloats(near.length, std::experimental::element_aligned));
+    const float square = segments.square_across(by_segment([&](int k) { return to(near.position[k]); }));
+    return std::min(best, std::sqrt(square));
+}
+
+// The distances in a patch's overlay from one of its vertices, over the tables of the children.
+class RowFromBelow {
+public:
+    RowFromBelow(uint32_t patch, const Index& index, const DistanceTables& tables, std::span<float> row)
+        : patch_(patch), first_slot_(index.border_begin[index.child_begin[patch]]), index_(index),
+          tables_(tables), row_(row),
+          changed_(index.border_begin[index.child_begin[patch + 1]] - first_slot_, uint8_t{0}),
+          nearest_changed_(index.child_begin[patch + 1] - index.child_begin[patch], INFINITE) {}
+
+    void fill(uint32_t source) {
+        std::fill(row_.begin(), row_.end(), INFINITE);
+        row_[source] = 0;
+        mark(source, NONE);
+        for (uint32_t child; (child = nearest_changed_child()) != NONE;) cross(child);
+    }
+
+private:
+    uint32_t nearest_changed_child() const {
+        const auto nearest = std::ranges::min_element(nearest_changed_);
+        if (*nearest == INFINITE) return NONE;
+        return index_.child_begin[patch_] + static_cast<uint32_t>(nearest - nearest_changed_.begin());
+    }
+
+    // The children that have this vertex on their border are to be crossed from it, but for the one that it
+    // was reached over: tables hold distances on the whole surface.
+    void mark(uint32_t position, uint32_t reached_over) {
+        for (uint32_t slot : index_.slots_of(patch_, position)) {
+            const uint32_t child = index_.patch_of_slot[slot];
+            if (child == reached_over) continue;
+            changed_[slot - first_slot_] = 1;
+            float& nearest = nearest_changed_[child - index_.child_begin[patch_]];
+            nearest = std::min(nearest, row_[position]);
+        }
+    }
+
+    void cross(uint32_t child) {
+        const uint32_t first = index_.border_begin[child], size = index_.border_size(child);
+        const uint32_t* position = index_.overlay_position.data() + first;
+        const float* table = tables_.overlay[child].data(); // begins with the border
+        const size_t stride = index_.overlay_size(child);
+        from_.clear();
+        rows_.clear();
+        for (uint32_t i = 0; i < size; ++i) {
+            from_.push_back(row_[position[i]]);
+            if (changed_[first + i - first_slot_]) rows_.push_back(i);
+            changed_[first + i - first_slot_] = 0;
+        }
+        nearest_changed_[child - index_.child_begin[patch_]] = INFINITE;
+        best_.assign(size, INFINITE);
+        winner_.assign(size, 0);
+        for (uint32_t i : rows_)
+            for (uint32_t j = 0; j < size; ++j) {
+                const float d = from_[i] + table[i * stride + j];
+                winner_[j] = d < best_[j] ? i : winner_[j];
+                best_[j] = d < best_[j] ? d : best_[j];
+            }
+        for (uint32_t j = 0; j < size; ++j) {
+            if (best_[j] == INFINITE) continue;
+            const float d = straightened(
+                index_.overlay_tables, first, winner_[j], [&](uint32_t i) { return from_[i]; },
+                [&](uint32_t i) { return table[i * stride + j]; });
+            if (!is_lower(d, row_[position[j]], PROGRESS)) continue;
+            row_[position[j]] = d;
+            mark(position[j], child);
+        }
+    }
+
+    const uint32_t patch_, first_slot_;
+    const Index& index_;
+    const DistanceTables& tables_;
+    std::span<float> row_;
+    std::vector<uint8_t> changed_;       // per slot of the children
+    std::vector<float> nearest_changed_; // per child: the smallest distance of a changed slot
+    std::vector<float> from_, best_;
+    std::vector<uint32_t> rows_, winner_;
+};
+
+void make_symmetric(std::vector<float>& table, size_t size) {
+    for (size_t i = 0; i < size; ++i)
+        for (size_t j = 0; j < i; ++j)
+            table[i * size + j] = table[j * size + i] = std::min(table[i * size + j], table[j * size + i]);
+}
+
+// Lowers one row of a patch's overlay table by paths over the outside of its border.
+class RowFromAbove {
+public:
+    RowFromAbove(uint32_t patch, const Index& index, const DistanceTables& tables,
+                 std::span<const float> outside)
+        : index_(index), first_slot_(index.border_begin[patch]), border_(index.border_size(patch)),
+          size_(index.overlay_size(patch)), table_(tables.overlay[patch]), outside_(outside) {}
+
+    void fill(size_t row, std::span<float> out) {
+        const std::span<const float> old = table_.subspan(row * size_, size_);
+        std::copy(old.begin(), old.end(), out.begin());
+        from_.assign(old.data(), old.data() + border_);
+        if (!lower(from_, {outside_.data(), border_ * border_}, border_, out.first(border_))) return;
+        from_.assign(out.data(), out.data() + border_);
+        lower(from_, table_.first(border_ * size_), size_, out);
+    }
+
+private:
+    // out[x] = the least of itself and of the ways from the border over a table with one row a border vertex.
+    bool lower(std::span<const float> from, std::span<const float> table, size_t stride,
+               std::span<float> out) {
+        best_.assign(out.size(), INFINITE);
+        winner_.assign(out.size(), 0);
+        for (uint32_t i = 0; i < border_; ++i)
+            for (size_t x = 0; x < out.size(); ++x) {
+                const float d = from[i] + table[i * stride + x];
+                winner_[x] = d < best_[x] ? i : winner_[x];
+                best_[x] = d < best_[x] ? d : best_[x];
+            }
+        bool any = false;
+        for (size_t x = 0; x < out.size(); ++x) {
+            if (!is_lower(best_[x], out[x], WORTH_STRAIGHTENING)) continue;
+            out[x] = straightened(
+                index_.overlay_tables, first_slot_, winner_[x], [&](uint32_t i) { return from[i]; },
+                [&](uint32_t i) { return table[i * stride + x]; });
+            any = true;
+        }
+        return any;
+    }
+
+    const Index& index_;
+    const uint32_t first_slot_;
+    const size_t border_, size_;
+    std::span<const float> table_, outside_;
+    std::vector<float> from_, best_;
+    std::vector<uint32_t> winner_;
+};
+
+// The border block of a patch in its parent's table.
+std::vector<float> border_block(uint32_t patch, const Index& index, const DistanceTables& tables) {
+    const uint32_t parent = index.parent[patch], first = index.border_begin[patch];
+    const size_t border = index.border_size(patch), stride = index.overlay_size(parent);
+    std::vector<float> block;
+    for (size_t i = 0; i < border; ++i)
+        for (size_t j = 0; j < border; ++j)
+            block.push_back(tables.overlay[parent][index.overlay_position[first + i] * stride +
+                                                   index.overlay_position[first + j]]);
+    return block;
+}
+
+}
+
+void close_from_below(uint32_t patch, const Index& index, Workers& workers, DistanceTables& tables) {
+    const size_t size = index.overlay_size(patch);
+    std::vector<float>& table = tables.overlay[patch];
+    workers.run(size, [&](FieldSolver&, size_t i) {
+        RowFromBelow(patch, index, tables, std::span(table).subspan(i * size, size))
+            .fill(static_cast<uint32_t>(i));
+    });
+    make_symmetric(table, size);
+}
+
+void close_from_above(uint32_t patch, const Index& index, Workers& workers, DistanceTables& tables) {
+    const size_t size = index.overlay_size(patch);
+    const auto outside = border_block(patch, index, tables);
+    std::vector<float> lowered(size * size);
+    workers.run(size, [&](FieldSolver&, size_t i) {
+        RowFromAbove(patch, index, tables, outside).fill(i, std::span(lowered).subspan(i * size, size));
+    });
+    make_symmetric(lowered, size);
+    tables.overlay[patch] = std::move(lowered);
+}
+
+}

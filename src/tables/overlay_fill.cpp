@@ -1,0 +1,132 @@
+#include "src/tables/overlay_fill.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <limits>
+#include <string>
+
+#include "format/error.h"
+#include "src/tables/closure.h"
+#include "src/tables/distance_tables.h"
+#include "src/tables/segments.h"
+
+namespace geodesic {
+
+namespace {
+
+// Vertices inside of each patch, not on its border.
+std::vector<uint64_t> inner_vertices(const Index& index) {
+    std::vector<uint64_t> count(index.patch_count(), 0);
+    for (uint32_t p = index.patch_count(); p-- > 0;) {
+        count[p] +=
+            p < index.first_leaf() ? index.owned_begin[p + 1] - index.owned_begin[p] : index.internal_size(p);
+        if (p > 0) count[index.parent[p]] += count[p];
+    }
+    return count;
+}
+
+// Which overlay tables hold the metric's own distances: at least those above leaves.
+std::vector<uint8_t> exact_patches(const Index& index, uint32_t exact_vertices) {
+    const auto count = inner_vertices(index);
+    std::vector<uint8_t> exact(index.first_leaf());
+    for (uint32_t p = 0; p < index.first_leaf(); ++p)
+        exact[p] = count[p] <= exact_vertices || index.child_begin[p] >= index.first_leaf();
+    return exact;
+}
+
+// Each pair of vertices is measured once, from the smaller number, and written to all of its places.
+class ExactTables {
+public:
+    ExactTables(const Index& index, std::span<const uint32_t> vertex_of_number,
+                const std::vector<uint8_t>& exact, DistanceTables& tables)
+        : index_(index), vertex_of_number_(vertex_of_number), exact_(exact), tables_(tables) {}
+
+    void fill(FieldSolver& solver, uint32_t number) {
+        index_.is_border(number) ? fill_border(solver, number) : fill_internal(solver, number);
+    }
+
+private:
+    uint32_t number_at(uint32_t patch, uint32_t position) const {
+        const auto border = index_.border_of(patch);
+        return position < border.size()
+                   ? border[position]
+                   : index_.owned_begin[patch] + position - static_cast<uint32_t>(border.size());
+    }
+
+    // The exact overlays that a border vertex is in, and its positions there.
+    std::vector<BorderPlace> overlays_of(uint32_t number) const {
+        std::vector<BorderPlace> places;
+        const uint32_t owner = index_.owner[number];
+        if (exact_[owner])
+            places.push_back({owner, index_.border_size(owner) + number - index_.owned_begin[owner]});
+        for (const BorderPlace& place : index_.places_of(number))
+            if (place.patch < index_.first_leaf() && exact_[place.patch]) places.push_back(place);
+        return places;
+    }
+
+    float distance_to(const FieldSolver& solver, uint32_t number) const {
+        const double distance = solver.distance(vertex_of_number_[number]);
+        if (distance > double{FLT_MAX} && distance < UNREACHABLE)
+            throw Error(GEOIDX_ERROR_LIMIT, "the metric gives the distance " + std::to_string(distance) +
+                                                ", too large for a 32-bit float");
+        return static_cast<float>(distance);
+    }
+
+    void fill_border(FieldSolver& solver, uint32_t number) {
+        const auto overlays = overlays_of(number);
+        std::vector<uint32_t> targets;
+        for (const auto& [patch, own] : overlays)
+            for (uint32_t i = 0; i < index_.overlay_size(patch); ++i)
+                if (const uint32_t other = number_at(patch, i); other > number)
+                    targets.push_back(vertex_of_number_[other]);
+        if (!targets.empty()) solver.solve({&vertex_of_number_[number], 1}, targets);
+        for (const auto& [patch, own] : overlays) {
+            const size_t size = index_.overlay_size(patch);
+            std::vector<float>& table = tables_.overlay[patch];
+            table[own * size + own] = 0;
+            for (uint32_t i = 0; i < size; ++i)
+                if (const uint32_t other = number_at(patch, i); other > number)
+                    table[own * size + i] = table[i * size + own] = distance_to(solver, other);
+        }
+    }
+
+    void fill_internal(FieldSolver& solver, uint32_t number) {
+        const uint32_t leaf = index_.leaf_of(number), first = index_.first_internal(leaf);
+        const uint32_t own = number - first, size = index_.internal_size(leaf);
+        const auto border = index_.border_of(leaf);
+        std::vector<uint32_t> targets;
+        for (uint32_t other : border) targets.push_back(vertex_of_number_[other]);
+        for (uint32_t i = own + 1; i < size; ++i) targets.push_back(vertex_of_number_[first + i]);
+        if (targets.empty()) return;
+        solver.solve({&vertex_of_number_[number], 1}, targets);
+        for (uint32_t i = 0; i < border.size(); ++i)
+            tables_.crossing[index_.crossing_place(leaf, i, own)] = distance_to(solver, border[i]);
+        for (uint32_t i = own + 1; i < size; ++i)
+            tables_.internal[index_.internal_place(leaf, i, own)] = distance_to(solver, first + i);
+    }
+
+    const Index& index_;
+    std::span<const uint32_t> vertex_of_number_;
+    const std::vector<uint8_t>& exact_;
+    DistanceTables& tables_;
+};
+
+}
+
+void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> vertex_of_number,
+                         const OverlayOptions& options, Workers& workers, Index& index) {
+    DistanceTables tables(index);
+    const auto exact = exact_patches(index, options.exact_vertices);
+    ExactTables filler(index, vertex_of_number, exact, tables);
+    workers.run(index.vertex_count(), [&](FieldSolver& solver, size_t number) {
+        filler.fill(solver, static_cast<uint32_t>(number));
+    });
+    find_segments(mesh, vertex_of_number, options.unfold, tables, index);
+    for (uint32_t p = index.first_leaf(); p-- > 0;)
+        if (!exact[p]) close_from_below(p, index, workers, tables);
+    for (uint32_t p = 1; p < index.first_leaf(); ++p)
+        if (!exact[p]) close_from_above(p, index, workers, tables);
+    quantize(tables, index);
+}
+
+}

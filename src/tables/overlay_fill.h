@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+
+#include "src/concurrency/workers.h"
+#include "src/index/index.h"
+
+namespace geodesic {
+
+struct OverlayOptions {
+    uint32_t exact_vertices; // patches of up to this many have overlay tables of the metric's own distances
+    bool unfold;             // the metric is locally Euclidean: paths may cross borders between vertices
+};
+
+// Fills the overlay tables of a laid out index with distances on the whole surface: those of small patches
+// and leaves are the metric's, those of larger ones are put together from their children's, and then
+// shortened by paths that leave the patch. Besides the index it takes 4 bytes a table entry, and 4 more an
+// entry of one table at a time. vertex_of_number: the mesh vertex of each number.
+void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> vertex_of_number,
+                         const OverlayOptions& options, Workers& workers, Index& index);
+
+}

@@ -1,0 +1,128 @@
+// Index files of the overlay engine with right checksums and wrong content.
+
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "format/bytes.h"
+#include "format/container.h"
+#include "src/index/folded_triangle.h"
+#include "src/index/index_sections.h"
+#include "tests/capi/calls.h"
+
+using namespace geodesic;
+using namespace geodesic::test;
+
+namespace {
+
+constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
+
+// With one level: one overlay table, among all border vertices.
+const Bytes& original() {
+    static const Bytes file = [] {
+        auto options = build_options(GEOIDX_METRIC_EXACT, 1);
+        options.engine = GEOIDX_ENGINE_OVERLAY;
+        return save(build(hills(9, 8), options).get());
+    }();
+    return file;
+}
+
+using Change = std::function<void(Bytes&)>;
+
+// The raw bytes of a section, or of the one folded triangle that it holds.
+Bytes raw_bytes(const format::Container& container, uint32_t tag, uint32_t folded_size) {
+    if (folded_size == 0) return container.read_bytes(tag, UINT64_MAX);
+    const FoldedShape shape = folded_shape(folded_size);
+    Bytes raw(size_t{shape.rows} * shape.cols * sizeof(float));
+    std::vector<float> values(raw.size() / sizeof(float));
+    const format::MatrixTarget target{values, shape.rows, shape.cols};
+    container.read_matrices(tag, {&target, 1});
+    std::memcpy(raw.data(), values.data(), raw.size());
+    return raw;
+}
+
+// The file with the raw form of one section changed, or left out where nothing is left of it. All other
+// sections are as they were.
+Bytes with(uint32_t changed, const Change& change) {
+    const auto container = format::Container::parse(original(), INDEX_TAGS);
+    const auto index = open(original());
+    const auto border_vertices = static_cast<uint32_t>(info_of(index.get()).border_vertex_count);
+    format::ContainerWriter writer(container.mesh_fingerprint());
+    for (const format::Section& section : container.sections()) {
+        if (section.tag == changed) {
+            Bytes raw = raw_bytes(container, changed, changed == TAG_OVERLAY_TABLES ? border_vertices : 0);
+            change(raw);
+            if (!raw.empty()) writer.add_raw(changed, raw);
+        } else if (section.codec == format::Codec::Png) {
+            std::vector<Bytes> streams;
+            const uint32_t count = std::to_integer<uint32_t>(original()[section.offset]); // less than 256
+            for (const auto stream : container.png_streams(section.tag, count))
+                streams.emplace_back(stream.begin(), stream.end());
+            writer.add_encoded_matrices(section.tag, streams, section.raw_size);
+        } else {
+            writer.add_bytes(section.tag, container.read_bytes(section.tag, UINT64_MAX));
+        }
+    }
+    return writer.finish();
+}
+
+template <class T>
+Change set(size_t position, T value) {
+    return [=](Bytes& raw) { std::memcpy(raw.data() + position * sizeof value, &value, sizeof value); };
+}
+
+void check_corrupt(const std::string& what, uint32_t tag, const Change& change) {
+    CAPTURE(what);
+    const Bytes file = with(tag, change);
+    CHECK(open_status(file) == GEOIDX_ERROR_CORRUPT);
+    CHECK(geoidx_verify(file.data(), file.size(), nullptr, nullptr) == GEOIDX_ERROR_CORRUPT);
+}
+
+}
+
+TEST_CASE("crafted overlay: unchanged parts make an index that opens") {
+    for (uint32_t tag : {TAG_QUANTA, TAG_SEGMENTS, TAG_OVERLAY_TABLES})
+        CHECK(open_status(with(tag, [](Bytes&) {})) == GEOIDX_OK);
+}
+
+TEST_CASE("crafted overlay: a section that is missing, too short or too long") {
+    for (uint32_t tag : {TAG_QUANTA, TAG_SEGMENTS, TAG_OVERLAY_TABLES}) {
+        check_corrupt("missing", tag, [](Bytes& raw) { raw.clear(); });
+        check_corrupt("too short", tag, [](Bytes& raw) { raw.resize(raw.size() - 4); });
+        check_corrupt("too long", tag, [](Bytes& raw) { raw.resize(raw.size() + 4); });
+    }
+}
+
+TEST_CASE("crafted QUAN") {
+    for (float quantum : {-1.0f, -1e-30f, INFINITE, -INFINITE, NOT_A_NUMBER})
+        for (size_t patch : {size_t{0}, size_t{3}}) check_corrupt("quantum", TAG_QUANTA, set(patch, quantum));
+}
+
+TEST_CASE("crafted SEGM") {
+    const auto container = format::Container::parse(original(), INDEX_TAGS);
+    const size_t slots = raw_bytes(container, TAG_SEGMENTS, 0).size() / 8;
+    const Bytes raw = raw_bytes(container, TAG_SEGMENTS, 0);
+    const auto next = [&](size_t slot) {
+        uint32_t value;
+        std::memcpy(&value, raw.data() + slot * sizeof value, sizeof value);
+        return value;
+    };
+    REQUIRE(next(0) == 1);
+    REQUIRE(next(1) == 2);
+    check_corrupt("to itself", TAG_SEGMENTS, set(0, uint32_t{0}));
+    check_corrupt("beyond the border", TAG_SEGMENTS, set(0, uint32_t{100000}));
+    check_corrupt("two to one", TAG_SEGMENTS, set(0, uint32_t{2}));
+    for (float length : {0.0f, -1.0f, INFINITE, NOT_A_NUMBER})
+        check_corrupt("length", TAG_SEGMENTS, set(slots, length));
+}
+
+TEST_CASE("crafted OVOV") {
+    for (float code : {0.5f, -1.0f, 32767.0f, 65536.0f, 1e30f, 1e-30f, NOT_A_NUMBER, -INFINITE})
+        for (size_t entry : {size_t{0}, size_t{5}}) {
+            CAPTURE(code);
+            check_corrupt("code", TAG_OVERLAY_TABLES, set(entry, code));
+        }
+    CHECK(open_status(with(TAG_OVERLAY_TABLES, set(0, 32766.0f))) == GEOIDX_OK);
+    CHECK(open_status(with(TAG_OVERLAY_TABLES, set(0, INFINITE))) == GEOIDX_OK);
+}

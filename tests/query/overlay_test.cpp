@@ -1,0 +1,215 @@
+// The overlay engine against the metric itself.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "tests/query/query_cases.h"
+
+using namespace geodesic::test;
+
+namespace {
+
+geoidx_build_options overlay_options(uint32_t metric, uint32_t levels, uint32_t exact_vertices) {
+    geoidx_build_options options = build_options(metric, levels);
+    options.engine = GEOIDX_ENGINE_OVERLAY;
+    options.exact_vertices = exact_vertices;
+    return options;
+}
+
+// The zoo with tables that are all the metric's own, and with tables that are put together.
+std::vector<QueryCase> overlay_cases(uint32_t metric) {
+    std::vector<QueryCase> cases;
+    for (const auto& [name, mesh] : mesh_zoo())
+        for (uint32_t levels : {1u, 2u, 3u, 4u})
+            for (uint32_t exact_vertices : {1u, 1000000u})
+                cases.push_back({name + ", overlay, metric " + std::to_string(metric) + ", " +
+                                     std::to_string(levels) + " levels, exact to " +
+                                     std::to_string(exact_vertices),
+                                 mesh, overlay_options(metric, levels, exact_vertices)});
+    return cases;
+}
+
+double longest(const std::vector<double>& distances) {
+    double longest = 0;
+    for (double d : distances)
+        if (std::isfinite(d)) longest = std::max(longest, d);
+    return longest;
+}
+
+struct Differences {
+    double sum = 0, signed_sum = 0, largest = 0;
+    uint64_t count = 0, reached_wrongly = 0;
+
+    // Relative to the right answer; at 0 both must be.
+    void add(double answer, double expected) {
+        if (std::isfinite(answer) != std::isfinite(expected) || (expected == 0 && answer != 0))
+            ++reached_wrongly;
+        else if (std::isfinite(expected) && expected > 0) {
+            const double difference = (answer - expected) / expected;
+            sum += std::abs(difference);
+            signed_sum += difference;
+            largest = std::max(largest, std::abs(difference));
+            ++count;
+        }
+    }
+    double mean() const { return count ? sum / static_cast<double>(count) : 0; }
+};
+
+}
+
+// Along edges every path crosses borders at vertices, so that nothing but the codes is rounded: a hop adds at
+// most half a quantum, and a quantum is 1/32766 of a table's longest distance.
+TEST_CASE("overlay: distances along edges are the metric's, but for the codes") {
+    for (const QueryCase& test : overlay_cases(GEOIDX_METRIC_EDGES)) {
+        CAPTURE(test.name);
+        const uint32_t count = test.mesh.vertex_count();
+        const auto index = build(test.mesh, test.options);
+        const auto metric = solver(test.mesh, test.options);
+        uint64_t wrong = 0;
+        for (uint32_t source : {0u, count / 3, count - 1}) {
+            const auto expected = metric_distances(metric.get(), source, count);
+            const double rounding = 1e-3 * longest(expected);
+            const auto field = msad(index.get(), source, count);
+            for (uint32_t target = 0; target < count; ++target) {
+                const double pair = double{sssd(index.get(), source, target)};
+                for (double answer : {double{field[target]}, pair})
+                    wrong += std::isfinite(expected[target])
+                                 ? !(std::abs(answer - expected[target]) <= rounding)
+                                 : answer != expected[target];
+            }
+        }
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("overlay: several sources are the nearest of them") {
+    for (const QueryCase& test : overlay_cases(GEOIDX_METRIC_EDGES)) {
+        CAPTURE(test.name);
+        const uint32_t count = test.mesh.vertex_count();
+        const auto index = build(test.mesh, test.options);
+        const auto metric = solver(test.mesh, test.options);
+        const std::vector<uint32_t> sources{count / 2, 0, count - 1, count / 2};
+        const auto expected = metric_distances(metric.get(), sources, count);
+        const auto field = msad(index.get(), sources, count);
+        uint64_t wrong = 0;
+        for (uint32_t target = 0; target < count; ++target)
+            wrong += std::isfinite(expected[target])
+                         ? !(std::abs(double{field[target]} - expected[target]) <= 1e-3 * longest(expected))
+                         : field[target] != HUGE_VALF;
+        CHECK(wrong == 0);
+    }
+}
+
+// The straight lines of a plane cross every border between two vertices: over vertices only they would be 0.1
+// % too long on average. The hills are coarse.
+TEST_CASE("overlay: exact distances, crossing borders between vertices") {
+    for (uint32_t exact_vertices : {1u, 1000000u})
+        for (const auto& [mesh, most] :
+             {std::pair{grid(40, 40, 0.25), 2e-4}, {hills(40, 40), 2e-3}, {torus(60, 30), 1e-3}}) {
+            CAPTURE(exact_vertices);
+            const uint32_t count = mesh.vertex_count();
+            const auto options = overlay_options(GEOIDX_METRIC_EXACT, 3, exact_vertices);
+            const auto index = build(mesh, options);
+            const auto exact = solver(mesh, options);
+            Differences field_errors, pair_errors, disagreement;
+            for (uint32_t source : {0u, count / 3, count / 2, count - 1}) {
+                const auto expected = metric_distances(exact.get(), source, count);
+                const auto field = msad(index.get(), source, count);
+                for (uint32_t target = 0; target < count; ++target) {
+                    const double pair = double{sssd(index.get(), source, target)};
+                    field_errors.add(double{field[target]}, expected[target]);
+                    pair_errors.add(pair, expected[target]);
+                    disagreement.add(pair, double{field[target]});
+                }
+            }
+            CHECK(field_errors.reached_wrongly == 0);
+            CHECK(pair_errors.reached_wrongly == 0);
+            CHECK(field_errors.mean() < most);
+            CHECK(pair_errors.mean() < most);
+            CHECK(field_errors.largest < 0.1);
+            CHECK(disagreement.mean() < 5e-4);
+        }
+}
+
+// The same distances, told to be locally Euclidean or not.
+TEST_CASE("overlay: only a metric that unfolds crosses borders between vertices") {
+    const TestMesh mesh = grid(40, 40, 0.25);
+    const uint32_t count = mesh.vertex_count();
+    auto options = overlay_options(GEOIDX_METRIC_EXACT, 3, 1000000);
+    const auto exact = solver(mesh, options);
+    options.metric = GEOIDX_METRIC_CALLBACK;
+    options.threads = 1;
+    options.metric_user = exact.get();
+    options.metric_callback = [](void* user, uint32_t source, const uint32_t* targets, uint32_t target_count,
+                                 double* distances) {
+        return geoidx_solver_distances(static_cast<geoidx_solver*>(user), &source, 1, targets, target_count,
+                                       distances);
+    };
+    Differences errors[2];
+    uint64_t too_short = 0;
+    for (uint32_t flags : {0u, uint32_t{GEOIDX_METRIC_UNFOLDABLE}}) {
+        options.metric_flags = flags;
+        const auto index = build(mesh, options);
+        for (uint32_t source : {0u, count / 3, count / 2, count - 1}) {
+            const auto expected = metric_distances(exact.get(), source, count);
+            const auto field = msad(index.get(), source, count);
+            for (uint32_t target = 0; target < count; ++target) {
+                errors[flags].add(double{field[target]}, expected[target]);
+                too_short +=
+                    flags == 0 && double{field[target]} < expected[target] - 1e-3 * longest(expected);
+            }
+        }
+    }
+    CHECK(too_short == 0);
+    CHECK(errors[0].mean() > 5 * errors[GEOIDX_METRIC_UNFOLDABLE].mean());
+}
+
+TEST_CASE("overlay: SSSD is symmetric bit for bit, MSAD is 0 at its sources") {
+    for (const QueryCase& test : overlay_cases(GEOIDX_METRIC_EXACT)) {
+        CAPTURE(test.name);
+        const uint32_t count = test.mesh.vertex_count();
+        const auto index = build(test.mesh, test.options);
+        uint64_t wrong = 0;
+        for (uint32_t i = 0; i < 200; ++i) {
+            const uint32_t a = (i * 131 + 1) % count, b = (i * 37 + 5) % count;
+            const float there = sssd(index.get(), a, b), back = sssd(index.get(), b, a);
+            wrong += std::memcmp(&there, &back, sizeof there) != 0 || (a == b && there != 0);
+        }
+        for (uint32_t source : {0u, count / 2, count - 1})
+            wrong += msad(index.get(), source, count)[source] != 0;
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("overlay: threads, saving and opening change no bit") {
+    for (const TestMesh& mesh : {hills(20, 19), components_and_unused()})
+        for (uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES}) {
+            auto options = overlay_options(metric, 3, 30);
+            options.threads = 1;
+            const auto built = build(mesh, options);
+            const Bytes bytes = save(built.get());
+            options.threads = 5;
+            CHECK(save(build(mesh, options).get()) == bytes);
+            CHECK(geoidx_verify(bytes.data(), bytes.size(), nullptr, nullptr) == GEOIDX_OK);
+            const auto opened = open(bytes);
+            CHECK(save(opened.get()) == bytes);
+            const geoidx_info before = info_of(built.get()), after = info_of(opened.get());
+            CHECK(std::memcmp(&before, &after, sizeof before) == 0);
+            CHECK(after.engine == GEOIDX_ENGINE_OVERLAY);
+            const uint32_t count = mesh.vertex_count();
+            for (uint32_t source = 0; source < count; source += 17) {
+                CHECK(msad(built.get(), source, count) == msad(opened.get(), source, count));
+                CHECK(sssd(built.get(), source, count / 2) == sssd(opened.get(), source, count / 2));
+            }
+        }
+}
+
+TEST_CASE("overlay: an engine that is none is refused") {
+    auto options = build_options();
+    options.engine = 2;
+    const TestMesh mesh = grid(3, 3);
+    const geoidx_mesh view = mesh.view();
+    geoidx* index = nullptr;
+    CHECK(geoidx_build(&view, &options, &index) == GEOIDX_ERROR_INVALID_ARGUMENT);
+    CHECK(std::string(geoidx_last_error()).find("engine 2") != std::string::npos);
+}
