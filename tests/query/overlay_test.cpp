@@ -20,7 +20,7 @@ geoidx_build_options overlay_options(uint32_t metric, uint32_t levels, uint32_t 
 std::vector<QueryCase> overlay_cases(uint32_t metric) {
     std::vector<QueryCase> cases;
     for (const auto& [name, mesh] : mesh_zoo())
-        for (uint32_t levels : {1u, 2u, 3u, 4u})
+        for (uint32_t levels : {1u, 3u})
             for (uint32_t exact_vertices : {1u, 1000000u})
                 cases.push_back({name + ", overlay, metric " + std::to_string(metric) + ", " +
                                      std::to_string(levels) + " levels, exact to " +

@@ -1,0 +1,128 @@
+// Opens files whose content was changed and whose checksums are right, and queries those that open. The first
+// byte chooses: the rest as a file by itself, or changes to a small index of either engine, six bytes each:
+// section, position, value.
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "format/container.h"
+#include "src/index/index_sections.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace geodesic;
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+// Four by three cells, bent.
+Bytes small_index(uint32_t engine) {
+    std::vector<float> positions;
+    std::vector<uint32_t> triangles;
+    for (uint32_t y = 0; y < 4; ++y)
+        for (uint32_t x = 0; x < 5; ++x) {
+            const auto at = static_cast<float>(x), bend = static_cast<float>(x * x + y * y);
+            positions.insert(positions.end(), {at, static_cast<float>(y), 0.05f * bend});
+            if (x == 4 || y == 3) continue;
+            const uint32_t v = x + 5 * y;
+            triangles.insert(triangles.end(), {v, v + 1, v + 6, v, v + 6, v + 5});
+        }
+    geoidx_mesh mesh;
+    geoidx_mesh_init(&mesh);
+    mesh.positions = positions.data();
+    mesh.vertex_count = positions.size() / 3;
+    mesh.triangles = triangles.data();
+    mesh.triangle_count = triangles.size() / 3;
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    options.engine = engine;
+    options.level_count = 2;
+    options.patches[0] = options.patches[1] = 2;
+    options.threads = 1;
+    geoidx* index = nullptr;
+    fuzz::require(geoidx_build(&mesh, &options, &index) == GEOIDX_OK, "the small index is built");
+    uint64_t size = 0;
+    geoidx_save_memory(index, nullptr, 0, &size);
+    Bytes file(size);
+    fuzz::require(geoidx_save_memory(index, file.data(), size, &size) == GEOIDX_OK, "it is saved");
+    geoidx_close(index);
+    return file;
+}
+
+bool is_bytes(const format::Section& section) { return section.codec != format::Codec::Png; }
+
+// Sections of bytes are changed; those of matrices stay.
+Bytes changed(const Bytes& file, fuzz::Input input) {
+    const auto container = format::Container::parse(file, INDEX_TAGS);
+    const auto sections = container.sections();
+    std::map<uint32_t, Bytes> raw;
+    for (const format::Section& section : sections)
+        if (is_bytes(section)) raw[section.tag] = container.read_bytes(section.tag, UINT64_MAX);
+    while (!input.empty()) {
+        const format::Section& section = sections[input.byte() % sections.size()];
+        const uint32_t position = input.byte(), value = input.word();
+        if (!is_bytes(section)) continue;
+        Bytes& bytes = raw[section.tag];
+        if (value == 0xD00D) bytes.resize(position); // shorter or longer
+        for (size_t i = 0; i < 4 && position + i < bytes.size(); ++i)
+            bytes[position + i] = static_cast<std::byte>(value >> 8 * i);
+    }
+    format::ContainerWriter writer(container.mesh_fingerprint());
+    for (const format::Section& section : sections) {
+        if (is_bytes(section)) {
+            writer.add_bytes(section.tag, raw[section.tag]);
+            continue;
+        }
+        std::vector<Bytes> streams;
+        const auto count = std::to_integer<uint32_t>(file[section.offset]); // less than 256
+        for (const auto stream : container.png_streams(section.tag, count))
+            streams.emplace_back(stream.begin(), stream.end());
+        writer.add_encoded_matrices(section.tag, streams, section.raw_size);
+    }
+    return writer.finish();
+}
+
+// No answer is asked to be right: the content may say anything. None may be read from elsewhere.
+void query(const geoidx& index) {
+    geoidx_info info{};
+    info.struct_size = sizeof info;
+    fuzz::require(geoidx_get_info(&index, &info) == GEOIDX_OK, "info is given");
+    const auto count = static_cast<uint32_t>(info.vertex_count);
+    if (count > 1000) return;
+    std::vector<float> distances(count);
+    for (uint32_t source = 0; source < count; source += 3) {
+        fuzz::require(geoidx_msad(&index, &source, 1, distances.data(), count) == GEOIDX_OK, "MSAD");
+        fuzz::require(distances[source] == 0, "MSAD is 0 at its source");
+        for (uint32_t target = 0; target < count; ++target) {
+            float there = 0, back = 0;
+            fuzz::require(geoidx_sssd(&index, source, target, &there) == GEOIDX_OK, "SSSD");
+            fuzz::require(geoidx_sssd(&index, target, source, &back) == GEOIDX_OK, "SSSD back");
+            fuzz::require(std::memcmp(&there, &back, sizeof there) == 0, "SSSD is symmetric");
+        }
+    }
+}
+
+void open(const void* data, size_t size) {
+    geoidx* index = nullptr;
+    const geoidx_status status = geoidx_open_memory(data, size, nullptr, &index);
+    fuzz::require((status == GEOIDX_OK) == (index != nullptr), "there is an index or an error");
+    fuzz::require(geoidx_verify(data, size, nullptr, nullptr) == status, "verify says what open says");
+    if (index) query(*index);
+    geoidx_close(index);
+}
+
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    static const Bytes originals[] = {small_index(GEOIDX_ENGINE_GRAPH), small_index(GEOIDX_ENGINE_OVERLAY)};
+    fuzz::Input input({data, size});
+    const uint8_t choice = input.byte();
+    if (choice % 3 == 2) {
+        open(input.rest().data(), input.rest().size());
+    } else {
+        const Bytes file = changed(originals[choice % 3], input);
+        open(file.data(), file.size());
+    }
+    return 0;
+}
