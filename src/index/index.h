@@ -106,6 +106,18 @@ struct Index {
         return {places.data() + place_begin[border_vertex], places.data() + place_begin[border_vertex + 1]};
     }
 
+    // The vertex at a position in a patch's overlay, and the position of a border vertex in that of its
+    // owner.
+    uint32_t overlay_number(uint32_t patch, uint32_t position) const {
+        const uint32_t size = border_size(patch);
+        return position < size ? border[border_begin[patch] + position]
+                               : owned_begin[patch] + position - size;
+    }
+    uint32_t position_at_owner(uint32_t border_vertex) const {
+        const uint32_t patch = owner[border_vertex];
+        return border_size(patch) + border_vertex - owned_begin[patch];
+    }
+
     // Place of an entry of the overlay table of an inner patch; entries of a row stand side by side as long
     // as their columns are the border's, or owned.
     uint64_t overlay_place(uint32_t patch, uint64_t i, uint64_t j) const {

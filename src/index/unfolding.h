@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <experimental/simd>
 #include <limits>
+
+#include "src/index/overlay_tables.h"
 
 namespace geodesic {
 
@@ -49,5 +53,18 @@ private:
 
     FourFloats length, half_inverse, x, y;
 };
+
+// The way from a source over a border vertex to a target, straightened over the segments near that vertex
+// where that is shorter. first_slot: where the border's slots begin; from(i) and to(i): distances of position
+// i.
+template <class From, class To>
+float straightened(const OverlayTables& tables, uint32_t first_slot, uint32_t position, const From& from,
+                   const To& to) {
+    const OverlayTables::Neighbourhood near = tables.around(first_slot, position);
+    const UnfoldedSegments segments(by_segment([&](int k) { return from(near.position[k]); }),
+                                    FourFloats(near.length, std::experimental::element_aligned));
+    const float square = segments.square_across(by_segment([&](int k) { return to(near.position[k]); }));
+    return std::min(from(position) + to(position), std::sqrt(square));
+}
 
 }

@@ -90,20 +90,28 @@ Images border_images(const Index& index) {
     return images;
 }
 
-Images crossing_images(const Index& index) {
+// value(place): the entry at a place in the tables.
+template <class Value>
+Images crossing_images(const Index& index, const Value& value) {
     Images images;
+    std::vector<float> values;
     for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf) {
         const uint32_t rows = index.border_size(leaf), cols = index.internal_size(leaf);
-        if (rows && cols) images.add({index.crossing_row(leaf, 0), size_t{rows} * cols}, rows, cols);
+        if (!rows || !cols) continue;
+        values.clear();
+        for (size_t i = 0; i < size_t{rows} * cols; ++i)
+            values.push_back(value(index.crossing_place(leaf, 0, 0) + i));
+        images.add(values, rows, cols);
     }
     return images;
 }
 
-Images internal_images(const Index& index) {
+template <class Value>
+Images internal_images(const Index& index, const Value& value) {
     Images images;
     for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf)
         add_folded(images, index.internal_size(leaf),
-                   [&](uint32_t i, uint32_t j) { return index.internal_distance(leaf, i, j); });
+                   [&](uint32_t i, uint32_t j) { return value(index.internal_place(leaf, i, j)); });
     return images;
 }
 
@@ -138,30 +146,6 @@ Images overlay_images(const Index& index) {
     return images;
 }
 
-Images crossing_code_images(const Index& index) {
-    Images images;
-    std::vector<float> values;
-    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf) {
-        const uint32_t rows = index.border_size(leaf), cols = index.internal_size(leaf);
-        if (!rows || !cols) continue;
-        values.clear();
-        const uint16_t* codes =
-            index.overlay_tables.crossing_tables.data() + index.crossing_place(leaf, 0, 0);
-        for (size_t i = 0; i < size_t{rows} * cols; ++i) values.push_back(code_value(codes[i]));
-        images.add(values, rows, cols);
-    }
-    return images;
-}
-
-Images internal_code_images(const Index& index) {
-    Images images;
-    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf)
-        add_folded(images, index.internal_size(leaf), [&](uint32_t i, uint32_t j) {
-            return code_value(index.overlay_tables.internal_tables[index.internal_place(leaf, i, j)]);
-        });
-    return images;
-}
-
 void add_images(format::ContainerWriter& writer, uint32_t tag, const Images& images) {
     writer.add_encoded_matrices(tag, images.streams, images.raw_size);
 }
@@ -179,12 +163,18 @@ std::vector<std::byte> write_index(const Index& index) {
         writer.add_bytes(TAG_QUANTA, quantum_bytes(index));
         writer.add_bytes(TAG_SEGMENTS, segment_bytes(index));
         add_images(writer, TAG_OVERLAY_TABLES, overlay_images(index));
-        add_images(writer, TAG_CROSSING_TABLES, crossing_code_images(index));
-        add_images(writer, TAG_INTERNAL_TABLES, internal_code_images(index));
+        add_images(writer, TAG_CROSSING_TABLES, crossing_images(index, [&](uint64_t place) {
+                       return code_value(index.overlay_tables.crossing_tables[place]);
+                   }));
+        add_images(writer, TAG_INTERNAL_TABLES, internal_images(index, [&](uint64_t place) {
+                       return code_value(index.overlay_tables.internal_tables[place]);
+                   }));
     } else {
         add_images(writer, TAG_BORDER_TABLES, border_images(index));
-        add_images(writer, TAG_CROSSING_TABLES, crossing_images(index));
-        add_images(writer, TAG_INTERNAL_TABLES, internal_images(index));
+        add_images(writer, TAG_CROSSING_TABLES,
+                   crossing_images(index, [&](uint64_t place) { return index.crossing_tables[place]; }));
+        add_images(writer, TAG_INTERNAL_TABLES,
+                   internal_images(index, [&](uint64_t place) { return index.internal_tables[place]; }));
     }
     return writer.finish();
 }

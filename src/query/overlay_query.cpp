@@ -9,6 +9,8 @@ namespace {
 
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
+static_assert(OverlayTables::PADDING >= MIN_PLUS_BLOCK, "the last row of a table is read in whole blocks");
+
 float decoded(uint16_t code, float quantum) {
     return code == OverlayTables::UNREACHED ? INFINITE : static_cast<float>(code) * quantum;
 }
@@ -157,15 +159,10 @@ void OverlayQuery::msad(std::span<const uint32_t> sources, std::span<float> dist
 void OverlayQuery::start_from(uint32_t source, std::span<float> distance) {
     lower(distance[source], 0);
     if (index_.is_border(source)) {
-        const uint32_t owner = index_.owner[source], size = index_.overlay_size(owner);
-        const auto border = index_.border_of(owner);
-        const uint64_t position = border.size() + source - index_.owned_begin[owner];
-        const auto to = [&](size_t i) {
-            return decoded(tables_.tables[index_.overlay_place(owner, position, i)], tables_.quantum[owner]);
-        };
-        for (size_t i = 0; i < border.size(); ++i) lower(distance[border[i]], to(i));
-        for (size_t i = border.size(); i < size; ++i)
-            lower(distance[index_.owned_begin[owner] + i - border.size()], to(i));
+        const uint32_t owner = index_.owner[source], position = index_.position_at_owner(source);
+        for (uint32_t i = 0; i < index_.overlay_size(owner); ++i)
+            lower(distance[index_.overlay_number(owner, i)],
+                  decoded(tables_.tables[index_.overlay_place(owner, position, i)], tables_.quantum[owner]));
         ++sources_below_[owner];
         return;
     }
@@ -192,10 +189,7 @@ void OverlayQuery::ascend(uint32_t child, std::span<float> distance) {
     const uint32_t parent = index_.parent[child];
     if (index_.border_size(child) == 0) return;
     const auto out = hop_to_parent(child, distances_of_border(child, distance), true);
-    const auto border = index_.border_of(parent);
-    for (size_t i = 0; i < border.size(); ++i) lower(distance[border[i]], out[i]);
-    for (size_t i = border.size(); i < out.size(); ++i)
-        lower(distance[index_.owned_begin[parent] + i - border.size()], out[i]);
+    for (uint32_t i = 0; i < out.size(); ++i) lower(distance[index_.overlay_number(parent, i)], out[i]);
 }
 
 // To the rest of the overlay.
@@ -237,7 +231,7 @@ void OverlayQuery::climb(uint32_t vertex, uint32_t top, Climber& climber) {
     climber.position = NONE;
     if (index_.is_border(vertex)) {
         const uint32_t owner = climber.patch = index_.owner[vertex];
-        climber.position = index_.border_size(owner) + vertex - index_.owned_begin[owner];
+        climber.position = index_.position_at_owner(vertex);
         if (owner == top) return;
         for (uint32_t i = 0; i < index_.border_size(owner); ++i)
             climber.distance.push_back(decoded(
@@ -285,11 +279,9 @@ float OverlayQuery::meet_at_border(uint32_t patch, std::span<const float> from, 
             position = i;
         }
     if (best == INFINITE) return best;
-    const OverlayTables::Neighbourhood near = tables_.around(index_.border_begin[patch], position);
-    const UnfoldedSegments segments(by_segment([&](int k) { return from[near.position[k]]; }),
-                                    FourFloats(near.length, std::experimental::element_aligned));
-    const float square = segments.square_across(by_segment([&](int k) { return to[near.position[k]]; }));
-    return std::min(best, std::sqrt(square));
+    return straightened(
+        tables_, index_.border_begin[patch], position, [&](uint32_t i) { return from[i]; },
+        [&](uint32_t i) { return to[i]; });
 }
 
 }

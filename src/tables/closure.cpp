@@ -18,18 +18,23 @@ constexpr float WORTH_STRAIGHTENING = 1e-4f;
 
 bool is_lower(float a, float b, float share) { return a < b * (1 - share); }
 
-// The way from a source over a border vertex to a target, straightened over the segments near that vertex.
-// from(i) and to(i): distances of border position i.
-template <class From, class To>
-float straightened(const OverlayTables& tables, uint32_t first_slot, uint32_t position, const From& from,
-                   const To& to) {
-    const float best = from(position) + to(position);
-    const OverlayTables::Neighbourhood near = tables.around(first_slot, position);
-    const UnfoldedSegments segments(by_segment([&](int k) { return from(near.position[k]); }),
-                                    FourFloats(near.length, std::experimental::element_aligned));
-    const float square = segments.square_across(by_segment([&](int k) { return to(near.position[k]); }));
-    return std::min(best, std::sqrt(square));
-}
+// best[x] = min over the rows added of from + row[x], and winner[x] the first of them that attains it.
+struct LeastSums {
+    std::vector<float> best;
+    std::vector<uint32_t> winner;
+
+    void begin(size_t columns) {
+        best.assign(columns, INFINITE);
+        winner.assign(columns, 0);
+    }
+    void add(uint32_t row, float from, const float* entries) {
+        for (size_t x = 0; x < best.size(); ++x) {
+            const float sum = from + entries[x];
+            winner[x] = sum < best[x] ? row : winner[x];
+            best[x] = sum < best[x] ? sum : best[x];
+        }
+    }
+};
 
 // The distances in a patch's overlay from one of its vertices, over the tables of the children.
 class RowFromBelow {
@@ -79,18 +84,12 @@ private:
             changed_[first + i - first_slot_] = 0;
         }
         nearest_changed_[child - index_.child_begin[patch_]] = INFINITE;
-        best_.assign(size, INFINITE);
-        winner_.assign(size, 0);
-        for (uint32_t i : rows_)
-            for (uint32_t j = 0; j < size; ++j) {
-                const float d = from_[i] + table[i * stride + j];
-                winner_[j] = d < best_[j] ? i : winner_[j];
-                best_[j] = d < best_[j] ? d : best_[j];
-            }
+        least_.begin(size);
+        for (uint32_t i : rows_) least_.add(i, from_[i], table + i * stride);
         for (uint32_t j = 0; j < size; ++j) {
-            if (best_[j] == INFINITE) continue;
+            if (least_.best[j] == INFINITE) continue;
             const float d = straightened(
-                index_.overlay_tables, first, winner_[j], [&](uint32_t i) { return from_[i]; },
+                index_.overlay_tables, first, least_.winner[j], [&](uint32_t i) { return from_[i]; },
                 [&](uint32_t i) { return table[i * stride + j]; });
             if (!is_lower(d, row_[position[j]], PROGRESS)) continue;
             row_[position[j]] = d;
@@ -104,8 +103,9 @@ private:
     std::span<float> row_;
     std::vector<uint8_t> changed_;       // per slot of the children
     std::vector<float> nearest_changed_; // per child: the smallest distance of a changed slot
-    std::vector<float> from_, best_;
-    std::vector<uint32_t> rows_, winner_;
+    std::vector<float> from_;
+    std::vector<uint32_t> rows_;
+    LeastSums least_;
 };
 
 void make_symmetric(std::vector<float>& table, size_t size) {
@@ -135,19 +135,13 @@ private:
     // out[x] = the least of itself and of the ways from the border over a table with one row a border vertex.
     bool lower(std::span<const float> from, std::span<const float> table, size_t stride,
                std::span<float> out) {
-        best_.assign(out.size(), INFINITE);
-        winner_.assign(out.size(), 0);
-        for (uint32_t i = 0; i < border_; ++i)
-            for (size_t x = 0; x < out.size(); ++x) {
-                const float d = from[i] + table[i * stride + x];
-                winner_[x] = d < best_[x] ? i : winner_[x];
-                best_[x] = d < best_[x] ? d : best_[x];
-            }
+        least_.begin(out.size());
+        for (uint32_t i = 0; i < border_; ++i) least_.add(i, from[i], table.data() + i * stride);
         bool any = false;
         for (size_t x = 0; x < out.size(); ++x) {
-            if (!is_lower(best_[x], out[x], WORTH_STRAIGHTENING)) continue;
+            if (!is_lower(least_.best[x], out[x], WORTH_STRAIGHTENING)) continue;
             out[x] = straightened(
-                index_.overlay_tables, first_slot_, winner_[x], [&](uint32_t i) { return from[i]; },
+                index_.overlay_tables, first_slot_, least_.winner[x], [&](uint32_t i) { return from[i]; },
                 [&](uint32_t i) { return table[i * stride + x]; });
             any = true;
         }
@@ -158,8 +152,8 @@ private:
     const uint32_t first_slot_;
     const size_t border_, size_;
     std::span<const float> table_, outside_;
-    std::vector<float> from_, best_;
-    std::vector<uint32_t> winner_;
+    std::vector<float> from_;
+    LeastSums least_;
 };
 
 // The border block of a patch in its parent's table.

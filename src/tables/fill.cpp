@@ -1,10 +1,8 @@
 #include "src/tables/fill.h"
 
 #include <algorithm>
-#include <cfloat>
-#include <string>
 
-#include "format/error.h"
+#include "src/tables/measuring.h"
 
 namespace geodesic {
 
@@ -17,7 +15,9 @@ public:
         : index_(index), vertex_of_number_(vertex_of_number) {}
 
     void fill(FieldSolver& solver, uint32_t number) {
-        index_.is_border(number) ? fill_border(solver, number) : fill_internal(solver, number);
+        if (index_.is_border(number)) return fill_border(solver, number);
+        measure_internal(index_, vertex_of_number_, number, solver, index_.crossing_tables,
+                         index_.internal_tables);
     }
 
 private:
@@ -25,14 +25,6 @@ private:
         std::vector<uint32_t> vertices;
         for (uint32_t n : numbers) vertices.push_back(vertex_of_number_[n]);
         return vertices;
-    }
-
-    float distance_to(const FieldSolver& solver, uint32_t number) const {
-        const double distance = solver.distance(vertex_of_number_[number]);
-        if (distance > double{FLT_MAX} && distance < UNREACHABLE)
-            throw Error(GEOIDX_ERROR_LIMIT, "the metric gives the distance " + std::to_string(distance) +
-                                                ", too large for a 32-bit float");
-        return static_cast<float>(distance);
     }
 
     void fill_border(FieldSolver& solver, uint32_t number) {
@@ -47,30 +39,11 @@ private:
             float* table = index_.border_tables.data() + index_.border_table_begin[place.patch];
             for (size_t i = 0; i < border.size(); ++i) {
                 if (border[i] <= number) continue;
-                const float d = distance_to(solver, border[i]);
+                const float d = measured_distance(solver, vertex_of_number_[border[i]]);
                 table[place.position * border.size() + i] = d;
                 table[i * border.size() + place.position] = d;
             }
         }
-    }
-
-    void fill_internal(FieldSolver& solver, uint32_t number) {
-        const uint32_t leaf = index_.leaf_of(number);
-        const uint32_t first = index_.first_internal(leaf), size = index_.internal_size(leaf);
-        const auto border = index_.border_of(leaf);
-        std::vector<uint32_t> targets(border.begin(), border.end());
-        for (uint32_t other = number + 1; other < first + size; ++other) targets.push_back(other);
-        if (targets.empty()) return;
-        solver.solve({&vertex_of_number_[number], 1}, vertices_of(targets));
-
-        const uint32_t own = number - first;
-        float* crossing =
-            index_.crossing_tables.data() + index_.crossing_table_begin[leaf - index_.first_leaf()];
-        for (size_t i = 0; i < border.size(); ++i) crossing[i * size + own] = distance_to(solver, border[i]);
-        float* internal =
-            index_.internal_tables.data() + index_.internal_table_begin[leaf - index_.first_leaf()];
-        for (uint32_t i = own + 1; i < size; ++i)
-            internal[Index::below_diagonal(i, own)] = distance_to(solver, first + i);
     }
 
     Index& index_;

@@ -1,13 +1,10 @@
 #include "src/tables/overlay_fill.h"
 
 #include <algorithm>
-#include <cfloat>
-#include <limits>
-#include <string>
 
-#include "format/error.h"
 #include "src/tables/closure.h"
 #include "src/tables/distance_tables.h"
+#include "src/tables/measuring.h"
 #include "src/tables/segments.h"
 
 namespace geodesic {
@@ -42,34 +39,19 @@ public:
         : index_(index), vertex_of_number_(vertex_of_number), exact_(exact), tables_(tables) {}
 
     void fill(FieldSolver& solver, uint32_t number) {
-        index_.is_border(number) ? fill_border(solver, number) : fill_internal(solver, number);
+        if (index_.is_border(number)) return fill_border(solver, number);
+        measure_internal(index_, vertex_of_number_, number, solver, tables_.crossing, tables_.internal);
     }
 
 private:
-    uint32_t number_at(uint32_t patch, uint32_t position) const {
-        const auto border = index_.border_of(patch);
-        return position < border.size()
-                   ? border[position]
-                   : index_.owned_begin[patch] + position - static_cast<uint32_t>(border.size());
-    }
-
     // The exact overlays that a border vertex is in, and its positions there.
     std::vector<BorderPlace> overlays_of(uint32_t number) const {
         std::vector<BorderPlace> places;
         const uint32_t owner = index_.owner[number];
-        if (exact_[owner])
-            places.push_back({owner, index_.border_size(owner) + number - index_.owned_begin[owner]});
+        if (exact_[owner]) places.push_back({owner, index_.position_at_owner(number)});
         for (const BorderPlace& place : index_.places_of(number))
             if (place.patch < index_.first_leaf() && exact_[place.patch]) places.push_back(place);
         return places;
-    }
-
-    float distance_to(const FieldSolver& solver, uint32_t number) const {
-        const double distance = solver.distance(vertex_of_number_[number]);
-        if (distance > double{FLT_MAX} && distance < UNREACHABLE)
-            throw Error(GEOIDX_ERROR_LIMIT, "the metric gives the distance " + std::to_string(distance) +
-                                                ", too large for a 32-bit float");
-        return static_cast<float>(distance);
     }
 
     void fill_border(FieldSolver& solver, uint32_t number) {
@@ -77,7 +59,7 @@ private:
         std::vector<uint32_t> targets;
         for (const auto& [patch, own] : overlays)
             for (uint32_t i = 0; i < index_.overlay_size(patch); ++i)
-                if (const uint32_t other = number_at(patch, i); other > number)
+                if (const uint32_t other = index_.overlay_number(patch, i); other > number)
                     targets.push_back(vertex_of_number_[other]);
         if (!targets.empty()) solver.solve({&vertex_of_number_[number], 1}, targets);
         for (const auto& [patch, own] : overlays) {
@@ -85,24 +67,10 @@ private:
             std::vector<float>& table = tables_.overlay[patch];
             table[own * size + own] = 0;
             for (uint32_t i = 0; i < size; ++i)
-                if (const uint32_t other = number_at(patch, i); other > number)
-                    table[own * size + i] = table[i * size + own] = distance_to(solver, other);
+                if (const uint32_t other = index_.overlay_number(patch, i); other > number)
+                    table[own * size + i] = table[i * size + own] =
+                        measured_distance(solver, vertex_of_number_[other]);
         }
-    }
-
-    void fill_internal(FieldSolver& solver, uint32_t number) {
-        const uint32_t leaf = index_.leaf_of(number), first = index_.first_internal(leaf);
-        const uint32_t own = number - first, size = index_.internal_size(leaf);
-        const auto border = index_.border_of(leaf);
-        std::vector<uint32_t> targets;
-        for (uint32_t other : border) targets.push_back(vertex_of_number_[other]);
-        for (uint32_t i = own + 1; i < size; ++i) targets.push_back(vertex_of_number_[first + i]);
-        if (targets.empty()) return;
-        solver.solve({&vertex_of_number_[number], 1}, targets);
-        for (uint32_t i = 0; i < border.size(); ++i)
-            tables_.crossing[index_.crossing_place(leaf, i, own)] = distance_to(solver, border[i]);
-        for (uint32_t i = own + 1; i < size; ++i)
-            tables_.internal[index_.internal_place(leaf, i, own)] = distance_to(solver, first + i);
     }
 
     const Index& index_;

@@ -9,6 +9,7 @@
 #include "format/container.h"
 #include "src/index/index_sections.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/support/copied_matrices.h"
 
 using namespace geodesic;
 
@@ -70,15 +71,10 @@ Bytes changed(const Bytes& file, fuzz::Input input) {
     }
     format::ContainerWriter writer(container.mesh_fingerprint());
     for (const format::Section& section : sections) {
-        if (is_bytes(section)) {
+        if (is_bytes(section))
             writer.add_bytes(section.tag, raw[section.tag]);
-            continue;
-        }
-        std::vector<Bytes> streams;
-        const auto count = std::to_integer<uint32_t>(file[section.offset]); // less than 256
-        for (const auto stream : container.png_streams(section.tag, count))
-            streams.emplace_back(stream.begin(), stream.end());
-        writer.add_encoded_matrices(section.tag, streams, section.raw_size);
+        else
+            test::copy_matrices(container, file, section, writer);
     }
     return writer.finish();
 }

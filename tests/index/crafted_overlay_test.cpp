@@ -9,6 +9,7 @@
 #include "src/index/folded_triangle.h"
 #include "src/index/index_sections.h"
 #include "tests/capi/calls.h"
+#include "tests/support/copied_matrices.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -55,11 +56,7 @@ Bytes with(uint32_t changed, const Change& change) {
             change(raw);
             if (!raw.empty()) writer.add_raw(changed, raw);
         } else if (section.codec == format::Codec::Png) {
-            std::vector<Bytes> streams;
-            const uint32_t count = std::to_integer<uint32_t>(original()[section.offset]); // less than 256
-            for (const auto stream : container.png_streams(section.tag, count))
-                streams.emplace_back(stream.begin(), stream.end());
-            writer.add_encoded_matrices(section.tag, streams, section.raw_size);
+            copy_matrices(container, original(), section, writer);
         } else {
             writer.add_bytes(section.tag, container.read_bytes(section.tag, UINT64_MAX));
         }

@@ -1,0 +1,37 @@
+#include "src/tables/measuring.h"
+
+#include <cfloat>
+#include <string>
+
+#include "format/error.h"
+
+namespace geodesic {
+
+float measured_distance(const FieldSolver& solver, uint32_t vertex) {
+    const double distance = solver.distance(vertex);
+    if (distance > double{FLT_MAX} && distance < UNREACHABLE)
+        throw Error(GEOIDX_ERROR_LIMIT, "the metric gives the distance " + std::to_string(distance) +
+                                            ", too large for a 32-bit float");
+    return static_cast<float>(distance);
+}
+
+void measure_internal(const Index& index, std::span<const uint32_t> vertex_of_number, uint32_t number,
+                      FieldSolver& solver, std::span<float> crossing_tables,
+                      std::span<float> internal_tables) {
+    const uint32_t leaf = index.leaf_of(number), first = index.first_internal(leaf);
+    const uint32_t own = number - first, size = index.internal_size(leaf);
+    const auto border = index.border_of(leaf);
+    std::vector<uint32_t> targets;
+    for (uint32_t other : border) targets.push_back(vertex_of_number[other]);
+    for (uint32_t i = own + 1; i < size; ++i) targets.push_back(vertex_of_number[first + i]);
+    if (targets.empty()) return;
+    solver.solve({&vertex_of_number[number], 1}, targets);
+    for (uint32_t i = 0; i < border.size(); ++i)
+        crossing_tables[index.crossing_place(leaf, i, own)] =
+            measured_distance(solver, vertex_of_number[border[i]]);
+    for (uint32_t i = own + 1; i < size; ++i)
+        internal_tables[index.internal_place(leaf, i, own)] =
+            measured_distance(solver, vertex_of_number[first + i]);
+}
+
+}
