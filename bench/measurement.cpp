@@ -7,6 +7,8 @@ namespace geodesic::bench {
 
 namespace {
 
+constexpr size_t PREPARED_TARGETS = 50; // of each prepared source
+
 struct QueryCloser {
     void operator()(geoidx_query* query) const { geoidx_query_close(query); }
 };
@@ -22,10 +24,26 @@ public:
         query_.reset(query);
     }
 
-    float sssd(const Pair& pair) {
+    float sssd(uint32_t source, uint32_t target) {
         float distance = 0;
-        tools::require_ok(geoidx_query_sssd(query_.get(), pair.source, pair.target, &distance), name_);
+        tools::require_ok(geoidx_query_sssd(query_.get(), source, target, &distance), name_);
         return distance;
+    }
+
+    void prepare(uint32_t source) { tools::require_ok(geoidx_query_prepare(query_.get(), source), name_); }
+
+    float prepared(uint32_t target) {
+        float distance = 0;
+        tools::require_ok(geoidx_query_prepared(query_.get(), &target, 1, &distance), name_);
+        return distance;
+    }
+
+    void batch(std::span<const uint32_t> sources) {
+        fields_.resize(sources.size() * field_.size());
+        tools::require_ok(geoidx_query_ssad_batch(query_.get(), sources.data(),
+                                                  static_cast<uint32_t>(sources.size()), fields_.data(),
+                                                  fields_.size()),
+                          name_);
     }
 
     const std::vector<float>& msad(uint32_t source) {
@@ -37,7 +55,7 @@ public:
 
 private:
     const std::string& name_;
-    std::vector<float> field_;
+    std::vector<float> field_, fields_;
     Query query_;
 };
 
@@ -45,7 +63,7 @@ void add_pairs_of_field(size_t field, Questions& questions, const std::vector<fl
                         const Workload& workload, IndexErrors& errors) {
     for (size_t i = field; i < workload.pairs.size(); i += workload.error_sources.size()) {
         const Pair& pair = workload.pairs[i];
-        const double sssd = double{questions.sssd(pair)};
+        const double sssd = double{questions.sssd(pair.source, pair.target)};
         errors.sssd.add(sssd, pair.exact);
         errors.difference.add(sssd, double{msad[pair.target]}, pair.exact);
     }
@@ -80,14 +98,20 @@ uint64_t file_size(const geoidx& index, const std::string& name) {
 
 QueryTimes time_queries(const geoidx& index, const Model& model, const Workload& workload) {
     Questions questions(index, model);
-    std::vector<Duration> sssd, msad;
-    questions.msad(workload.error_sources.front()); // brings the tables into memory
-    for (const uint32_t source : workload.timed_sources)
-        msad.push_back(time_of([&] { questions.msad(source); }));
-    questions.sssd(workload.pairs.back());
-    for (size_t i = 0; i < std::min<size_t>(TIMED_QUERIES, workload.pairs.size()); ++i)
-        sssd.push_back(time_of([&] { questions.sssd(workload.pairs[i]); }));
-    return {median(sssd), median(msad)};
+    const std::span sources(workload.timed_sources), targets(workload.timed_targets);
+    std::vector<Duration> sssd, prepared, msad, batch;
+    questions.msad(sources.front()); // brings the tables into memory
+    for (const uint32_t source : sources) msad.push_back(time_of([&] { questions.msad(source); }));
+    for (size_t i = 0; i < sources.size(); ++i)
+        sssd.push_back(time_of([&] { questions.sssd(sources[i], targets[i]); }));
+    for (size_t i = 0; i < sources.size(); ++i) {
+        if (i % PREPARED_TARGETS == 0) questions.prepare(sources[i]);
+        prepared.push_back(time_of([&] { questions.prepared(targets[i]); }));
+    }
+    questions.batch(sources.first(BATCH));
+    for (size_t i = 0; i + BATCH <= sources.size(); i += BATCH)
+        batch.push_back(time_of([&] { questions.batch(sources.subspan(i, BATCH)); }));
+    return {median(sssd), median(prepared), median(msad), median(batch)};
 }
 
 IndexErrors measure_errors(const geoidx& index, const Model& model, const Workload& workload) {

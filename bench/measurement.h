@@ -17,10 +17,12 @@ geoidx_build_options options_for(uint32_t threads, const std::vector<uint32_t>& 
 
 uint64_t file_size(const geoidx& index, const std::string& name);
 
-// Medians of the first TIMED_QUERIES of the workload, one thread.
+// Medians of TIMED_QUERIES of the workload, one thread.
 struct QueryTimes {
     Duration sssd;
+    Duration prepared; // SSSD when the source has been prepared
     Duration msad;
+    Duration batch; // of BATCH sources
 };
 QueryTimes time_queries(const geoidx& index, const Model& model, const Workload& workload);
 

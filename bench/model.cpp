@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "bench/report.h"
+#include "bench/root3.h"
 #include "tools/failure.h"
 #include "tools/mesh_io/mesh_io.h"
 
@@ -16,6 +17,14 @@ namespace fs = std::filesystem;
 std::string default_folder() {
     const char* const named = std::getenv("GEOIDX_MESHES");
     return named && *named ? named : "../shared/meshes";
+}
+
+// "armadillo+2": twice.
+std::pair<std::string, int> refinement_of(const std::string& mesh) {
+    const size_t plus = mesh.size() - 2;
+    if (mesh.size() < 3 || mesh[plus] != '+' || mesh[plus + 1] < '1' || mesh[plus + 1] > '5')
+        return {mesh, 0};
+    return {mesh.substr(0, plus), mesh[plus + 1] - '0'};
 }
 
 fs::path find_mesh(const std::string& mesh, const std::string& folder) {
@@ -38,8 +47,12 @@ void add_mesh_folder(CLI::App& command, std::string& folder) {
 }
 
 Model load_model(const std::string& mesh, const std::string& folder) {
-    const fs::path path = find_mesh(mesh, folder);
-    return {path.stem().string(), path.string(), tools::read_mesh(path.string())};
+    const auto [name, steps] = refinement_of(mesh);
+    const fs::path path = find_mesh(name, folder);
+    Model model{path.stem().string(), path.string(), tools::read_mesh(path.string())};
+    for (int i = 0; i < steps; ++i) model.mesh = root3_subdivided(model.mesh);
+    if (steps) model.name += "+" + std::to_string(steps);
+    return model;
 }
 
 size_t for_each_model(const std::vector<std::string>& meshes, const std::string& folder,

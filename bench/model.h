@@ -20,8 +20,8 @@ struct Model {
 // --meshes: the folder that names are looked up in; by default $GEOIDX_MESHES, else ../shared/meshes.
 void add_mesh_folder(CLI::App& command, std::string& folder);
 
-// `mesh` is the path of a file, or the name of one in `folder` with or without extension. Throws
-// tools::Failure that says where it was looked for.
+// `mesh` is the path of a file, or the name of one in `folder` with or without extension, and may end in
+// "+N", N = 1 .. 5: so many root-3 subdivisions. Throws tools::Failure that says where it was looked for.
 Model load_model(const std::string& mesh, const std::string& folder);
 
 // Loads the meshes one after the other. One that fails is reported on stderr and left out; returns how many.

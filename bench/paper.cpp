@@ -79,8 +79,8 @@ private:
                 measurement.errors.msad.relative().mean,
                 {}};
         add_query_times(run.figures, measurement);
-        add_errors(run.figures, measurement.errors);
-        add_build_time(run.figures, measurement.build);
+        add_errors(run.figures, measurement.errors, measurement.info);
+        add_build_time(run.figures, measurement.build, measurement.info);
         add_size(run.figures, measurement);
         return run;
     }

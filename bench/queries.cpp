@@ -1,5 +1,6 @@
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "bench/commands.h"
 #include "bench/machine.h"
@@ -15,7 +16,8 @@ struct QueriesArguments {
     std::vector<std::string> meshes;
     std::string folder;
     std::string index; // file; empty: build
-    std::string engine = tools::ENGINE_NAMES[GEOIDX_ENGINE_GRAPH];
+    std::vector<std::string> engines{tools::ENGINE_NAMES[GEOIDX_ENGINE_OVERLAY],
+                                     tools::ENGINE_NAMES[GEOIDX_ENGINE_GRAPH]};
     std::vector<uint32_t> patches;
     uint32_t exact_vertices = 0;
     double delta = 0;
@@ -24,16 +26,16 @@ struct QueriesArguments {
     ReportArguments report;
 };
 
-geoidx_build_options build_options(const QueriesArguments& arguments) {
+geoidx_build_options build_options(const QueriesArguments& arguments, const std::string& engine) {
     geoidx_build_options options = options_for(arguments.threads, arguments.patches);
-    options.engine = tools::engine_of_name(arguments.engine);
+    options.engine = tools::engine_of_name(engine);
     if (arguments.exact_vertices) options.exact_vertices = arguments.exact_vertices;
     options.delta = arguments.delta;
     return options;
 }
 
-BuiltIndex built_or_opened(const Model& model, const QueriesArguments& arguments) {
-    if (arguments.index.empty()) return build_index(model, build_options(arguments));
+BuiltIndex built_or_opened(const Model& model, const QueriesArguments& arguments, const std::string& engine) {
+    if (arguments.index.empty()) return build_index(model, build_options(arguments, engine));
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     return {tools::open_index(arguments.index, &model.mesh), {unknown, unknown}};
 }
@@ -46,11 +48,13 @@ Workload workload_of(const Model& model, uint32_t metric, uint32_t error_sources
 }
 
 Row row_of(const Model& model, const Measurement& measurement, uint64_t build_peak) {
-    Row row{{"mesh", "mesh", model.name}, {"vertices", "vertices", uint64_t{measurement.info.vertex_count}}};
+    Row row{{"mesh", "mesh", model.name},
+            {"engine", "engine", std::string(tools::ENGINE_NAMES[measurement.info.engine])},
+            {"vertices", "vertices", uint64_t{measurement.info.vertex_count}}};
     add_patches(row, measurement.info);
     add_query_times(row, measurement);
-    add_errors(row, measurement.errors);
-    add_build_time(row, measurement.build);
+    add_errors(row, measurement.errors, measurement.info);
+    add_build_time(row, measurement.build, measurement.info);
     row.push_back({"peak_bytes", "", build_peak});
     row.push_back({"peak_mib", "peak MiB", static_cast<double>(build_peak) / (1 << 20)});
     add_size(row, measurement);
@@ -58,16 +62,19 @@ Row row_of(const Model& model, const Measurement& measurement, uint64_t build_pe
 }
 
 // The peak is that of building (or opening) alone: exact distances come afterwards.
-Row measured(const Model& model, const QueriesArguments& arguments, Report& report) {
-    progress(model.name + (arguments.index.empty() ? ": building" : ": opening"));
+Row measured(const Model& model, const QueriesArguments& arguments, const std::string& engine,
+             std::optional<Workload>& workload, Report& report) {
+    progress(model.name + ", " + engine + (arguments.index.empty() ? ": building" : ": opening"));
     forget_peak_memory();
-    const BuiltIndex built = built_or_opened(model, arguments);
+    const BuiltIndex built = built_or_opened(model, arguments, engine);
     const uint64_t peak = peak_memory();
-    progress(model.name + ": exact distances");
-    const uint32_t metric = tools::info_of(*built.index, model.path).metric;
-    const Workload workload = workload_of(model, metric, arguments.error_sources);
-    progress(model.name + ": queries");
-    const Measurement measurement = measure(built, model, workload);
+    if (!workload) {
+        progress(model.name + ": exact distances");
+        const uint32_t metric = tools::info_of(*built.index, model.path).metric;
+        workload = workload_of(model, metric, arguments.error_sources);
+    }
+    progress(model.name + ", " + engine + ": queries");
+    const Measurement measurement = measure(built, model, *workload);
     const std::string note = mismatch_note(model.name, measurement.errors);
     if (!note.empty()) report.note(note);
     return row_of(model, measurement, peak);
@@ -75,7 +82,6 @@ Row measured(const Model& model, const QueriesArguments& arguments, Report& repo
 
 Row parameters_of(const QueriesArguments& arguments) {
     Row row{{"index", "index", arguments.index.empty() ? "built" : arguments.index},
-            {"engine", "engine", arguments.engine},
             {"threads", "build threads", uint64_t{arguments.threads}}};
     const Row workload = workload_parameters(arguments.error_sources);
     row.insert(row.end(), workload.begin(), workload.end());
@@ -85,10 +91,14 @@ Row parameters_of(const QueriesArguments& arguments) {
 void queries(const QueriesArguments& arguments) {
     if (!arguments.index.empty() && arguments.meshes.size() != 1)
         throw CLI::ValidationError("--index belongs to one mesh, not several");
+    const std::vector<std::string> engines =
+        arguments.index.empty() ? arguments.engines : std::vector<std::string>{"as built"};
     Report report("queries", parameters_of(arguments), arguments.report);
     Table table{"queries", "Queries", {}};
     const size_t failed = for_each_model(arguments.meshes, arguments.folder, [&](const Model& model) {
-        table.rows.push_back(measured(model, arguments, report));
+        std::optional<Workload> workload;
+        for (const std::string& engine : engines)
+            table.rows.push_back(measured(model, arguments, engine, workload, report));
     });
     report.add(std::move(table));
     require_none(failed);
@@ -103,7 +113,8 @@ void add_index_options(CLI::App& command, QueriesArguments& arguments) {
         ->delimiter(',')
         ->check(CLI::PositiveNumber)
         ->excludes(index);
-    command.add_option("--engine", arguments.engine, "graph or overlay")
+    command.add_option("--engine", arguments.engines, "graph, overlay, or both, one after the other")
+        ->delimiter(',')
         ->check(CLI::IsMember(tools::ENGINE_NAMES))
         ->excludes(index)
         ->capture_default_str();

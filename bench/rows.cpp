@@ -27,12 +27,15 @@ void add_query_times(Row& row, const Measurement& measurement) {
     const QueryTimes& times = measurement.times;
     row.push_back({"sssd_us", "SSSD µs", 1e6 * times.sssd.wall});
     row.push_back({"sssd_cpu_us", "", 1e6 * times.sssd.cpu});
+    row.push_back({"prepared_us", "prepared µs", 1e6 * times.prepared.wall});
     row.push_back({"msad_ms", "MSAD ms", 1e3 * times.msad.wall});
     row.push_back({"msad_cpu_ms", "", 1e3 * times.msad.cpu});
     row.push_back({"msad_ns_per_vertex", "ns/vertex", per_vertex(1e9 * times.msad.wall, measurement.info)});
+    row.push_back({"batch_ns_per_vertex_and_source", "ns of 16",
+                   per_vertex(1e9 * times.batch.wall, measurement.info) / BATCH});
 }
 
-void add_errors(Row& row, const IndexErrors& errors) {
+void add_errors(Row& row, const IndexErrors& errors, const geoidx_info& stored) {
     const ErrorSummary msad = errors.msad.relative();
     const ErrorSummary sssd = errors.sssd.relative();
     row.push_back({"msad_error_mean_percent", "MSAD mean %", 100 * msad.mean});
@@ -40,15 +43,20 @@ void add_errors(Row& row, const IndexErrors& errors) {
     row.push_back({"msad_error_p99_percent", "", 100 * msad.p99});
     row.push_back({"msad_error_p999_percent", "p99.9 %", 100 * msad.p999});
     row.push_back({"msad_error_max_percent", "max %", 100 * msad.max});
+    row.push_back({"stored_error_mean_percent", "stored %", 100 * stored.error_mean});
     row.push_back({"sssd_error_mean_percent", "SSSD mean %", 100 * sssd.mean});
     row.push_back({"sssd_error_p999_percent", "", 100 * sssd.p999});
     row.push_back({"sssd_error_max_percent", "", 100 * sssd.max});
+    const ErrorSummary difference = errors.difference.relative();
+    row.push_back({"sssd_msad_difference_mean_percent", "SSSD-MSAD %", 100 * difference.mean});
+    row.push_back({"sssd_msad_difference_p999_percent", "", 100 * difference.p999});
     row.push_back({"reachability_mismatches", "", errors.msad.mismatches() + errors.sssd.mismatches()});
 }
 
-void add_build_time(Row& row, const Duration& build) {
+void add_build_time(Row& row, const Duration& build, const geoidx_info& info) {
     row.push_back({"build_s", "build s", build.wall});
     row.push_back({"build_cpu_s", "", build.cpu});
+    row.push_back({"build_cpu_s_per_10000_vertices", "CPU s/10k", per_vertex(1e4 * build.cpu, info)});
 }
 
 void add_size(Row& row, const Measurement& measurement) {

@@ -11,9 +11,9 @@ void add_patches(Row& row, const geoidx_info& info);
 void add_query_times(Row& row, const Measurement& measurement);
 
 // MSAD in full, the mean of SSSD, all in %.
-void add_errors(Row& row, const IndexErrors& errors);
+void add_errors(Row& row, const IndexErrors& errors, const geoidx_info& stored);
 
-void add_build_time(Row& row, const Duration& build);
+void add_build_time(Row& row, const Duration& build, const geoidx_info& info);
 void add_size(Row& row, const Measurement& measurement);
 
 // What the errors rest on; with workload_parameters also the times.

@@ -70,6 +70,7 @@ std::vector<double> exact_field(geoidx_solver& solver, const Model& model, uint3
 Workload make_workload(geoidx_solver& solver, const Model& model, uint32_t error_source_count) {
     Workload workload;
     workload.timed_sources = random_sources(solver, model, TIMED_QUERIES, SEED);
+    workload.timed_targets = random_sources(solver, model, TIMED_QUERIES, SEED + 3);
     workload.error_sources = random_sources(solver, model, error_source_count, SEED + 1);
     for (const uint32_t source : workload.error_sources)
         workload.exact_fields.push_back(exact_field(solver, model, source));

@@ -9,7 +9,8 @@
 namespace geodesic::bench {
 
 inline constexpr uint64_t SEED = 20150929;       // of random sources and pairs
-inline constexpr uint32_t TIMED_QUERIES = 100;   // medians are of so many
+inline constexpr uint32_t TIMED_QUERIES = 1000;  // medians are of so many
+inline constexpr uint32_t BATCH = 16;            // sources at once
 inline constexpr uint32_t PAIRS_PER_FIELD = 500; // SSSD errors are of so many a reference source
 
 // Sources that a triangle uses and that reach a neighbour.
@@ -28,7 +29,7 @@ struct Pair {
 
 // What every index of one mesh is asked, and the right answers.
 struct Workload {
-    std::vector<uint32_t> timed_sources;
+    std::vector<uint32_t> timed_sources, timed_targets;
     std::vector<uint32_t> error_sources;
     std::vector<std::vector<double>> exact_fields; // of each error source
     std::vector<Pair> pairs;                       // pairs[i] begins at error source i % error sources

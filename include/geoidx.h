@@ -308,6 +308,13 @@ GEOIDX_API geoidx_status geoidx_sssd_batch(const geoidx* index, const uint32_t* 
 GEOIDX_API geoidx_status geoidx_msad(const geoidx* index, const uint32_t* sources, uint32_t source_count,
                                      float* distances, uint32_t distance_count);
 
+/* The distances of each source by itself, to every vertex: distances[i * vertex_count + v] is that from
+ * sources[i] to v, the same bits as geoidx_msad gives with this source alone. distance_count must be
+ * source_count times the mesh's vertex_count. Faster than one after the other: 16 sources go through the
+ * tables at a time (scratch: 4 bytes a vertex and source). */
+GEOIDX_API geoidx_status geoidx_ssad_batch(const geoidx* index, const uint32_t* sources,
+                                           uint32_t source_count, float* distances, uint64_t distance_count);
+
 /* One thread's scratch, so that a query does not lock and, after the first ones, does not allocate. The index
  * must outlive it. */
 GEOIDX_API geoidx_status geoidx_query_create(const geoidx* index, geoidx_query** out);
@@ -316,6 +323,26 @@ GEOIDX_API geoidx_status geoidx_query_sssd(geoidx_query* query, uint32_t source,
                                            float* distance);
 GEOIDX_API geoidx_status geoidx_query_msad(geoidx_query* query, const uint32_t* sources,
                                            uint32_t source_count, float* distances, uint32_t distance_count);
+
+GEOIDX_API geoidx_status geoidx_query_ssad_batch(geoidx_query* query, const uint32_t* sources,
+                                                 uint32_t source_count, float* distances,
+                                                 uint64_t distance_count);
+
+/* geoidx_query_msad, but vertices farther than `radius` (0 or more) are at +INFINITY. GEOIDX_ENGINE_OVERLAY
+ * does not look into patches that are farther. */
+GEOIDX_API geoidx_status geoidx_query_msad_within(geoidx_query* query, const uint32_t* sources,
+                                                  uint32_t source_count, float radius, float* distances,
+                                                  uint32_t distance_count);
+
+/* Keeps the half of SSSD that depends on the source, for geoidx_query_prepared, until the next call.
+ * GEOIDX_ENGINE_OVERLAY: 4 bytes of scratch a vertex. */
+GEOIDX_API geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t source);
+
+/* distances[i]: from the prepared source to targets[i]; GEOIDX_ERROR_INVALID_ARGUMENT without one. By
+ * GEOIDX_ENGINE_OVERLAY they differ a little from geoidx_sssd's (about 0.01 % on average), since one half is
+ * more exact. */
+GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32_t* targets,
+                                               uint64_t target_count, float* distances);
 
 /* ---- Distances without an index
  * ------------------------------------------------------------------------------ */

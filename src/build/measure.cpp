@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/partition/random.h"
 #include "src/query/query.h"
@@ -17,7 +18,7 @@ std::vector<double> relative_errors(const Index& index, std::span<const uint32_t
                                     FieldSolver& solver) {
     Query query(index, std::pmr::get_default_resource());
     std::vector<float> answered(index.id_count);
-    query.msad({&id_of_vertex[source], 1}, answered);
+    query.msad({&id_of_vertex[source], 1}, std::numeric_limits<float>::infinity(), answered);
     solver.solve({&source, 1}, {});
     std::vector<double> errors;
     for (uint32_t vertex : vertex_of_number) {

@@ -1,4 +1,5 @@
 #include <cstring>
+#include <limits>
 #include <new>
 
 #include "format/file_io.h"
@@ -12,6 +13,8 @@
 using namespace geodesic;
 
 namespace {
+
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
 void check_allocator(const geoidx_allocator& allocator) {
     require(!allocator.allocate == !allocator.release, "an allocator needs both allocate and release");
@@ -247,7 +250,16 @@ geoidx_status geoidx_msad(const geoidx* index, const uint32_t* sources, uint32_t
     return guarded([&] {
         require(index, "index is NULL");
         check_msad(sources, distances);
-        BorrowedQuery(*index)->msad({sources, source_count}, {distances, distance_count});
+        BorrowedQuery(*index)->msad({sources, source_count}, INFINITE, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_ssad_batch(const geoidx* index, const uint32_t* sources, uint32_t source_count,
+                                float* distances, uint64_t distance_count) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        check_msad(sources, distances);
+        BorrowedQuery(*index)->ssad_each({sources, source_count}, {distances, distance_count});
     });
 }
 
@@ -279,6 +291,41 @@ geoidx_status geoidx_query_msad(geoidx_query* query, const uint32_t* sources, ui
     return guarded([&] {
         require(query, "query is NULL");
         check_msad(sources, distances);
-        query->query.msad({sources, source_count}, {distances, distance_count});
+        query->query.msad({sources, source_count}, INFINITE, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_msad_within(geoidx_query* query, const uint32_t* sources, uint32_t source_count,
+                                       float radius, float* distances, uint32_t distance_count) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        check_msad(sources, distances);
+        query->query.msad({sources, source_count}, radius, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_ssad_batch(geoidx_query* query, const uint32_t* sources, uint32_t source_count,
+                                      float* distances, uint64_t distance_count) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        check_msad(sources, distances);
+        query->query.ssad_each({sources, source_count}, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t source) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        query->query.prepare(source);
+    });
+}
+
+geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32_t* targets, uint64_t target_count,
+                                    float* distances) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(target_count == 0 || targets, "targets is NULL");
+        require(target_count == 0 || distances, "distances is NULL");
+        for (uint64_t i = 0; i < target_count; ++i) distances[i] = query->query.prepared_sssd(targets[i]);
     });
 }

@@ -16,6 +16,33 @@ Index::Index(std::pmr::memory_resource* memory)
       overlay_position(memory), patch_of_slot(memory), overlay_begin(memory), slot_begin(memory),
       slots(memory), place_begin(memory), places(memory), leaf_of_internal(memory), owner(memory) {}
 
+namespace {
+
+void require_room(uint64_t entries) {
+    constexpr uint64_t MOST = uint64_t{1} << 40;
+    if (entries > MOST)
+        throw Error(GEOIDX_ERROR_LIMIT, "the tables would have " + std::to_string(entries) + " entries");
+}
+
+}
+
+void allocate_overlay_tables(Index& index) {
+    OverlayTables& tables = index.overlay_tables;
+    tables.outer_begin.assign(2, 0);
+    tables.inner_begin.assign(2, 0);
+    for (uint32_t p = 1; p < index.patch_count(); ++p) {
+        const uint64_t places = index.ring_size(p);
+        tables.outer_begin.push_back(tables.outer_begin.back() +
+                                     index.overlay_size(index.parent[p]) * places);
+        tables.inner_begin.push_back(tables.inner_begin.back() + index.inner_size(p) * places);
+        require_room(tables.outer_begin.back());
+        require_room(tables.inner_begin.back());
+    }
+    tables.outer_tables.resize(tables.outer_begin.back() + OverlayTables::PADDING);
+    tables.inner_tables.resize(tables.inner_begin.back() + OverlayTables::PADDING);
+    tables.internal_tables.resize(index.internal_table_begin.back());
+}
+
 void allocate_tables(Index& index) {
     index.border_table_begin.assign(1, 0);
     for (uint32_t p = 0; p < index.patch_count(); ++p) {
@@ -30,28 +57,10 @@ void allocate_tables(Index& index) {
         index.internal_table_begin.push_back(index.internal_table_begin.back() +
                                              (internal ? internal * (internal - 1) / 2 : 0));
     }
-    index.overlay_tables.table_begin.assign(1, 0);
-    for (uint32_t p = 0; p < index.first_leaf(); ++p) {
-        const uint64_t size = index.overlay_size(p);
-        index.overlay_tables.table_begin.push_back(index.overlay_tables.table_begin.back() + size * size);
-    }
-    constexpr uint64_t MOST = uint64_t{1} << 40;
     for (uint64_t entries : {index.border_table_begin.back(), index.crossing_table_begin.back(),
-                             index.internal_table_begin.back(), index.overlay_tables.table_begin.back()})
-        if (entries > MOST)
-            throw Error(GEOIDX_ERROR_LIMIT, "the tables would have " + std::to_string(entries) + " entries");
-    if (index.engine == GEOIDX_ENGINE_OVERLAY) {
-        for (uint32_t p = 0; p < index.patch_count(); ++p)
-            if (index.border_size(p) > UINT16_MAX)
-                throw Error(GEOIDX_ERROR_LIMIT, "the border of patch " + std::to_string(p) + " has " +
-                                                    std::to_string(index.border_size(p)) +
-                                                    " vertices, more than the overlay engine can take");
-        index.overlay_tables.tables.resize(index.overlay_tables.table_begin.back() + OverlayTables::PADDING);
-        index.overlay_tables.crossing_tables.resize(index.crossing_table_begin.back() +
-                                                    OverlayTables::PADDING);
-        index.overlay_tables.internal_tables.resize(index.internal_table_begin.back());
-        return;
-    }
+                             index.internal_table_begin.back()})
+        require_room(entries);
+    if (index.engine == GEOIDX_ENGINE_OVERLAY) return;
     index.border_tables.resize(index.border_table_begin.back());
     index.crossing_tables.resize(index.crossing_table_begin.back());
     index.internal_tables.resize(index.internal_table_begin.back());
@@ -103,6 +112,12 @@ void derive_slots(Index& index) {
     index.slots.resize(index.border.size());
     std::vector<uint32_t> next(index.slot_begin.begin(), index.slot_begin.end() - 1);
     for (uint32_t slot = 0; slot < index.border.size(); ++slot) index.slots[next[overlay_of(slot)]++] = slot;
+    for (uint32_t p = 0; p < index.first_leaf(); ++p)
+        for (uint32_t i = 0; i < index.overlay_size(p); ++i)
+            if (index.slots_of(p, i).empty())
+                throw Error(GEOIDX_ERROR_CORRUPT,
+                            "border vertex " + std::to_string(index.overlay_number(p, i)) +
+                                " is on the border of no child of patch " + std::to_string(p));
 }
 
 void derive_places(Index& index) {

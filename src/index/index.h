@@ -118,12 +118,36 @@ struct Index {
         return border_size(patch) + border_vertex - owned_begin[patch];
     }
 
-    // Place of an entry of the overlay table of an inner patch; entries of a row stand side by side as long
-    // as their columns are the border's, or owned.
-    uint64_t overlay_place(uint32_t patch, uint64_t i, uint64_t j) const {
-        const uint64_t border = border_size(patch), size = overlay_size(patch);
-        return overlay_tables.table_begin[patch] +
-               (j < border ? i * border + j : size * border + i * (size - border) + j - border);
+    // Of the overlay engine.
+    uint32_t ring_size(uint32_t patch) const { return overlay_tables.rings.size(patch); }
+    // What lies inside of a patch one hop from its border: what it owns, or the internal vertices of a leaf.
+    uint32_t inner_size(uint32_t patch) const {
+        return patch < first_leaf() ? owned_begin[patch + 1] - owned_begin[patch] : internal_size(patch);
+    }
+    uint32_t first_inner(uint32_t patch) const {
+        return patch < first_leaf() ? owned_begin[patch] : first_internal(patch);
+    }
+    // The patch that a vertex lies inside of so: its owner or its leaf.
+    uint32_t entry(uint32_t number) const { return is_border(number) ? owner[number] : leaf_of(number); }
+
+    // Where a row begins in the outer table of a patch: of a position in its parent's overlay; and in the
+    // inner one.
+    uint64_t outer_row(uint32_t patch, uint32_t overlay_position) const {
+        return overlay_tables.outer_begin[patch] + uint64_t{overlay_position} * ring_size(patch);
+    }
+    uint64_t inner_row(uint32_t patch, uint32_t inner) const {
+        return overlay_tables.inner_begin[patch] + uint64_t{inner} * ring_size(patch);
+    }
+    // An entry of the overlay table of an inner patch.
+    uint16_t overlay_code(uint32_t patch, uint32_t i, uint32_t j) const {
+        const uint32_t slot = slots_of(patch, j).front();
+        return overlay_tables
+            .outer_tables[outer_row(patch_of_slot[slot], i) + overlay_tables.place_of_slot[slot]];
+    }
+    uint16_t crossing_code(uint32_t leaf, uint32_t border_position, uint32_t internal) const {
+        return overlay_tables
+            .inner_tables[inner_row(leaf, internal) +
+                          overlay_tables.place_of_slot[border_begin[leaf] + border_position]];
     }
 
     const float* border_row(uint32_t patch, uint32_t position) const {
@@ -150,12 +174,15 @@ struct Index {
     }
 };
 
-// Sizes of tables follow from the numbers of vertices: fills the *_table_begin and sizes the tables. Throws
-// Error LIMIT when they would not fit.
+// Sizes of tables follow from the numbers of vertices: fills the *_table_begin and sizes the tables of the
+// graph engine. Throws Error LIMIT when they would not fit.
 void allocate_tables(Index& index);
 
+// Likewise those of the overlay engine, when the rings are laid out.
+void allocate_overlay_tables(Index& index);
+
 // Fills what is derived; throws Error CORRUPT where a border vertex is on the border of a patch but not in
-// its parent's overlay.
+// its parent's overlay, or in the overlay of a patch, but on no border of its children.
 void derive(Index& index);
 
 // The length of the straight line between two vertices, given by their numbers.

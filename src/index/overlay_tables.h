@@ -6,56 +6,81 @@
 #include <memory_resource>
 #include <vector>
 
-#include "src/mesh/mesh.h"
-
 namespace geodesic {
 
-// What the overlay engine reads besides the hierarchy. Distances are codes: code * quantum of the patch.
-struct OverlayTables {
-    static constexpr uint16_t LARGEST = 0x7ffe; // so that two codes add up in 16 bits
-    static constexpr uint16_t UNREACHED = 0x7fff;
+// The border of each patch as a *ring*: a place for each vertex, or for some of them, in the order of the
+// border, so that places side by side are the ends of a segment or of a gap. Where segments form a chain, two
+// places at each of its ends repeat what follows around it if it is closed, and its end if it is open: there
+// are two segments, or gaps, on each side of every vertex's own place.
+struct Rings {
+    // Segments on each side of a border vertex that a path over it is straightened over.
+    static constexpr uint32_t REACH = 2;
+    static constexpr uint32_t MOST_PLACES = 0x7fff; // in a ring
+    static constexpr size_t PADDING = 32;           // places of nothing at the end
 
-    static constexpr size_t PADDING = 32; // entries at the end of `tables` and `crossing_tables`
+    explicit Rings(std::pmr::memory_resource* memory)
+        : begin(memory), position(memory), vertex(memory), segment_length(memory), half_inverse(memory),
+          is_own(memory), chain(memory), chains(memory) {}
+
+    // The own places of its vertices, counted over all rings.
+    struct Chain {
+        uint32_t first, last;
+        uint32_t is_closed;
+    };
+
+    std::pmr::vector<uint32_t> begin; // per patch
+    // Per place.
+    std::pmr::vector<uint32_t> position;    // in the border
+    std::pmr::vector<uint32_t> vertex;      // its number
+    std::pmr::vector<float> segment_length; // of the segment to the next place; NaN: a gap
+    std::pmr::vector<float> half_inverse;   // 0.5 / segment_length
+    std::pmr::vector<int32_t> is_own;       // -1: the vertex's own place; 0: a repetition
+    std::pmr::vector<uint32_t> chain;       // which of `chains`
+    std::pmr::vector<Chain> chains;
+
+    uint32_t size(uint32_t patch) const { return begin[patch + 1] - begin[patch]; }
+};
+
+// What the overlay engine reads besides the hierarchy. Distances are codes: code * quantum of a patch.
+struct OverlayTables {
+    static constexpr uint16_t LARGEST = 0x7ffe;
+    static constexpr uint16_t UNREACHED = 0x7fff;
+    static constexpr size_t PADDING = 32; // codes at the end: rows are read in blocks of up to this many
 
     explicit OverlayTables(std::pmr::memory_resource* memory)
-        : quantum(memory), table_begin(memory), tables(memory), crossing_tables(memory),
-          internal_tables(memory), next(memory), previous(memory), segment_length(memory) {}
+        : quantum(memory), rings(memory), place_of_slot(memory), outer_begin(memory), inner_begin(memory),
+          outer_tables(memory), inner_tables(memory), internal_tables(memory), coarse_rings(memory),
+          coarse_places(memory), coarse_samples(memory), sample_count(memory), coarse_rows(memory),
+          coarse_begin(memory), coarse_tables(memory) {}
 
-    std::pmr::vector<float> quantum;        // per patch
-    std::pmr::vector<uint64_t> table_begin; // per inner patch
-    // Overlay x overlay, whole, in overlay positions: the columns of the patch's border as one matrix, then
-    // those of the vertices that it owns as another, so that each hop reads memory from end to end.
-    std::pmr::vector<uint16_t> tables;
-    std::pmr::vector<uint16_t> crossing_tables, internal_tables; // placed as those of Index
-
-    // Border segments, where the metric unfolds: per slot the position in its patch's border of the vertex at
-    // the other end of an edge along the border, or NONE. segment_length is that of the edge to `next`.
-    std::pmr::vector<uint32_t> next, previous;
-    std::pmr::vector<float> segment_length;
-
-    // A border vertex and the two on each side of it, by their positions in the border, and the lengths of
-    // the four segments between them. Where there is no segment the length is NaN, and beyond it the vertex
-    // is the one before once more.
-    struct Neighbourhood {
-        uint32_t position[5];
-        float length[4];
-    };
-    // first_slot: where the border's slots begin.
-    Neighbourhood around(uint32_t first_slot, uint32_t position) const {
-        constexpr float NOT = std::numeric_limits<float>::quiet_NaN();
-        Neighbourhood near{{position, position, position, position, position}, {NOT, NOT, NOT, NOT}};
-        for (int k = 2; k < 4; ++k) {
-            const uint32_t slot = first_slot + near.position[k];
-            near.position[k + 1] = next[slot] == NONE ? near.position[k] : next[slot];
-            if (next[slot] != NONE) near.length[k] = segment_length[slot];
-        }
-        for (int k = 2; k > 0; --k) {
-            const uint32_t before = previous[first_slot + near.position[k]];
-            near.position[k - 1] = before == NONE ? near.position[k] : before;
-            if (before != NONE) near.length[k - 1] = segment_length[first_slot + before];
-        }
-        return near;
+    float distance(uint16_t code, uint32_t patch) const {
+        return code == UNREACHED ? std::numeric_limits<float>::infinity()
+                                 : static_cast<float>(code) * quantum[patch];
     }
+
+    std::pmr::vector<float> quantum; // per patch
+
+    Rings rings;                              // of all border vertices
+    std::pmr::vector<uint32_t> place_of_slot; // its own place in the patch's ring
+
+    // The tables of a patch have a row of codes, one a place of its ring, for everything that is one hop away
+    // from its border: in the outer table the overlay of its parent, by the parent's quantum, in the inner
+    // one, by its own, the vertices that it owns or those inside of a leaf. A sweep down reads all inner
+    // tables.
+    std::pmr::vector<uint64_t> outer_begin, inner_begin; // per patch
+    std::pmr::vector<uint16_t> outer_tables, inner_tables;
+    std::pmr::vector<uint16_t> internal_tables; // placed as those of Index
+
+    // A sample of each ring, and of the outer tables, which SSSD looks for a way in first. The table of a
+    // patch has rows for the samples of its parent's ring and of its siblings' and its own, in this order.
+    Rings coarse_rings;
+    // Per place of coarse_rings: the own place of the same vertex in `rings`, counted over all, and which of
+    // the ring's samples it is.
+    std::pmr::vector<uint32_t> coarse_places, coarse_samples;
+    std::pmr::vector<uint32_t> sample_count; // per patch
+    std::pmr::vector<uint32_t> coarse_rows; // per patch: its samples' first row in the tables of its siblings
+    std::pmr::vector<uint64_t> coarse_begin; // per patch
+    std::pmr::vector<uint16_t> coarse_tables;
 };
 
 }

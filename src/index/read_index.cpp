@@ -4,9 +4,12 @@
 #include <string>
 
 #include "format/bytes.h"
+#include "src/index/coarse_tables.h"
 #include "src/index/folded_triangle.h"
 #include "src/index/index_file.h"
 #include "src/index/index_sections.h"
+#include "src/index/rings.h"
+#include "src/index/table_rows.h"
 
 namespace geodesic {
 
@@ -245,6 +248,40 @@ uint16_t code_of(float value) {
     return code;
 }
 
+// A code for each pair of positions in the overlay of a patch, whole; `triangle` as the file has it.
+std::vector<uint16_t> overlay_square(std::span<const float> triangle, uint32_t size) {
+    std::vector<uint16_t> square(size_t{size} * size, 0);
+    size_t next = 0;
+    for_each_folded(size, [&](uint32_t i, uint32_t j) {
+        square[size_t{i} * size + j] = square[size_t{j} * size + i] = code_of(triangle[next++]);
+    });
+    return square;
+}
+
+// The file has a triangle for each inner patch.
+void place_overlay_codes(std::span<const float> values, Index& index) {
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) {
+        const size_t size = index.overlay_size(p), border = index.border_size(p);
+        const size_t entries = size ? size * (size - 1) / 2 : 0;
+        const auto square = overlay_square(values.first(entries), index.overlay_size(p));
+        values = values.subspan(entries);
+        for (uint32_t child = index.child_begin[p]; child < index.child_begin[p + 1]; ++child)
+            fill_outer_table(index, child, [&](uint32_t i, uint32_t j) { return square[i * size + j]; });
+        if (p == 0) continue;
+        fill_inner_table(index, p, [&](uint32_t i, uint32_t j) { return square[(border + i) * size + j]; });
+    }
+}
+
+// The file has a row for each border vertex of a leaf.
+void place_crossing_codes(std::span<const float> values, Index& index) {
+    std::vector<uint16_t> codes(values.size());
+    std::ranges::transform(values, codes.begin(), code_of);
+    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf)
+        fill_inner_table(index, leaf, [&](uint32_t i, uint32_t position) {
+            return codes[index.crossing_place(leaf, position, i)];
+        });
+}
+
 void read_overlay_tables(const format::Container& container, Index& index) {
     MatrixReader overlay;
     for (uint32_t p = 0; p < index.first_leaf(); ++p) overlay.add_folded(index.overlay_size(p));
@@ -253,17 +290,12 @@ void read_overlay_tables(const format::Container& container, Index& index) {
     const auto internal_values = internal_reader(index).read(container, TAG_INTERNAL_TABLES);
 
     allocate_tables(index);
-    OverlayTables& tables = index.overlay_tables;
-    size_t next = 0;
-    for (uint32_t p = 0; p < index.first_leaf(); ++p) {
-        for_each_folded(index.overlay_size(p), [&](uint32_t i, uint32_t j) {
-            tables.tables[index.overlay_place(p, i, j)] = tables.tables[index.overlay_place(p, j, i)] =
-                code_of(overlay_values[next++]);
-        });
-    }
-    std::ranges::transform(crossing_values, tables.crossing_tables.begin(), code_of);
+    allocate_overlay_tables(index);
+    place_overlay_codes(overlay_values, index);
+    place_crossing_codes(crossing_values, index);
+    make_coarse_tables(index);
     for_each_internal_pair(index, [&](uint64_t place, size_t k) {
-        tables.internal_tables[place] = code_of(internal_values[k]);
+        index.overlay_tables.internal_tables[place] = code_of(internal_values[k]);
     });
 }
 
@@ -282,25 +314,15 @@ void read_segments(const format::Container& container, Index& index) {
     const size_t count = index.border.size();
     const auto bytes = container.read_bytes(TAG_SEGMENTS, count * (sizeof(uint32_t) + sizeof(float)));
     format::ByteReader reader(bytes, "section SEGM");
-    OverlayTables& tables = index.overlay_tables;
-    tables.next.resize(count);
-    tables.segment_length.resize(count);
-    tables.previous.assign(count, NONE);
-    reader.u32_array(tables.next);
-    reader.f32_array(tables.segment_length);
+    BorderSegments segments(count);
+    reader.u32_array(segments.next);
+    reader.f32_array(segments.length);
     reader.expect_end();
-    for (uint32_t slot = 0; slot < count; ++slot) {
-        if (tables.next[slot] == NONE) continue;
-        const uint32_t patch = index.patch_of_slot[slot], next = tables.next[slot];
-        if (next >= index.border_size(patch) || index.border_begin[patch] + next == slot)
-            corrupt("section SEGM: position " + std::to_string(next) + " on the border of patch " +
-                    std::to_string(patch));
-        uint32_t& previous = tables.previous[index.border_begin[patch] + next];
-        if (previous != NONE) corrupt("section SEGM: two segments end at one vertex");
-        previous = slot - index.border_begin[patch];
-        if (!(tables.segment_length[slot] > 0) || !std::isfinite(tables.segment_length[slot]))
-            corrupt("section SEGM: a segment of length " + std::to_string(tables.segment_length[slot]));
-    }
+    for (size_t slot = 0; slot < count; ++slot)
+        if (segments.next[slot] != NONE &&
+            (!(segments.length[slot] > 0) || !std::isfinite(segments.length[slot])))
+            corrupt("section SEGM: a segment of length " + std::to_string(segments.length[slot]));
+    lay_out_rings(segments, index);
 }
 
 void read_tables(const format::Container& container, Index& index) {
@@ -309,9 +331,9 @@ void read_tables(const format::Container& container, Index& index) {
         if (container.has(tag) != (overlay == (tag != TAG_BORDER_TABLES)))
             corrupt("section " + format::tag_text(tag) + " does not go with the engine");
     if (!overlay) return read_graph_tables(container, index);
-    read_overlay_tables(container, index);
     read_quanta(container, index);
     read_segments(container, index);
+    read_overlay_tables(container, index);
 }
 
 void read_content(const format::Container& container, Index& index) {

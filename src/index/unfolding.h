@@ -2,69 +2,94 @@
 
 #include <algorithm>
 #include <cmath>
-#include <experimental/simd>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 
-#include "src/index/overlay_tables.h"
+#include "src/index/index.h"
 
 namespace geodesic {
 
-// Four floats side by side: one vector register of any processor, so that results are the same on all.
-using FourFloats = std::experimental::simd<float, std::experimental::simd_abi::deduce_t<float, 4>>;
-
-// Something for each of the two border segments on each side of a border vertex, in the order of the border.
-struct BySegment {
-    FourFloats first, second; // of its two ends
+// Floats side by side. Every lane is computed for itself, so that results are the same whatever the width.
+template <size_t BYTES>
+struct FloatVector {
+    using Type [[gnu::vector_size(BYTES)]] = float;
 };
+template <size_t BYTES>
+using Floats = typename FloatVector<BYTES>::Type;
 
-template <class OfVertex>
-BySegment by_segment(const OfVertex& of_vertex) { // of_vertex(0) .. of_vertex(4)
-    return {FourFloats([&](auto k) { return of_vertex(static_cast<int>(k)); }),
-            FourFloats([&](auto k) { return of_vertex(static_cast<int>(k) + 1); })};
+// The functions below are always inlined, so that they are compiled for the processor of their caller, and
+// return nothing: how wide vectors are returned depends on the processor, too.
+
+template <class V>
+[[gnu::always_inline]] inline void take_square_root(V& v) {
+    for (size_t i = 0; i < sizeof v / sizeof(float); ++i) v[i] = std::sqrt(v[i]);
 }
 
-// Four border segments, each in a plane of its own: first end at 0, second at (length, 0), and the source
-// that both are seen from at (x, -y).
-struct UnfoldedSegments {
-    // The distances of the ends from the source; lengths are NaN where there is no segment.
-    UnfoldedSegments(const BySegment& from, const FourFloats& lengths)
-        : length(lengths), half_inverse(0.5f / lengths), x(foot(from)), y(height(from, x)) {}
-    UnfoldedSegments() = default;
+// Border segments. Each lies in a plane of its own, first end at 0, second at (length, 0).
+template <class V>
+struct Segments {
+    V length, half_inverse; // 0.5 / length; NaN: a gap
 
-    // The square of the shortest straight way from the source over a segment to a point beyond, at these
-    // distances from the ends; infinity where there is none.
-    float square_across(const BySegment& to) const {
-        const FourFloats to_x = foot(to), to_y = height(to, to_x);
-        const FourFloats sum = y + to_y, across = x - to_x;
-        const FourFloats crossing = x * to_y + to_x * y; // times the sum; NaN if it does not unfold
-        FourFloats square = std::numeric_limits<float>::infinity();
-        where(crossing > 0 && crossing < length * sum, square) = across * across + sum * sum;
-        return std::experimental::hmin(square);
+    // How far along the segment the foot of a point lies, and how far off it the point, which is at these
+    // distances from the ends; NaN if there is no such point.
+    [[gnu::always_inline]] void place_point(const V& from_first, const V& from_second, V& foot,
+                                            V& height) const {
+        foot = (from_first - from_second) * (from_first + from_second) * half_inverse + 0.5f * length;
+        height = (from_first - foot) * (from_first + foot);
+        take_square_root(height);
     }
-
-private:
-    // How far along the segment the foot of a point lies, and how far off the segment the point.
-    FourFloats foot(const BySegment& to) const {
-        return (to.first - to.second) * (to.first + to.second) * half_inverse + 0.5f * length;
-    }
-    static FourFloats height(const BySegment& to, const FourFloats& foot) {
-        return sqrt((to.first - foot) * (to.first + foot));
-    }
-
-    FourFloats length, half_inverse, x, y;
 };
 
-// The way from a source over a border vertex to a target, straightened over the segments near that vertex
-// where that is shorter. first_slot: where the border's slots begin; from(i) and to(i): distances of position
-// i.
+// Segments, and where a source lies on one side of each.
+template <class V>
+struct SeenSegments {
+    Segments<V> segments;
+    V foot, height;
+
+    // The square of the straight way from the source over the segment to a point on the other side, which is
+    // at these distances from the ends; infinity if there is none.
+    [[gnu::always_inline]] void square_across(const V& from_first, const V& from_second, V& square) const {
+        V to_foot, to_height;
+        segments.place_point(from_first, from_second, to_foot, to_height);
+        const V off = height + to_height, along = foot - to_foot;
+        const V crossing = foot * to_height + to_foot * height; // the place of the crossing, times `off`
+        const V none = V{} + std::numeric_limits<float>::infinity();
+        square = crossing > 0 && crossing < segments.length * off ? along * along + off * off : none;
+    }
+};
+
+// The segments near a border vertex, REACH on each side, in the order of the border.
+using NearFloats = Floats<2 * Rings::REACH * sizeof(float)>;
+
+inline NearFloats near_floats(const float* first) {
+    NearFloats floats;
+    std::memcpy(&floats, first, sizeof floats);
+    return floats;
+}
+
+// The way from a source over a place of a ring, counted over all, to a target, straightened over the segments
+// near that place where that is shorter. from(k) and to(k): distances of place k.
 template <class From, class To>
-float straightened(const OverlayTables& tables, uint32_t first_slot, uint32_t position, const From& from,
-                   const To& to) {
-    const OverlayTables::Neighbourhood near = tables.around(first_slot, position);
-    const UnfoldedSegments segments(by_segment([&](int k) { return from(near.position[k]); }),
-                                    FourFloats(near.length, std::experimental::element_aligned));
-    const float square = segments.square_across(by_segment([&](int k) { return to(near.position[k]); }));
-    return std::min(from(position) + to(position), std::sqrt(square));
+float straightened(const Rings& rings, size_t place, const From& from, const To& to) {
+    const size_t near = place - Rings::REACH;
+    const auto ends = [&](const auto& distance, NearFloats& first, NearFloats& second) {
+        for (size_t k = 0; k < 4; ++k) {
+            first[k] = distance(near + k);
+            second[k] = distance(near + k + 1);
+        }
+    };
+    SeenSegments<NearFloats> seen{
+        {near_floats(rings.segment_length.data() + near), near_floats(rings.half_inverse.data() + near)},
+        {},
+        {}};
+    NearFloats first, second, squares;
+    ends(from, first, second);
+    seen.segments.place_point(first, second, seen.foot, seen.height);
+    ends(to, first, second);
+    seen.square_across(first, second, squares);
+    const float square = std::min(std::min(squares[0], squares[1]), std::min(squares[2], squares[3]));
+    return std::min(from(place) + to(place), std::sqrt(square));
 }
 
 }

@@ -5,6 +5,7 @@
 #include "src/index/folded_triangle.h"
 #include "src/index/index_file.h"
 #include "src/index/index_sections.h"
+#include "src/index/rings.h"
 
 namespace geodesic {
 
@@ -90,7 +91,7 @@ Images border_images(const Index& index) {
     return images;
 }
 
-// value(place): the entry at a place in the tables.
+// value(leaf, i, j): the entry of position i of the border and internal vertex j.
 template <class Value>
 Images crossing_images(const Index& index, const Value& value) {
     Images images;
@@ -99,8 +100,8 @@ Images crossing_images(const Index& index, const Value& value) {
         const uint32_t rows = index.border_size(leaf), cols = index.internal_size(leaf);
         if (!rows || !cols) continue;
         values.clear();
-        for (size_t i = 0; i < size_t{rows} * cols; ++i)
-            values.push_back(value(index.crossing_place(leaf, 0, 0) + i));
+        for (uint32_t i = 0; i < rows; ++i)
+            for (uint32_t j = 0; j < cols; ++j) values.push_back(value(leaf, i, j));
         images.add(values, rows, cols);
     }
     return images;
@@ -130,19 +131,17 @@ std::vector<std::byte> quantum_bytes(const Index& index) {
 
 std::vector<std::byte> segment_bytes(const Index& index) {
     format::ByteWriter writer;
-    writer.u32_array(index.overlay_tables.next);
-    writer.f32_array(index.overlay_tables.segment_length);
+    const BorderSegments segments = segments_of_rings(index);
+    writer.u32_array(segments.next);
+    writer.f32_array(segments.length);
     return writer.take();
 }
 
 Images overlay_images(const Index& index) {
-    const OverlayTables& tables = index.overlay_tables;
     Images images;
-    for (uint32_t p = 0; p < index.first_leaf(); ++p) {
-        add_folded(images, index.overlay_size(p), [&](uint32_t i, uint32_t j) {
-            return code_value(tables.tables[index.overlay_place(p, i, j)]);
-        });
-    }
+    for (uint32_t p = 0; p < index.first_leaf(); ++p)
+        add_folded(images, index.overlay_size(p),
+                   [&](uint32_t i, uint32_t j) { return code_value(index.overlay_code(p, i, j)); });
     return images;
 }
 
@@ -163,8 +162,9 @@ std::vector<std::byte> write_index(const Index& index) {
         writer.add_bytes(TAG_QUANTA, quantum_bytes(index));
         writer.add_bytes(TAG_SEGMENTS, segment_bytes(index));
         add_images(writer, TAG_OVERLAY_TABLES, overlay_images(index));
-        add_images(writer, TAG_CROSSING_TABLES, crossing_images(index, [&](uint64_t place) {
-                       return code_value(index.overlay_tables.crossing_tables[place]);
+        add_images(writer, TAG_CROSSING_TABLES,
+                   crossing_images(index, [&](uint32_t leaf, uint32_t i, uint32_t j) {
+                       return code_value(index.crossing_code(leaf, i, j));
                    }));
         add_images(writer, TAG_INTERNAL_TABLES, internal_images(index, [&](uint64_t place) {
                        return code_value(index.overlay_tables.internal_tables[place]);
@@ -172,7 +172,9 @@ std::vector<std::byte> write_index(const Index& index) {
     } else {
         add_images(writer, TAG_BORDER_TABLES, border_images(index));
         add_images(writer, TAG_CROSSING_TABLES,
-                   crossing_images(index, [&](uint64_t place) { return index.crossing_tables[place]; }));
+                   crossing_images(index, [&](uint32_t leaf, uint32_t i, uint32_t j) {
+                       return index.crossing_tables[index.crossing_place(leaf, i, j)];
+                   }));
         add_images(writer, TAG_INTERNAL_TABLES,
                    internal_images(index, [&](uint64_t place) { return index.internal_tables[place]; }));
     }

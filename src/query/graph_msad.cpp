@@ -28,7 +28,7 @@ void add_row(float d, std::span<const float> row, float* distances) {
 
 // First the overlays above the sources, upwards, so that every border of theirs knows its distance; then all
 // overlays downwards from their outer borders; then the leaves.
-void GraphQuery::msad(std::span<const uint32_t> sources, std::span<float> distance) {
+void GraphQuery::msad(std::span<const uint32_t> sources, float, std::span<float> distance) {
     distance_ = distance;
     std::fill(distance_.begin(), distance_.end(), INFINITE);
     std::fill(has_sources_.begin(), has_sources_.end(), uint8_t{0});
@@ -36,6 +36,12 @@ void GraphQuery::msad(std::span<const uint32_t> sources, std::span<float> distan
     climb();
     descend();
     for (uint32_t leaf = index_.first_leaf(); leaf < index_.patch_count(); ++leaf) fill_leaf(leaf);
+}
+
+void GraphQuery::ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
+    const size_t count = index_.vertex_count();
+    for (size_t i = 0; i < sources.size(); ++i)
+        msad(sources.subspan(i, 1), INFINITE, distances.subspan(i * count, count));
 }
 
 void GraphQuery::start_from(uint32_t source) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "src/index/index.h"
@@ -15,8 +16,17 @@ public:
     // Symmetric bit for bit if low < high.
     float sssd(uint32_t low, uint32_t high);
 
-    // distance[number], of every vertex.
-    void msad(std::span<const uint32_t> sources, std::span<float> distance);
+    // From then on prepared_sssd() is from this source; nothing is gained by that.
+    void prepare(uint32_t source) { prepared_ = source; }
+    float prepared_sssd(uint32_t target) {
+        return sssd(std::min(prepared_, target), std::max(prepared_, target));
+    }
+
+    // distance[number], of every vertex, whatever the radius.
+    void msad(std::span<const uint32_t> sources, float radius, std::span<float> distance);
+
+    // distances[i * vertex_count + number], of each source by itself.
+    void ssad_each(std::span<const uint32_t> sources, std::span<float> distances);
 
 private:
     // msad.cpp
@@ -39,6 +49,7 @@ private:
     void relax_border_vertex(uint32_t node, float distance, uint32_t target);
 
     const Index& index_;
+    uint32_t prepared_ = NONE;
     ArcQueue queue_; // of SSSD
 
     // MSAD: distances by number, the caller's; which inner patches have sources below them.

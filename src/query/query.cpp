@@ -39,21 +39,78 @@ float Query::sssd(uint32_t source_id, uint32_t target_id) {
     return std::visit([&](auto& engine) { return engine.sssd(std::min(a, b), std::max(a, b)); }, engine_);
 }
 
-void Query::msad(std::span<const uint32_t> source_ids, std::span<float> distances) {
-    if (distances.size() != index_.id_count)
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "distance_count is " + std::to_string(distances.size()) +
-                                                       ", but the mesh has " +
-                                                       std::to_string(index_.id_count) + " vertices");
+void Query::prepare(uint32_t source_id) {
+    prepared_ = number_of(source_id);
+    prepared_id_ = source_id;
+    if (prepared_ != NONE) std::visit([&](auto& engine) { engine.prepare(prepared_); }, engine_);
+}
+
+float Query::prepared_sssd(uint32_t target_id) {
+    if (prepared_id_ == NONE) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "no source has been prepared");
+    const uint32_t target = number_of(target_id);
+    if (target_id == prepared_id_) return 0;
+    if (prepared_ == NONE || target == NONE) return INFINITE;
+    if (prepared_ == target) return 0;
+    return std::visit([&](auto& engine) { return engine.prepared_sssd(target); }, engine_);
+}
+
+void Query::check_count(std::span<const float> distances, uint64_t fields) const {
+    if (distances.size() != fields * index_.id_count)
+        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
+                    "distance_count is " + std::to_string(distances.size()) + ", but the mesh has " +
+                        std::to_string(index_.id_count) + " vertices" +
+                        (fields == 1 ? "" : " and there are " + std::to_string(fields) + " sources"));
+    if (fields == 0) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "there is no source");
+}
+
+void Query::write_by_id(std::span<const float> by_number, std::span<float> distances) const {
+    for (size_t id = 0; id < distances.size(); ++id) {
+        const uint32_t number = index_.number_of_id[id];
+        distances[id] = number == NONE ? INFINITE : by_number[number];
+    }
+}
+
+void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<float> distances) {
+    check_count(distances, 1);
     if (source_ids.empty()) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "there is no source");
+    if (!(radius >= 0)) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "the radius is negative or NaN");
     sources_.clear();
     for (uint32_t id : source_ids)
         if (const uint32_t source = number_of(id); source != NONE) sources_.push_back(source);
-    std::visit([&](auto& engine) { engine.msad(sources_, distance_); }, engine_);
-    for (size_t id = 0; id < distances.size(); ++id) {
-        const uint32_t number = index_.number_of_id[id];
-        distances[id] = number == NONE ? INFINITE : distance_[number];
-    }
+    const auto by_number = std::span(distance_).first(index_.vertex_count());
+    std::visit([&](auto& engine) { engine.msad(sources_, radius, by_number); }, engine_);
+    write_by_id(by_number, distances);
+    if (radius < INFINITE)
+        for (float& d : distances)
+            if (d > radius) d = INFINITE;
     for (uint32_t id : source_ids) distances[id] = 0; // also a source that no triangle uses
+}
+
+void Query::ssad_each(std::span<const uint32_t> source_ids, std::span<float> distances) {
+    check_count(distances, source_ids.size());
+    constexpr size_t AT_ONCE = 16;
+    const size_t count = index_.vertex_count(), id_count = index_.id_count;
+    distance_.resize(std::max(distance_.size(), std::min(AT_ONCE, source_ids.size()) * count));
+    for (size_t done = 0; done < source_ids.size(); done += AT_ONCE) {
+        const auto ids = source_ids.subspan(done, std::min(AT_ONCE, source_ids.size() - done));
+        sources_.clear();
+        for (uint32_t id : ids)
+            if (const uint32_t source = number_of(id); source != NONE) sources_.push_back(source);
+        std::visit(
+            [&](auto& engine) {
+                engine.ssad_each(sources_, std::span(distance_).first(sources_.size() * count));
+            },
+            engine_);
+        size_t field = 0;
+        for (size_t i = 0; i < ids.size(); ++i) {
+            const auto out = distances.subspan((done + i) * id_count, id_count);
+            if (number_of(ids[i]) == NONE)
+                std::ranges::fill(out, INFINITE);
+            else
+                write_by_id(std::span(distance_).subspan(field++ * count, count), out);
+            out[ids[i]] = 0;
+        }
+    }
 }
 
 }

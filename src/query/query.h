@@ -17,16 +17,26 @@ public:
     // Single source, single destination: symmetric bit for bit.
     float sssd(uint32_t source_id, uint32_t target_id);
 
-    // Multiple sources, all destinations: distances[id] to the nearest source.
-    void msad(std::span<const uint32_t> source_ids, std::span<float> distances);
+    // From then on prepared_sssd() is from this source, until the next call.
+    void prepare(uint32_t source_id);
+    float prepared_sssd(uint32_t target_id);
+
+    // Multiple sources, all destinations: distances[id] to the nearest source, infinite beyond the radius.
+    void msad(std::span<const uint32_t> source_ids, float radius, std::span<float> distances);
+
+    // Of each source by itself: distances[i * id_count + id].
+    void ssad_each(std::span<const uint32_t> source_ids, std::span<float> distances);
 
 private:
     uint32_t number_of(uint32_t id) const;
+    void check_count(std::span<const float> distances, uint64_t fields) const;
+    void write_by_id(std::span<const float> by_number, std::span<float> distances) const;
 
     const Index& index_;
     std::variant<GraphQuery, OverlayQuery> engine_;
+    uint32_t prepared_id_ = NONE, prepared_ = NONE;
     Array<uint32_t> sources_; // of MSAD, by number
-    Array<float> distance_;   // by number
+    Array<float> distance_;   // by number, of several fields
 };
 
 }

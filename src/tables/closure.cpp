@@ -36,6 +36,12 @@ struct LeastSums {
     }
 };
 
+// Counted over all rings.
+size_t own_place(const Index& index, uint32_t patch, uint32_t position) {
+    return size_t{index.overlay_tables.rings.begin[patch]} +
+           index.overlay_tables.place_of_slot[index.border_begin[patch] + position];
+}
+
 // The distances in a patch's overlay from one of its vertices, over the tables of the children.
 class RowFromBelow {
 public:
@@ -84,13 +90,15 @@ private:
             changed_[first + i - first_slot_] = 0;
         }
         nearest_changed_[child - index_.child_begin[patch_]] = INFINITE;
+        const Rings& rings = index_.overlay_tables.rings;
         least_.begin(size);
         for (uint32_t i : rows_) least_.add(i, from_[i], table + i * stride);
         for (uint32_t j = 0; j < size; ++j) {
             if (least_.best[j] == INFINITE) continue;
             const float d = straightened(
-                index_.overlay_tables, first, least_.winner[j], [&](uint32_t i) { return from_[i]; },
-                [&](uint32_t i) { return table[i * stride + j]; });
+                rings, own_place(index_, child, least_.winner[j]),
+                [&](size_t k) { return from_[rings.position[k]]; },
+                [&](size_t k) { return table[rings.position[k] * stride + j]; });
             if (!is_lower(d, row_[position[j]], PROGRESS)) continue;
             row_[position[j]] = d;
             mark(position[j], child);
@@ -119,8 +127,8 @@ class RowFromAbove {
 public:
     RowFromAbove(uint32_t patch, const Index& index, const DistanceTables& tables,
                  std::span<const float> outside)
-        : index_(index), first_slot_(index.border_begin[patch]), border_(index.border_size(patch)),
-          size_(index.overlay_size(patch)), table_(tables.overlay[patch]), outside_(outside) {}
+        : index_(index), patch_(patch), border_(index.border_size(patch)), size_(index.overlay_size(patch)),
+          table_(tables.overlay[patch]), outside_(outside) {}
 
     void fill(size_t row, std::span<float> out) {
         const std::span<const float> old = table_.subspan(row * size_, size_);
@@ -137,19 +145,21 @@ private:
                std::span<float> out) {
         least_.begin(out.size());
         for (uint32_t i = 0; i < border_; ++i) least_.add(i, from[i], table.data() + i * stride);
+        const Rings& rings = index_.overlay_tables.rings;
         bool any = false;
         for (size_t x = 0; x < out.size(); ++x) {
             if (!is_lower(least_.best[x], out[x], WORTH_STRAIGHTENING)) continue;
             out[x] = straightened(
-                index_.overlay_tables, first_slot_, least_.winner[x], [&](uint32_t i) { return from[i]; },
-                [&](uint32_t i) { return table[i * stride + x]; });
+                rings, own_place(index_, patch_, least_.winner[x]),
+                [&](size_t k) { return from[rings.position[k]]; },
+                [&](size_t k) { return table[rings.position[k] * stride + x]; });
             any = true;
         }
         return any;
     }
 
     const Index& index_;
-    const uint32_t first_slot_;
+    const uint32_t patch_;
     const size_t border_, size_;
     std::span<const float> table_, outside_;
     std::vector<float> from_;

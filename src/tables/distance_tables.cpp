@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "src/index/table_rows.h"
+
 namespace geodesic {
 
 namespace {
@@ -23,8 +25,26 @@ uint16_t code_of(float distance, float quantum) {
     return static_cast<uint16_t>(std::min(code, double{OverlayTables::LARGEST}));
 }
 
-void encode(std::span<const float> distances, float quantum, uint16_t* codes) {
-    for (float distance : distances) *codes++ = code_of(distance, quantum);
+void encode_outer(const DistanceTables& tables, uint32_t patch, Index& index) {
+    const uint32_t parent = index.parent[patch];
+    const size_t size = index.overlay_size(parent);
+    const float quantum = index.overlay_tables.quantum[parent];
+    fill_outer_table(index, patch, [&](uint32_t i, uint32_t j) {
+        return code_of(tables.overlay[parent][i * size + j], quantum);
+    });
+}
+
+void encode_inner(const DistanceTables& tables, uint32_t patch, Index& index) {
+    const size_t border = index.border_size(patch);
+    const float quantum = index.overlay_tables.quantum[patch];
+    if (patch >= index.first_leaf())
+        return fill_inner_table(index, patch, [&](uint32_t i, uint32_t position) {
+            return code_of(tables.crossing[index.crossing_place(patch, position, i)], quantum);
+        });
+    const size_t size = index.overlay_size(patch);
+    fill_inner_table(index, patch, [&](uint32_t i, uint32_t position) {
+        return code_of(tables.overlay[patch][(border + i) * size + position], quantum);
+    });
 }
 
 }
@@ -38,15 +58,8 @@ DistanceTables::DistanceTables(const Index& index)
 
 void quantize(const DistanceTables& tables, Index& index) {
     OverlayTables& codes = index.overlay_tables;
-    codes.quantum.assign(index.patch_count(), 0);
-    for (uint32_t p = 0; p < index.first_leaf(); ++p) {
-        codes.quantum[p] = longest(tables.overlay[p]) / OverlayTables::LARGEST;
-        const uint32_t size = index.overlay_size(p);
-        for (uint32_t i = 0; i < size; ++i)
-            for (uint32_t j = 0; j < size; ++j)
-                codes.tables[index.overlay_place(p, i, j)] =
-                    code_of(tables.overlay[p][size_t{i} * size + j], codes.quantum[p]);
-    }
+    codes.quantum.clear();
+    for (const auto& table : tables.overlay) codes.quantum.push_back(longest(table) / OverlayTables::LARGEST);
     for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf) {
         const auto of_leaf = [&](const std::vector<float>& all, const Array<uint64_t>& begin) {
             const uint64_t first = begin[leaf - index.first_leaf()];
@@ -55,10 +68,13 @@ void quantize(const DistanceTables& tables, Index& index) {
         const auto crossing = of_leaf(tables.crossing, index.crossing_table_begin);
         const auto internal = of_leaf(tables.internal, index.internal_table_begin);
         const float quantum = std::max(longest(crossing), longest(internal)) / OverlayTables::LARGEST;
-        codes.quantum[leaf] = quantum;
-        encode(crossing, quantum, codes.crossing_tables.data() + index.crossing_place(leaf, 0, 0));
-        encode(internal, quantum,
-               codes.internal_tables.data() + index.internal_table_begin[leaf - index.first_leaf()]);
+        codes.quantum.push_back(quantum);
+        uint16_t* out = codes.internal_tables.data() + index.internal_table_begin[leaf - index.first_leaf()];
+        for (float distance : internal) *out++ = code_of(distance, quantum);
+    }
+    for (uint32_t p = 1; p < index.patch_count(); ++p) {
+        encode_outer(tables, p, index);
+        encode_inner(tables, p, index);
     }
 }
 

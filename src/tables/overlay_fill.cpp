@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src/index/coarse_tables.h"
 #include "src/tables/closure.h"
 #include "src/tables/distance_tables.h"
 #include "src/tables/measuring.h"
@@ -89,12 +90,16 @@ void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> vertex_of_n
     workers.run(index.vertex_count(), [&](FieldSolver& solver, size_t number) {
         filler.fill(solver, static_cast<uint32_t>(number));
     });
-    find_segments(mesh, vertex_of_number, options.unfold, tables, index);
+    lay_out_rings(options.unfold ? find_segments(mesh, vertex_of_number, tables, index)
+                                 : BorderSegments(index.border.size()),
+                  index);
+    allocate_overlay_tables(index);
     for (uint32_t p = index.first_leaf(); p-- > 0;)
         if (!exact[p]) close_from_below(p, index, workers, tables);
     for (uint32_t p = 1; p < index.first_leaf(); ++p)
         if (!exact[p]) close_from_above(p, index, workers, tables);
     quantize(tables, index);
+    make_coarse_tables(index);
 }
 
 }

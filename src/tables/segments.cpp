@@ -9,8 +9,9 @@ namespace {
 class SegmentFinder {
 public:
     SegmentFinder(const Mesh& mesh, std::span<const uint32_t> vertex_of_number, const DistanceTables& tables,
-                  Index& index)
-        : neighbours_(edges_among_borders(mesh, vertex_of_number, index)), tables_(tables), index_(index) {}
+                  const Index& index, BorderSegments& segments)
+        : neighbours_(edges_among_borders(mesh, vertex_of_number, index)), tables_(tables), index_(index),
+          segments_(segments) {}
 
     // Rings follow each other in a border; the last vertex of each may be joined to its first.
     void find(uint32_t patch) {
@@ -46,9 +47,8 @@ private:
         if (std::ranges::find(neighbours, index_.border[first + j]) == neighbours.end()) return false;
         const float length = length_of(index_.border[first + i], index_.border[first + j]);
         if (!(length > 0)) return false;
-        index_.overlay_tables.next[first + i] = j;
-        index_.overlay_tables.previous[first + j] = i;
-        index_.overlay_tables.segment_length[first + i] = length;
+        segments_.next[first + i] = j;
+        segments_.length[first + i] = length;
         return true;
     }
 
@@ -67,19 +67,18 @@ private:
 
     ListOfLists<uint32_t> neighbours_; // of border vertices: border vertices at the other ends of edges
     const DistanceTables& tables_;
-    Index& index_;
+    const Index& index_;
+    BorderSegments& segments_;
 };
 
 }
 
-void find_segments(const Mesh& mesh, std::span<const uint32_t> vertex_of_number, bool unfold,
-                   const DistanceTables& tables, Index& index) {
-    index.overlay_tables.next.assign(index.border.size(), NONE);
-    index.overlay_tables.previous.assign(index.border.size(), NONE);
-    index.overlay_tables.segment_length.assign(index.border.size(), 0);
-    if (!unfold) return;
-    SegmentFinder finder(mesh, vertex_of_number, tables, index);
+BorderSegments find_segments(const Mesh& mesh, std::span<const uint32_t> vertex_of_number,
+                             const DistanceTables& tables, const Index& index) {
+    BorderSegments segments(index.border.size());
+    SegmentFinder finder(mesh, vertex_of_number, tables, index, segments);
     for (uint32_t p = 1; p < index.patch_count(); ++p) finder.find(p);
+    return segments;
 }
 
 }

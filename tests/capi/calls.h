@@ -75,6 +75,12 @@ inline geoidx_status open_status(std::span<const std::byte> bytes) {
     return status;
 }
 
+inline QueryHandle query_of(const geoidx* index) {
+    geoidx_query* query = nullptr;
+    require_success(geoidx_query_create(index, &query));
+    return QueryHandle(query);
+}
+
 inline float sssd(const geoidx* index, uint32_t source, uint32_t target) {
     float distance = -1;
     require_success(geoidx_sssd(index, source, target, &distance));

@@ -40,6 +40,15 @@ static void (*const query_close)(geoidx_query*) = geoidx_query_close;
 static geoidx_status (*const query_sssd)(geoidx_query*, uint32_t, uint32_t, float*) = geoidx_query_sssd;
 static geoidx_status (*const query_msad)(geoidx_query*, const uint32_t*, uint32_t, float*,
                                          uint32_t) = geoidx_query_msad;
+static geoidx_status (*const query_msad_within)(geoidx_query*, const uint32_t*, uint32_t, float, float*,
+                                                uint32_t) = geoidx_query_msad_within;
+static geoidx_status (*const query_ssad_batch)(geoidx_query*, const uint32_t*, uint32_t, float*,
+                                               uint64_t) = geoidx_query_ssad_batch;
+static geoidx_status (*const ssad_batch)(const geoidx*, const uint32_t*, uint32_t, float*,
+                                         uint64_t) = geoidx_ssad_batch;
+static geoidx_status (*const query_prepare)(geoidx_query*, uint32_t) = geoidx_query_prepare;
+static geoidx_status (*const query_prepared)(geoidx_query*, const uint32_t*, uint64_t,
+                                             float*) = geoidx_query_prepared;
 static geoidx_status (*const solver_create)(const geoidx_mesh*, const geoidx_build_options*,
                                             geoidx_solver**) = geoidx_solver_create;
 static void (*const solver_close)(geoidx_solver*) = geoidx_solver_close;
@@ -98,6 +107,13 @@ static int check_queries(const geoidx* index) {
     EXPECT(query_create(index, &query) == GEOIDX_OK);
     EXPECT(query_sssd(query, 0, COUNT - 1, &one) == GEOIDX_OK && one == batch[0]);
     EXPECT(query_msad(query, sources, 2, same, COUNT) == GEOIDX_OK && memcmp(all, same, sizeof all) == 0);
+    EXPECT(query_msad_within(query, sources, 2, 1e30f, same, COUNT) == GEOIDX_OK &&
+           memcmp(all, same, sizeof all) == 0);
+    EXPECT(ssad_batch(index, sources, 1, all, COUNT) == GEOIDX_OK);
+    EXPECT(query_ssad_batch(query, sources, 1, same, COUNT) == GEOIDX_OK &&
+           memcmp(all, same, sizeof all) == 0);
+    EXPECT(query_prepare(query, 0) == GEOIDX_OK);
+    EXPECT(query_prepared(query, sources, 2, same) == GEOIDX_OK);
     query_close(query);
     return 0;
 }

@@ -17,15 +17,22 @@ struct Expected {
     std::vector<uint32_t> pairs;
     std::vector<float> of_pairs;
     std::vector<std::vector<float>> of_sources; // [i]: MSAD of pairs[2 i] and pairs[2 i + 1]
+    std::vector<std::vector<float>> of_first;   // [i]: of pairs[2 i] alone
+    std::vector<float> prepared;                // of_pairs, from prepared sources
 };
 
 Expected single_threaded(const geoidx* index, uint32_t count) {
     Expected expected;
+    const QueryHandle query = query_of(index);
     for (uint32_t i = 0; i < ROUNDS; ++i) {
         const uint32_t a = i * 67 % count, b = (i * 151 + 40) % count;
         expected.pairs.insert(expected.pairs.end(), {a, b});
         expected.of_pairs.push_back(sssd(index, a, b));
         expected.of_sources.push_back(msad(index, std::vector<uint32_t>{a, b}, count));
+        expected.of_first.push_back(msad(index, a, count));
+        expected.prepared.emplace_back();
+        require_success(geoidx_query_prepare(query.get(), a));
+        require_success(geoidx_query_prepared(query.get(), &b, 1, &expected.prepared.back()));
     }
     return expected;
 }
@@ -48,6 +55,11 @@ uint64_t differences(const geoidx* index, uint32_t thread, uint32_t count, const
         wrong += distances != expected.of_sources[i];
         wrong += geoidx_query_msad(query, pair, 2, distances.data(), count) != GEOIDX_OK;
         wrong += distances != expected.of_sources[i];
+        wrong += geoidx_query_ssad_batch(query, pair, 1, distances.data(), count) != GEOIDX_OK;
+        wrong += distances != expected.of_first[i];
+        wrong += geoidx_query_prepare(query, pair[0]) != GEOIDX_OK;
+        wrong += geoidx_query_prepared(query, &pair[1], 1, &distance) != GEOIDX_OK;
+        wrong += distance != expected.prepared[i];
         wrong += geoidx_sssd_batch(index, expected.pairs.data(), ROUNDS, batch.data()) != GEOIDX_OK;
         wrong += batch != expected.of_pairs;
         wrong += geoidx_sssd(index, count + thread, 0, &distance) != GEOIDX_ERROR_INVALID_ARGUMENT;
@@ -62,11 +74,16 @@ uint64_t differences(const geoidx* index, uint32_t thread, uint32_t count, const
 
 }
 
-TEST_CASE("eight threads on one index get the answers of one thread") {
+namespace {
+
+void check_eight_threads(uint32_t engine) {
     const TestMesh mesh = hills(20, 18);
     const uint32_t count = mesh.vertex_count();
     CountingAllocator allocator;
     auto options = build_options(GEOIDX_METRIC_EDGES, 3);
+    options.engine = engine;
+    options.exact_vertices = 30;
+    options.threads = 3;
     options.allocator = allocator.get();
     auto index = build(mesh, options);
     const Expected expected = single_threaded(index.get(), count);
@@ -84,6 +101,12 @@ TEST_CASE("eight threads on one index get the answers of one thread") {
     index.reset();
     CHECK(allocator.blocks() == 0);
     CHECK(allocator.mistakes() == 0);
+}
+
+}
+
+TEST_CASE("eight threads on one index get the answers of one thread") {
+    for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) check_eight_threads(engine);
 }
 
 TEST_CASE("saving, opening and querying at once") {

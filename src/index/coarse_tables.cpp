@@ -1,0 +1,108 @@
+#include "src/index/coarse_tables.h"
+
+#include <algorithm>
+
+#include "src/index/rings.h"
+
+namespace geodesic {
+
+namespace {
+
+// What a ring is sampled by: every vertex of a small one, at least so many of another, but at least every so
+// manieth vertex.
+constexpr uint32_t SMALL = 64, FEWEST = 32, LARGEST_STEP = 5;
+
+// About every `step`-th vertex, evenly, and the ends of an open chain.
+std::vector<uint32_t> sample(const Chain& chain, uint32_t step) {
+    const auto count = static_cast<uint32_t>(chain.positions.size());
+    if (step == 1 || count <= 3) return chain.positions;
+    const uint32_t intervals = chain.is_closed ? count : count - 1;
+    const uint32_t pieces = std::max(3u, intervals / step);
+    std::vector<uint32_t> samples;
+    for (uint32_t i = 0; i < pieces + !chain.is_closed; ++i)
+        samples.push_back(chain.positions[uint64_t{i} * intervals / pieces]);
+    return samples;
+}
+
+float distance_between(const Index& index, uint32_t patch, uint32_t a, uint32_t b) {
+    const uint32_t parent = index.parent[patch];
+    const uint32_t* overlay_position = index.overlay_position.data() + index.border_begin[patch];
+    return static_cast<float>(index.overlay_code(parent, overlay_position[a], overlay_position[b])) *
+           index.overlay_tables.quantum[parent];
+}
+
+void sample_ring(Index& index, uint32_t patch, RingWriter& writer) {
+    const uint32_t size = index.border_size(patch);
+    const uint32_t step = size <= SMALL ? 1 : std::clamp(size / FEWEST, 1u, LARGEST_STEP);
+    for (const Chain& chain : chains_of_ring(index.overlay_tables.rings, patch)) {
+        Chain coarse{sample(chain, step), {}, chain.is_closed};
+        const size_t count = coarse.positions.size();
+        for (size_t i = 0; i < count; ++i)
+            coarse.lengths.push_back(
+                distance_between(index, patch, coarse.positions[i], coarse.positions[(i + 1) % count]));
+        writer.add_chain(coarse, index.border_of(patch));
+    }
+    writer.end_ring();
+}
+
+void place_samples(Index& index, uint32_t patch) {
+    OverlayTables& tables = index.overlay_tables;
+    const Rings& rings = tables.coarse_rings;
+    std::vector<uint32_t> sample(index.border_size(patch), 0); // per position
+    uint32_t count = 0;
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
+        if (rings.is_own[k]) sample[rings.position[k]] = count++;
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
+        tables.coarse_places.push_back(tables.rings.begin[patch] +
+                                       tables.place_of_slot[index.border_begin[patch] + rings.position[k]]);
+        tables.coarse_samples.push_back(sample[rings.position[k]]);
+    }
+    tables.sample_count.push_back(count);
+}
+
+// The overlay positions, in a patch, of the samples of its child's ring, or of its own.
+void add_samples(const Index& index, uint32_t ring_of, bool of_child, std::vector<uint32_t>& positions) {
+    const Rings& rings = index.overlay_tables.coarse_rings;
+    for (uint32_t k = rings.begin[ring_of]; k < rings.begin[ring_of + 1]; ++k)
+        if (rings.is_own[k])
+            positions.push_back(of_child
+                                    ? index.overlay_position[index.border_begin[ring_of] + rings.position[k]]
+                                    : rings.position[k]);
+}
+
+void sample_tables(Index& index, uint32_t patch) {
+    OverlayTables& tables = index.overlay_tables;
+    std::vector<uint32_t> rows;
+    add_samples(index, patch, false, rows);
+    for (uint32_t child = index.child_begin[patch]; child < index.child_begin[patch + 1]; ++child) {
+        tables.coarse_rows[child] = static_cast<uint32_t>(rows.size());
+        add_samples(index, child, true, rows);
+    }
+    for (uint32_t child = index.child_begin[patch]; child < index.child_begin[patch + 1]; ++child) {
+        tables.coarse_begin[child] = tables.coarse_tables.size();
+        const uint32_t* place = tables.coarse_places.data() + tables.coarse_rings.begin[child];
+        const uint32_t first_place = tables.rings.begin[child];
+        const uint32_t places = tables.coarse_rings.size(child);
+        for (uint32_t row : rows)
+            for (uint32_t k = 0; k < places; ++k)
+                tables.coarse_tables.push_back(
+                    tables.outer_tables[index.outer_row(child, row) + place[k] - first_place]);
+    }
+}
+
+}
+
+void make_coarse_tables(Index& index) {
+    OverlayTables& tables = index.overlay_tables;
+    RingWriter writer(tables.coarse_rings);
+    writer.begin();
+    for (uint32_t p = 0; p < index.patch_count(); ++p) sample_ring(index, p, writer);
+    for (uint32_t p = 0; p < index.patch_count(); ++p) place_samples(index, p);
+    writer.end();
+    tables.coarse_rows.assign(index.patch_count(), 0);
+    tables.coarse_begin.assign(index.patch_count(), 0);
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) sample_tables(index, p);
+    tables.coarse_tables.resize(tables.coarse_tables.size() + OverlayTables::PADDING);
+}
+
+}

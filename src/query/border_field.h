@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory_resource>
+#include <span>
+
+#include "src/index/index.h"
+#include "src/query/crossing.h"
+
+namespace geodesic {
+
+// The distances of a source from the border of one patch after the other, ready for crossing it.
+class BorderField {
+public:
+    BorderField(const Index& index, std::pmr::memory_resource* memory);
+
+    // Begins with `count` places from `first` on, counted over all rings: their distances are to be written
+    // to the result. `quantum` is that of the rows to be added.
+    std::span<float> begin(const Rings& rings, size_t first, size_t count, float quantum) {
+        border_ = {count,
+                   code_.data(),
+                   distance_.data(),
+                   rings.segment_length.data() + first,
+                   rings.half_inverse.data() + first,
+                   foot_.data(),
+                   height_.data(),
+                   quantum};
+        is_own_ = rings.is_own.data() + first;
+        return std::span(distance_).first(count);
+    }
+
+    // Returns whether the source reaches any.
+    bool finish();
+
+    // As CrossFunction, if finish() returned true.
+    void cross(Rows rows, float* distances, uint16_t* winners) const {
+        crossing_kernels().back().cross(border_, rows, distances, winners);
+    }
+
+    float nearest() const { return nearest_; }
+
+private:
+    void encode();
+    void unfold();
+
+    SeenBorder border_{};
+    const int32_t* is_own_ = nullptr;
+    float nearest_ = 0;
+    Array<float> distance_;
+    Array<int16_t> code_;
+    Array<float> foot_, height_;
+};
+
+}

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace geodesic {
+
+// The border of a patch as seen from a source, by the places of its ring: what a kernel reads.
+struct SeenBorder {
+    // Codes count from the nearest place's, which has the smallest number, so that sums with table entries
+    // fit; a place that is not reached has NOT_SEEN, and so have those behind the last up to whole blocks.
+    static constexpr int16_t NEAREST = std::numeric_limits<int16_t>::min(), NOT_SEEN = 0;
+    static constexpr size_t BLOCK = 32;
+    static constexpr uint16_t NO_PLACE = 0xffff; // a winner where there is no way
+
+    size_t places;
+    const int16_t* code;
+    const float* distance;
+    const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
+    const float *foot, *height;         // of the source, seen from the segment
+    float quantum;                      // of the rows
+};
+
+// Rows of a table, each one code a place.
+using Rows = std::span<const uint16_t* const>;
+
+// distances[r]: the least way over a place and row r, straightened over the segments near the place where
+// that is shorter, or infinity; winners[r], if not NULL: that place, or NO_PLACE.
+using CrossFunction = void (*)(const SeenBorder& border, Rows rows, float* distances, uint16_t* winners);
+
+// For one kind of processor.
+struct CrossingKernel {
+    const char* name;
+    CrossFunction cross;
+};
+
+// Those that this processor can run, the fastest last. All give the same bits.
+std::span<const CrossingKernel> crossing_kernels();
+
+}

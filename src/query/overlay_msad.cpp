@@ -1,0 +1,131 @@
+#include "src/query/overlay_msad.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace geodesic {
+
+namespace {
+
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
+
+void lower(float& distance, float candidate) { distance = std::min(distance, candidate); }
+
+// The child of a patch that has `inside` in it; NONE from there on.
+uint32_t next_inwards(const Index& index, uint32_t patch, uint32_t inside) {
+    if (inside == patch) return NONE;
+    while (index.parent[inside] != patch) inside = index.parent[inside];
+    return inside;
+}
+
+uint32_t most_rows(const Index& index) {
+    uint32_t most = 0;
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) most = std::max(most, index.overlay_size(p));
+    for (uint32_t p = 0; p < index.patch_count(); ++p) most = std::max(most, index.inner_size(p));
+    return most;
+}
+
+}
+
+OverlayMsad::OverlayMsad(const Index& index, std::pmr::memory_resource* memory)
+    : index_(index), tables_(index.overlay_tables), field_(index, memory), rows_(memory),
+      out_(most_rows(index), memory), sources_below_(index.patch_count(), memory), next_around_(memory) {
+    rows_.reserve(out_.size());
+}
+
+void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
+    climb(sources, distance);
+    // A patch that all sources lie in has its distances already.
+    for (uint32_t p = 1; p < index_.patch_count(); ++p)
+        if (sources_below_[p] < sources.size()) descend(p, radius, distance);
+}
+
+void OverlayMsad::sweep_each(std::span<const uint32_t> sources, std::span<float> distances) {
+    const size_t count = index_.vertex_count();
+    for (size_t i = 0; i < sources.size(); ++i)
+        climb(sources.subspan(i, 1), distances.subspan(i * count, count));
+    // Patches that a source lies in have its distances already: they are met from the whole mesh inwards.
+    next_around_.assign(sources.size(), 0);
+    for (uint32_t p = 0; p < index_.patch_count(); ++p)
+        for (size_t i = 0; i < sources.size(); ++i) {
+            if (p == next_around_[i])
+                next_around_[i] = next_inwards(index_, p, index_.entry(sources[i]));
+            else
+                descend(p, INFINITE, distances.subspan(i * count, count));
+        }
+}
+
+void OverlayMsad::sweep_up(uint32_t source, std::span<float> distance) { climb({&source, 1}, distance); }
+
+void OverlayMsad::climb(std::span<const uint32_t> sources, std::span<float> distance) {
+    std::ranges::fill(distance, INFINITE);
+    std::ranges::fill(sources_below_, 0u);
+    for (uint32_t source : sources) start_from(source, distance);
+    for (uint32_t p = index_.patch_count() - 1; p > 0; --p)
+        if (sources_below_[p]) {
+            ascend(p, distance);
+            sources_below_[index_.parent[p]] += sources_below_[p];
+        }
+}
+
+// To everything inside of the patch that the source lies in, and to its border.
+void OverlayMsad::start_from(uint32_t source, std::span<float> distance) {
+    const uint32_t patch = index_.entry(source), first = index_.first_inner(patch), own = source - first;
+    const auto border = index_.border_of(patch);
+    lower(distance[source], 0);
+    if (index_.is_border(source)) {
+        const auto position = static_cast<uint32_t>(border.size()) + own;
+        for (uint32_t i = 0; i < index_.overlay_size(patch); ++i)
+            lower(distance[index_.overlay_number(patch, i)],
+                  tables_.distance(index_.overlay_code(patch, i, position), patch));
+    } else {
+        for (uint32_t i = 0; i < border.size(); ++i)
+            lower(distance[border[i]], tables_.distance(index_.crossing_code(patch, i, own), patch));
+        for (uint32_t i = 0; i < index_.internal_size(patch); ++i)
+            if (i != own)
+                lower(distance[first + i],
+                      tables_.distance(tables_.internal_tables[index_.internal_place(patch, own, i)], patch));
+    }
+    ++sources_below_[patch];
+}
+
+// To the overlay of the parent. The child's border keeps its own distances.
+void OverlayMsad::ascend(uint32_t child, std::span<float> distance) {
+    const uint32_t parent = index_.parent[child];
+    const auto out =
+        hop(child, tables_.quantum[parent], tables_.outer_tables.data() + index_.outer_row(child, 0),
+            index_.overlay_size(parent), distance, INFINITE);
+    for (uint32_t slot = index_.border_begin[child]; slot < index_.border_begin[child + 1]; ++slot)
+        out_[index_.overlay_position[slot]] = INFINITE;
+    for (uint32_t i = 0; i < out.size(); ++i) lower(distance[index_.overlay_number(parent, i)], out[i]);
+}
+
+// To what lies inside.
+void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distance) {
+    const auto out =
+        hop(patch, tables_.quantum[patch], tables_.inner_tables.data() + index_.inner_row(patch, 0),
+            index_.inner_size(patch), distance, radius);
+    float* inner = distance.data() + index_.first_inner(patch);
+    for (size_t i = 0; i < out.size(); ++i) lower(inner[i], out[i]);
+}
+
+// From the border of a patch over rows of its tables, unless all of it is beyond the radius.
+std::span<const float> OverlayMsad::hop(uint32_t patch, float quantum, const uint16_t* first_row,
+                                        size_t count, std::span<const float> distance, float radius) {
+    const auto out = std::span(out_).first(count);
+    const Rings& rings = tables_.rings;
+    const uint32_t places = rings.size(patch);
+    if (count == 0) return out;
+    const uint32_t* vertex = rings.vertex.data() + rings.begin[patch];
+    for (float& d : field_.begin(rings, rings.begin[patch], places, quantum)) d = distance[*vertex++];
+    if (!field_.finish() || field_.nearest() > radius) {
+        std::ranges::fill(out, INFINITE);
+        return out;
+    }
+    rows_.resize(count);
+    for (size_t i = 0; i < count; ++i) rows_[i] = first_row + i * places;
+    field_.cross(rows_, out.data(), nullptr);
+    return out;
+}
+
+}

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+
+#include "src/index/index.h"
+#include "src/query/border_field.h"
+
+namespace geodesic {
+
+// Multiple sources, all destinations on overlay tables: one sweep up from the leaves of the sources, one down
+// to all leaves. Vertices are given by their numbers.
+class OverlayMsad {
+public:
+    OverlayMsad(const Index& index, std::pmr::memory_resource* memory);
+
+    // distance[number], of every vertex; patches beyond `radius` are left out, and their vertices at
+    // infinity.
+    void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance);
+
+    // The distances of each source by itself, of all vertices: distances[i * vertex_count + number]. Each
+    // table is read once.
+    void sweep_each(std::span<const uint32_t> sources, std::span<float> distances);
+
+    // The first half: distances to the overlays of all patches that the source lies in; infinity elsewhere.
+    void sweep_up(uint32_t source, std::span<float> distance);
+
+private:
+    void climb(std::span<const uint32_t> sources, std::span<float> distance);
+    void start_from(uint32_t source, std::span<float> distance);
+    void ascend(uint32_t child, std::span<float> distance);
+    void descend(uint32_t patch, float radius, std::span<float> distance);
+    std::span<const float> hop(uint32_t patch, float quantum, const uint16_t* first_row, size_t count,
+                               std::span<const float> distance, float radius);
+
+    const Index& index_;
+    const OverlayTables& tables_;
+    BorderField field_; // of the hop at hand
+    Array<const uint16_t*> rows_;
+    Array<float> out_;              // per row
+    Array<uint32_t> sources_below_; // per patch
+    Array<uint32_t> next_around_;   // per source of sweep_each()
+};
+
+}

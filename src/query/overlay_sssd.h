@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "src/index/index.h"
+#include "src/query/border_field.h"
+
+namespace geodesic {
+
+// Single source, single destination on overlay tables: up from both ends to the children of the lowest patch
+// that has them both, and across. First over samples of all borders, which gives a few ways; each is then
+// drawn tight over the vertices near it, and measured with its crossings unfolded. Vertices are given by
+// their numbers, places are counted over all rings.
+class OverlaySssd {
+public:
+    OverlaySssd(const Index& index, std::pmr::memory_resource* memory);
+
+    // Symmetric bit for bit if low < high.
+    float distance(uint32_t low, uint32_t high);
+
+    // From a source whose distances to the overlays of all patches that it lies in are known, by number.
+    float distance_from(uint32_t source, std::span<const float> known, uint32_t target);
+
+private:
+    // The places that a way may cross a border at, from `first` to `last`, repetitions of vertices too.
+    struct Window {
+        uint32_t first, last;
+        uint32_t size() const { return last - first + 1; }
+        bool operator==(const Window&) const = default;
+    };
+
+    // Consecutive places of a coarse ring, counted in it.
+    struct Samples {
+        uint32_t first, last;
+    };
+
+    // A border around a vertex, from that of the first patch that it lies inside of, to that of a child of
+    // the patch where both ends meet.
+    struct Border {
+        uint32_t patch;
+        uint32_t samples; // where its samples begin in the arrays of its end
+        Window window;    // where the way at hand crosses it
+    };
+    struct End {
+        explicit End(std::pmr::memory_resource* memory)
+            : borders(memory), distance(memory), winner(memory), window_distance(memory) {}
+        uint32_t vertex = 0;
+        Array<Border> borders;
+        Array<float> distance;        // per sample
+        Array<uint16_t> winner;       // the place in the coarse ring before that the way comes over
+        Array<float> window_distance; // of each border's window; those of the first `crossed` are known
+        size_t crossed = 0;
+    };
+
+    // How the other end is seen from the border where `to` waits: one that climbed, too, or a vertex whose
+    // distances are known there.
+    struct FromEnd;
+    template <class OfPlace>
+    struct FromVertex;
+    template <class From>
+    float meet(const From& from, End& to);
+    template <class From>
+    float measure(const From& from, End& to, uint32_t coarse_place);
+
+    // Over samples.
+    void climb(uint32_t vertex, uint32_t top, End& end);
+    void cross_samples(const End& end, uint32_t first_row, std::span<float> out, uint16_t* winners);
+    void trace(End& end, Samples samples) const;
+    Samples samples_before(uint32_t patch, Samples samples, const uint16_t* winners) const;
+
+    void prefetch_climb(uint32_t vertex, uint32_t top) const;
+
+    // Over windows.
+    Window whole_ring(uint32_t patch) const;
+    std::span<float> window_distances(End& end, size_t b) const;
+    Window window_of(uint32_t patch, Samples samples) const;
+    void prefetch_window(const End& end, size_t b) const;
+    void climb_windows(End& end);
+    template <class OverlayPosition>
+    void cross_window(End& end, size_t b, Window to, const OverlayPosition& overlay_position,
+                      std::span<float> out);
+
+    auto distances_from(uint32_t vertex) const;
+    uint32_t position_at(uint32_t place) const { return tables_.rings.position[place]; }
+    uint32_t overlay_position_at(uint32_t patch, uint32_t place) const {
+        return index_.overlay_position[index_.border_begin[patch] + position_at(place)];
+    }
+
+    const Index& index_;
+    const OverlayTables& tables_;
+    BorderField field_;
+    Array<const uint16_t*> rows_; // of the hop at hand
+    End from_, to_;
+    // At the border where they meet.
+    Array<float> samples_;     // distances from the other end
+    Array<uint16_t> winners_;  // likewise
+    Array<float> from_window_; // likewise, of its window
+};
+
+}

@@ -1,0 +1,149 @@
+// Several questions at once give what they give one by one.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "tests/capi/refusals.h"
+#include "tests/query/query_cases.h"
+
+using namespace geodesic::test;
+
+namespace {
+
+std::vector<QueryCase> cases_of_both_engines() {
+    std::vector<QueryCase> cases;
+    for (const auto& [name, mesh] : mesh_zoo())
+        for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
+            auto options = build_options(GEOIDX_METRIC_EXACT, 2);
+            options.engine = engine;
+            options.exact_vertices = 10;
+            cases.push_back({name + ", batch, engine " + std::to_string(engine), mesh, options});
+        }
+    return cases;
+}
+
+std::vector<float> prepared(geoidx_query* query, uint32_t source, const std::vector<uint32_t>& targets) {
+    std::vector<float> distances(targets.size());
+    require_success(geoidx_query_prepare(query, source));
+    require_success(geoidx_query_prepared(query, targets.data(), targets.size(), distances.data()));
+    return distances;
+}
+
+}
+
+TEST_CASE("batch: sources one by one, bit for bit") {
+    for (const QueryCase& test : cases_of_both_engines()) {
+        CAPTURE(test.name);
+        const geoidx* index = index_of(test);
+        const uint32_t count = test.mesh.vertex_count();
+        std::vector<uint32_t> sources; // more than are taken at once, some twice
+        for (uint32_t i = 0; i < 37; ++i) sources.push_back(i * 13 % count);
+        std::vector<float> batch(sources.size() * count), of_query(batch.size());
+        require_success(geoidx_ssad_batch(index, sources.data(), 37, batch.data(), batch.size()));
+        const QueryHandle query = query_of(index);
+        require_success(
+            geoidx_query_ssad_batch(query.get(), sources.data(), 37, of_query.data(), of_query.size()));
+        CHECK(batch == of_query);
+        uint64_t wrong = 0;
+        for (size_t i = 0; i < sources.size(); ++i) {
+            const auto alone = msad(index, sources[i], count);
+            wrong += std::memcmp(alone.data(), batch.data() + i * count, count * sizeof(float)) != 0;
+        }
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("batch: within a radius distances are the same, beyond it there are none") {
+    for (const QueryCase& test : cases_of_both_engines()) {
+        CAPTURE(test.name);
+        const geoidx* index = index_of(test);
+        const uint32_t count = test.mesh.vertex_count();
+        const QueryHandle query = query_of(index);
+        const std::vector<uint32_t> sources{count / 3, 0};
+        const auto all = msad(index, sources, count);
+        float longest = 0;
+        for (float d : all)
+            if (std::isfinite(d)) longest = std::max(longest, d);
+        std::vector<float> within(count);
+        for (float radius : {0.0f, longest / 4, longest / 2, longest, INFINITY}) {
+            require_success(
+                geoidx_query_msad_within(query.get(), sources.data(), 2, radius, within.data(), count));
+            uint64_t wrong = 0;
+            for (uint32_t v = 0; v < count; ++v) wrong += within[v] != (all[v] <= radius ? all[v] : INFINITY);
+            CHECK(wrong == 0);
+        }
+        for (float radius : {-1.0f, -INFINITY, NAN})
+            check_refused(
+                geoidx_query_msad_within(query.get(), sources.data(), 2, radius, within.data(), count),
+                GEOIDX_ERROR_INVALID_ARGUMENT, "radius");
+    }
+}
+
+TEST_CASE("batch: from a prepared source") {
+    for (const QueryCase& test : cases_of_both_engines()) {
+        CAPTURE(test.name);
+        const geoidx* index = index_of(test);
+        const uint32_t count = test.mesh.vertex_count();
+        const QueryHandle query = query_of(index);
+        std::vector<uint32_t> targets;
+        for (uint32_t v = 0; v < count; v += 3) targets.push_back(v);
+        uint64_t wrong = 0, pairs = 0;
+        double difference = 0;
+        for (uint32_t source : {0u, count / 2, count - 1}) {
+            const auto distances = prepared(query.get(), source, targets);
+            for (size_t i = 0; i < targets.size(); ++i) {
+                const double pair = double{sssd(index, source, targets[i])}, d = double{distances[i]};
+                wrong += std::isfinite(pair) != std::isfinite(d) || (targets[i] == source && d != 0);
+                if (!std::isfinite(pair) || pair == 0) continue;
+                difference += std::abs(d - pair) / pair;
+                ++pairs;
+                wrong += std::abs(d - pair) > 0.1 * pair;
+            }
+            // It is kept, whatever else is asked.
+            std::vector<float> field(count);
+            const uint32_t other = count / 3;
+            require_success(geoidx_query_msad(query.get(), &other, 1, field.data(), count));
+            std::vector<float> again(targets.size());
+            require_success(geoidx_query_prepared(query.get(), targets.data(), targets.size(), again.data()));
+            CHECK(again == distances);
+        }
+        CHECK(wrong == 0);
+        CHECK(difference <= 2e-3 * static_cast<double>(pairs));
+    }
+}
+
+TEST_CASE("batch: what is wrong is refused") {
+    const TestMesh mesh = grid(5, 4);
+    const uint32_t count = mesh.vertex_count();
+    for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
+        auto options = build_options();
+        options.engine = engine;
+        const auto index = build(mesh, options);
+        const QueryHandle query = query_of(index.get());
+        const uint32_t ids[] = {0, count};
+        std::vector<float> distances(2 * size_t{count});
+        const auto refused = [](geoidx_status status, const char* what) {
+            check_refused(status, GEOIDX_ERROR_INVALID_ARGUMENT, what);
+        };
+        refused(geoidx_query_prepared(query.get(), ids, 1, distances.data()), "prepared");
+        refused(geoidx_query_prepare(query.get(), count), "out of range");
+        refused(geoidx_query_prepared(query.get(), ids, 1, distances.data()), "prepared");
+        require_success(geoidx_query_prepare(query.get(), 1));
+        refused(geoidx_query_prepared(query.get(), ids, 2, distances.data()), "out of range");
+        refused(geoidx_query_prepared(query.get(), nullptr, 1, distances.data()), "targets");
+        refused(geoidx_query_prepared(query.get(), ids, 1, nullptr), "distances");
+        refused(geoidx_query_prepared(nullptr, ids, 1, distances.data()), "query");
+        refused(geoidx_query_prepare(nullptr, 0), "query");
+        require_success(geoidx_query_prepared(query.get(), nullptr, 0, nullptr));
+
+        refused(geoidx_ssad_batch(nullptr, ids, 1, distances.data(), count), "index");
+        refused(geoidx_ssad_batch(index.get(), nullptr, 1, distances.data(), count), "sources");
+        refused(geoidx_ssad_batch(index.get(), ids, 1, nullptr, count), "distances");
+        refused(geoidx_ssad_batch(index.get(), ids, 2, distances.data(), count), "distance_count");
+        refused(geoidx_ssad_batch(index.get(), ids, 1, distances.data(), 2 * count), "distance_count");
+        refused(geoidx_ssad_batch(index.get(), ids, 2, distances.data(), 2 * count), "out of range");
+        refused(geoidx_ssad_batch(index.get(), ids, 0, distances.data(), 0), "no source");
+        refused(geoidx_query_ssad_batch(nullptr, ids, 1, distances.data(), count), "query");
+        refused(geoidx_query_msad_within(nullptr, ids, 1, 1, distances.data(), count), "query");
+    }
+}
