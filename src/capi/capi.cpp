@@ -84,10 +84,7 @@ uint64_t table_entries(const Index& index) {
     uint64_t entries =
         index.border_tables.size() + index.crossing_table_begin.back() + index.internal_table_begin.back();
     if (index.engine == GEOIDX_ENGINE_OVERLAY)
-        for (uint32_t p = 0; p < index.first_leaf(); ++p) {
-            const uint64_t size = index.overlay_size(p);
-            entries += size ? size * (size - 1) / 2 : 0;
-        }
+        for (uint32_t p = 0; p < index.first_leaf(); ++p) entries += index.overlay_entries(p);
     return entries;
 }
 

@@ -66,6 +66,17 @@ void allocate_tables(Index& index) {
     index.internal_tables.resize(index.internal_table_begin.back());
 }
 
+uint16_t Index::border_code(uint32_t patch, uint32_t i, uint32_t j) const {
+    const uint32_t slot = border_begin[patch] + j;
+    const uint16_t code =
+        overlay_tables.outer_tables[outer_row(patch, overlay_position[border_begin[patch] + i]) +
+                                    overlay_tables.place_of_slot[slot]];
+    const double quantum = double{overlay_tables.quantum[patch]};
+    if (code == OverlayTables::UNREACHED || !(quantum > 0)) return code;
+    const double steps = std::round(code * double{overlay_tables.quantum[parent[patch]]} / quantum);
+    return static_cast<uint16_t>(std::min(steps, double{OverlayTables::LARGEST}));
+}
+
 namespace {
 
 void derive_owners(Index& index) {

@@ -127,6 +127,11 @@ struct Index {
     uint32_t first_inner(uint32_t patch) const {
         return patch < first_leaf() ? owned_begin[patch] : first_internal(patch);
     }
+    // Distances that are stored of an inner patch: from what it owns to its border, and among what it owns.
+    uint64_t overlay_entries(uint32_t patch) const {
+        const uint64_t owned = inner_size(patch);
+        return owned * border_size(patch) + (owned ? owned * (owned - 1) / 2 : 0);
+    }
     // The patch that a vertex lies inside of so: its owner or its leaf.
     uint32_t entry(uint32_t number) const { return is_border(number) ? owner[number] : leaf_of(number); }
 
@@ -144,6 +149,9 @@ struct Index {
         return overlay_tables
             .outer_tables[outer_row(patch_of_slot[slot], i) + overlay_tables.place_of_slot[slot]];
     }
+    // The same entry for two border positions of a patch, by the table of its parent, which knows it, too, so
+    // that it is stored once.
+    uint16_t border_code(uint32_t patch, uint32_t i, uint32_t j) const;
     uint16_t crossing_code(uint32_t leaf, uint32_t border_position, uint32_t internal) const {
         return overlay_tables
             .inner_tables[inner_row(leaf, internal) +

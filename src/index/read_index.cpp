@@ -248,22 +248,31 @@ uint16_t code_of(float value) {
     return code;
 }
 
-// A code for each pair of positions in the overlay of a patch, whole; `triangle` as the file has it.
-std::vector<uint16_t> overlay_square(std::span<const float> triangle, uint32_t size) {
-    std::vector<uint16_t> square(size_t{size} * size, 0);
+// A code for each pair of positions in the overlay of a patch; `values` as the file has them. Of two vertices
+// on its border its parent's table knows, which has been placed.
+std::vector<uint16_t> overlay_square(const Index& index, uint32_t patch, std::span<const float> values) {
+    const uint32_t border = index.border_size(patch), owned = index.inner_size(patch);
+    const size_t size = index.overlay_size(patch);
+    std::vector<uint16_t> square(size * size, 0);
+    const auto set = [&](size_t i, size_t j, uint16_t code) {
+        square[i * size + j] = square[j * size + i] = code;
+    };
+    for (uint32_t i = 0; i < border; ++i)
+        for (uint32_t j = 0; j < i; ++j) set(i, j, index.border_code(patch, i, j));
     size_t next = 0;
-    for_each_folded(size, [&](uint32_t i, uint32_t j) {
-        square[size_t{i} * size + j] = square[size_t{j} * size + i] = code_of(triangle[next++]);
+    for (uint32_t i = 0; i < owned; ++i)
+        for (uint32_t j = 0; j < border; ++j) set(size_t{border} + i, j, code_of(values[next++]));
+    for_each_folded(owned, [&](uint32_t i, uint32_t j) {
+        set(size_t{border} + i, size_t{border} + j, code_of(values[next++]));
     });
     return square;
 }
 
-// The file has a triangle for each inner patch.
 void place_overlay_codes(std::span<const float> values, Index& index) {
     for (uint32_t p = 0; p < index.first_leaf(); ++p) {
         const size_t size = index.overlay_size(p), border = index.border_size(p);
-        const size_t entries = size ? size * (size - 1) / 2 : 0;
-        const auto square = overlay_square(values.first(entries), index.overlay_size(p));
+        const size_t entries = index.overlay_entries(p);
+        const auto square = overlay_square(index, p, values.first(entries));
         values = values.subspan(entries);
         for (uint32_t child = index.child_begin[p]; child < index.child_begin[p + 1]; ++child)
             fill_outer_table(index, child, [&](uint32_t i, uint32_t j) { return square[i * size + j]; });
@@ -284,7 +293,10 @@ void place_crossing_codes(std::span<const float> values, Index& index) {
 
 void read_overlay_tables(const format::Container& container, Index& index) {
     MatrixReader overlay;
-    for (uint32_t p = 0; p < index.first_leaf(); ++p) overlay.add_folded(index.overlay_size(p));
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) {
+        overlay.add(index.inner_size(p), index.border_size(p));
+        overlay.add_folded(index.inner_size(p));
+    }
     const auto overlay_values = overlay.read(container, TAG_OVERLAY_TABLES);
     const auto crossing_values = crossing_reader(index).read(container, TAG_CROSSING_TABLES);
     const auto internal_values = internal_reader(index).read(container, TAG_INTERNAL_TABLES);

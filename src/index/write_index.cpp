@@ -137,11 +137,19 @@ std::vector<std::byte> segment_bytes(const Index& index) {
     return writer.take();
 }
 
+// Of each inner patch: from what it owns to its border, then among what it owns.
 Images overlay_images(const Index& index) {
     Images images;
-    for (uint32_t p = 0; p < index.first_leaf(); ++p)
-        add_folded(images, index.overlay_size(p),
-                   [&](uint32_t i, uint32_t j) { return code_value(index.overlay_code(p, i, j)); });
+    std::vector<float> values;
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) {
+        const uint32_t border = index.border_size(p), owned = index.inner_size(p);
+        const auto entry = [&](uint32_t i, uint32_t j) { return code_value(index.overlay_code(p, i, j)); };
+        values.clear();
+        for (uint32_t i = 0; i < owned; ++i)
+            for (uint32_t j = 0; j < border; ++j) values.push_back(entry(border + i, j));
+        if (!values.empty()) images.add(values, owned, border);
+        add_folded(images, owned, [&](uint32_t i, uint32_t j) { return entry(border + i, border + j); });
+    }
     return images;
 }
 
