@@ -39,9 +39,12 @@ void GraphQuery::msad(std::span<const uint32_t> sources, float, std::span<float>
 }
 
 void GraphQuery::ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
-    const size_t count = index_.vertex_count();
-    for (size_t i = 0; i < sources.size(); ++i)
-        msad(sources.subspan(i, 1), INFINITE, distances.subspan(i * count, count));
+    one_field_.resize(index_.vertex_count());
+    for (size_t i = 0; i < sources.size(); ++i) {
+        msad(sources.subspan(i, 1), INFINITE, one_field_);
+        for (size_t number = 0; number < one_field_.size(); ++number)
+            distances[number * sources.size() + i] = one_field_[number];
+    }
 }
 
 void GraphQuery::start_from(uint32_t source) {

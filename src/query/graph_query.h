@@ -25,7 +25,7 @@ public:
     // distance[number], of every vertex, whatever the radius.
     void msad(std::span<const uint32_t> sources, float radius, std::span<float> distance);
 
-    // distances[i * vertex_count + number], of each source by itself.
+    // distances[number * sources.size() + i], of each source by itself.
     void ssad_each(std::span<const uint32_t> sources, std::span<float> distances);
 
 private:
@@ -50,7 +50,8 @@ private:
 
     const Index& index_;
     uint32_t prepared_ = NONE;
-    ArcQueue queue_; // of SSSD
+    ArcQueue queue_;         // of SSSD
+    Array<float> one_field_; // of ssad_each()
 
     // MSAD: distances by number, the caller's; which inner patches have sources below them.
     std::span<float> distance_;

@@ -34,16 +34,18 @@ OverlayMsad::OverlayMsad(const Index& index, std::pmr::memory_resource* memory)
 }
 
 void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
-    climb(sources, distance);
+    const DistanceField field{distance.data()};
+    std::ranges::fill(distance, INFINITE);
+    climb(sources, field);
     // A patch that all sources lie in has its distances already.
     for (uint32_t p = 1; p < index_.patch_count(); ++p)
-        if (sources_below_[p] < sources.size()) descend(p, radius, distance);
+        if (sources_below_[p] < sources.size()) descend(p, radius, field);
 }
 
 void OverlayMsad::sweep_each(std::span<const uint32_t> sources, std::span<float> distances) {
-    const size_t count = index_.vertex_count();
-    for (size_t i = 0; i < sources.size(); ++i)
-        climb(sources.subspan(i, 1), distances.subspan(i * count, count));
+    const auto field = [&](size_t i) { return DistanceField{distances.data() + i, sources.size()}; };
+    std::ranges::fill(distances, INFINITE);
+    for (size_t i = 0; i < sources.size(); ++i) climb(sources.subspan(i, 1), field(i));
     // Patches that a source lies in have its distances already: they are met from the whole mesh inwards.
     next_around_.assign(sources.size(), 0);
     for (uint32_t p = 0; p < index_.patch_count(); ++p)
@@ -51,14 +53,16 @@ void OverlayMsad::sweep_each(std::span<const uint32_t> sources, std::span<float>
             if (p == next_around_[i])
                 next_around_[i] = next_inwards(index_, p, index_.entry(sources[i]));
             else
-                descend(p, INFINITE, distances.subspan(i * count, count));
+                descend(p, INFINITE, field(i));
         }
 }
 
-void OverlayMsad::sweep_up(uint32_t source, std::span<float> distance) { climb({&source, 1}, distance); }
-
-void OverlayMsad::climb(std::span<const uint32_t> sources, std::span<float> distance) {
+void OverlayMsad::sweep_up(uint32_t source, std::span<float> distance) {
     std::ranges::fill(distance, INFINITE);
+    climb({&source, 1}, {distance.data()});
+}
+
+void OverlayMsad::climb(std::span<const uint32_t> sources, DistanceField distance) {
     std::ranges::fill(sources_below_, 0u);
     for (uint32_t source : sources) start_from(source, distance);
     for (uint32_t p = index_.patch_count() - 1; p > 0; --p)
@@ -69,7 +73,7 @@ void OverlayMsad::climb(std::span<const uint32_t> sources, std::span<float> dist
 }
 
 // To everything inside of the patch that the source lies in, and to its border.
-void OverlayMsad::start_from(uint32_t source, std::span<float> distance) {
+void OverlayMsad::start_from(uint32_t source, DistanceField distance) {
     const uint32_t patch = index_.entry(source), first = index_.first_inner(patch), own = source - first;
     const auto border = index_.border_of(patch);
     lower(distance[source], 0);
@@ -90,7 +94,7 @@ void OverlayMsad::start_from(uint32_t source, std::span<float> distance) {
 }
 
 // To the overlay of the parent. The child's border keeps its own distances.
-void OverlayMsad::ascend(uint32_t child, std::span<float> distance) {
+void OverlayMsad::ascend(uint32_t child, DistanceField distance) {
     const uint32_t parent = index_.parent[child];
     const auto out =
         hop(child, tables_.quantum[parent], tables_.outer_tables.data() + index_.outer_row(child, 0),
@@ -101,17 +105,17 @@ void OverlayMsad::ascend(uint32_t child, std::span<float> distance) {
 }
 
 // To what lies inside.
-void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distance) {
+void OverlayMsad::descend(uint32_t patch, float radius, DistanceField distance) {
     const auto out =
         hop(patch, tables_.quantum[patch], tables_.inner_tables.data() + index_.inner_row(patch, 0),
             index_.inner_size(patch), distance, radius);
-    float* inner = distance.data() + index_.first_inner(patch);
-    for (size_t i = 0; i < out.size(); ++i) lower(inner[i], out[i]);
+    const uint32_t first = index_.first_inner(patch);
+    for (size_t i = 0; i < out.size(); ++i) lower(distance[first + i], out[i]);
 }
 
 // From the border of a patch over rows of its tables, unless all of it is beyond the radius.
 std::span<const float> OverlayMsad::hop(uint32_t patch, float quantum, const uint16_t* first_row,
-                                        size_t count, std::span<const float> distance, float radius) {
+                                        size_t count, DistanceField distance, float radius) {
     const auto out = std::span(out_).first(count);
     const Rings& rings = tables_.rings;
     const uint32_t places = rings.size(patch);

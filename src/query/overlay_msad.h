@@ -7,6 +7,14 @@
 
 namespace geodesic {
 
+// Distances by number, `stride` floats apart: several fields can lie in one array, side by side at each
+// vertex.
+struct DistanceField {
+    float* first;
+    size_t stride = 1;
+    float& operator[](size_t number) const { return first[number * stride]; }
+};
+
 // Multiple sources, all destinations on overlay tables: one sweep up from the leaves of the sources, one down
 // to all leaves. Vertices are given by their numbers.
 class OverlayMsad {
@@ -25,12 +33,12 @@ public:
     void sweep_up(uint32_t source, std::span<float> distance);
 
 private:
-    void climb(std::span<const uint32_t> sources, std::span<float> distance);
-    void start_from(uint32_t source, std::span<float> distance);
-    void ascend(uint32_t child, std::span<float> distance);
-    void descend(uint32_t patch, float radius, std::span<float> distance);
+    void climb(std::span<const uint32_t> sources, DistanceField distance);
+    void start_from(uint32_t source, DistanceField distance);
+    void ascend(uint32_t child, DistanceField distance);
+    void descend(uint32_t patch, float radius, DistanceField distance);
     std::span<const float> hop(uint32_t patch, float quantum, const uint16_t* first_row, size_t count,
-                               std::span<const float> distance, float radius);
+                               DistanceField distance, float radius);
 
     const Index& index_;
     const OverlayTables& tables_;

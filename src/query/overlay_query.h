@@ -31,7 +31,7 @@ public:
         sweeps_.sweep(sources, radius, distance);
     }
 
-    // distances[i * vertex_count + number], of each source by itself.
+    // distances[number * sources.size() + i], of each source by itself.
     void ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
         sweeps_.sweep_each(sources, distances);
     }

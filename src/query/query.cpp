@@ -1,6 +1,7 @@
 #include "src/query/query.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
@@ -63,10 +64,12 @@ void Query::check_count(std::span<const float> distances, uint64_t fields) const
     if (fields == 0) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "there is no source");
 }
 
-void Query::write_by_id(std::span<const float> by_number, std::span<float> distances) const {
-    for (size_t id = 0; id < distances.size(); ++id) {
+// Of fields that lie side by side: the one pass over them reads each line of memory once.
+void Query::write_by_id(std::span<float* const> fields) const {
+    for (size_t id = 0; id < index_.id_count; ++id) {
         const uint32_t number = index_.number_of_id[id];
-        distances[id] = number == NONE ? INFINITE : by_number[number];
+        const float* by_field = distance_.data() + (number == NONE ? 0 : number) * fields.size();
+        for (size_t i = 0; i < fields.size(); ++i) fields[i][id] = number == NONE ? INFINITE : by_field[i];
     }
 }
 
@@ -79,7 +82,8 @@ void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<f
         if (const uint32_t source = number_of(id); source != NONE) sources_.push_back(source);
     const auto by_number = std::span(distance_).first(index_.vertex_count());
     std::visit([&](auto& engine) { engine.msad(sources_, radius, by_number); }, engine_);
-    write_by_id(by_number, distances);
+    float* const field = distances.data();
+    write_by_id({&field, 1});
     if (radius < INFINITE)
         for (float& d : distances)
             if (d > radius) d = INFINITE;
@@ -89,27 +93,25 @@ void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<f
 void Query::ssad_each(std::span<const uint32_t> source_ids, std::span<float> distances) {
     check_count(distances, source_ids.size());
     constexpr size_t AT_ONCE = 16;
-    const size_t count = index_.vertex_count(), id_count = index_.id_count;
-    distance_.resize(std::max(distance_.size(), std::min(AT_ONCE, source_ids.size()) * count));
+    const size_t at_once = std::min(AT_ONCE, source_ids.size()) * index_.vertex_count();
+    if (distance_.size() < at_once) distance_.resize(at_once);
     for (size_t done = 0; done < source_ids.size(); done += AT_ONCE) {
         const auto ids = source_ids.subspan(done, std::min(AT_ONCE, source_ids.size() - done));
+        std::array<float*, AT_ONCE> fields;
         sources_.clear();
-        for (uint32_t id : ids)
-            if (const uint32_t source = number_of(id); source != NONE) sources_.push_back(source);
-        std::visit(
-            [&](auto& engine) {
-                engine.ssad_each(sources_, std::span(distance_).first(sources_.size() * count));
-            },
-            engine_);
-        size_t field = 0;
         for (size_t i = 0; i < ids.size(); ++i) {
-            const auto out = distances.subspan((done + i) * id_count, id_count);
-            if (number_of(ids[i]) == NONE)
+            const auto out = distances.subspan((done + i) * index_.id_count, index_.id_count);
+            if (const uint32_t source = number_of(ids[i]); source != NONE) {
+                fields[sources_.size()] = out.data();
+                sources_.push_back(source);
+            } else {
                 std::ranges::fill(out, INFINITE);
-            else
-                write_by_id(std::span(distance_).subspan(field++ * count, count), out);
-            out[ids[i]] = 0;
+            }
         }
+        const auto by_number = std::span(distance_).first(sources_.size() * index_.vertex_count());
+        std::visit([&](auto& engine) { engine.ssad_each(sources_, by_number); }, engine_);
+        write_by_id(std::span(fields).first(sources_.size()));
+        for (size_t i = 0; i < ids.size(); ++i) distances[(done + i) * index_.id_count + ids[i]] = 0;
     }
 }
 
