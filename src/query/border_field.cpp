@@ -29,6 +29,7 @@ BorderField::BorderField(const Index& index, std::pmr::memory_resource* memory)
       foot_(distance_.size(), memory), height_(distance_.size(), memory) {}
 
 bool BorderField::finish() {
+    std::fill_n(distance_.data() + border_.places, 4, INFINITE); // a vector may end there
     nearest_ = INFINITE;
     for (size_t k = 0; k < border_.places; ++k) nearest_ = std::min(nearest_, distance_[k]);
     if (nearest_ == INFINITE) return false;
