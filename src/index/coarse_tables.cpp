@@ -27,8 +27,8 @@ std::vector<uint32_t> sample(const Chain& chain, uint32_t step) {
 float distance_between(const Index& index, uint32_t patch, uint32_t a, uint32_t b) {
     const uint32_t parent = index.parent[patch];
     const uint32_t* overlay_position = index.overlay_position.data() + index.border_begin[patch];
-    return static_cast<float>(index.overlay_code(parent, overlay_position[a], overlay_position[b])) *
-           index.overlay_tables.quantum[parent];
+    return index.overlay_tables.distance(index.overlay_code(parent, overlay_position[a], overlay_position[b]),
+                                         parent);
 }
 
 void sample_ring(Index& index, uint32_t patch, RingWriter& writer) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -39,6 +40,11 @@ struct Rings {
     std::pmr::vector<Chain> chains;
 
     uint32_t size(uint32_t patch) const { return begin[patch + 1] - begin[patch]; }
+    uint32_t largest_size() const {
+        uint32_t largest = 0;
+        for (size_t p = 0; p + 1 < begin.size(); ++p) largest = std::max(largest, begin[p + 1] - begin[p]);
+        return largest;
+    }
 };
 
 // What the overlay engine reads besides the hierarchy. Distances are codes: code * quantum of a patch.

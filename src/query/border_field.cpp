@@ -16,17 +16,11 @@ constexpr size_t whole_blocks(size_t places) { return (places + BLOCK - 1) / BLO
 static_assert(OverlayTables::PADDING >= BLOCK && Rings::PADDING >= BLOCK,
               "the last row of a table is read in whole blocks");
 
-uint32_t largest_ring(const Index& index) {
-    uint32_t largest = 0;
-    for (uint32_t p = 0; p < index.patch_count(); ++p) largest = std::max(largest, index.ring_size(p));
-    return largest;
-}
-
 }
 
 BorderField::BorderField(const Index& index, std::pmr::memory_resource* memory)
-    : distance_(whole_blocks(largest_ring(index)) + 4, memory), code_(distance_.size(), memory),
-      foot_(distance_.size(), memory), height_(distance_.size(), memory) {}
+    : distance_(whole_blocks(index.overlay_tables.rings.largest_size()) + 4, memory),
+      code_(distance_.size(), memory), foot_(distance_.size(), memory), height_(distance_.size(), memory) {}
 
 bool BorderField::finish() {
     std::fill_n(distance_.data() + border_.places, 4, INFINITE); // a vector may end there

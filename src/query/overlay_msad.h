@@ -25,7 +25,7 @@ public:
     // infinity.
     void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance);
 
-    // The distances of each source by itself, of all vertices: distances[i * vertex_count + number]. Each
+    // The distances of each source by itself: distances[number * sources.size() + i] from the i-th. Each
     // table is read once.
     void sweep_each(std::span<const uint32_t> sources, std::span<float> distances);
 

@@ -29,18 +29,12 @@ uint32_t lowest_common_patch(const Index& index, uint32_t a, uint32_t b) {
     return a;
 }
 
-uint32_t largest_ring(const Index& index) {
-    uint32_t largest = 0;
-    for (uint32_t p = 0; p < index.patch_count(); ++p) largest = std::max(largest, index.ring_size(p));
-    return largest;
-}
-
 }
 
 OverlaySssd::OverlaySssd(const Index& index, std::pmr::memory_resource* memory)
     : index_(index), tables_(index.overlay_tables), field_(index, memory), rows_(memory), from_(memory),
       to_(memory), samples_(std::ranges::max(index.overlay_tables.sample_count), memory),
-      winners_(samples_.size(), memory), from_window_(largest_ring(index), memory) {
+      winners_(samples_.size(), memory), from_window_(index.overlay_tables.rings.largest_size(), memory) {
     rows_.reserve(from_window_.size());
     for (End* end : {&from_, &to_}) {
         end->borders.reserve(index.level_count());
@@ -235,7 +229,10 @@ void OverlaySssd::cross_samples(const End& end, uint32_t first_row, std::span<fl
     const uint32_t* sample = tables_.coarse_samples.data() + rings.begin[patch];
     for (float& d : field_.begin(rings, rings.begin[patch], places, tables_.quantum[index_.parent[patch]]))
         d = distance[*sample++];
-    if (!field_.finish()) return std::ranges::fill(out, INFINITE), void();
+    if (!field_.finish()) {
+        std::ranges::fill(out, INFINITE);
+        return;
+    }
     const uint16_t* row =
         tables_.coarse_tables.data() + tables_.coarse_begin[patch] + size_t{first_row} * places;
     rows_.resize(out.size());

@@ -9,9 +9,8 @@
 namespace geodesic {
 
 // Single source, single destination on overlay tables: up from both ends to the children of the lowest patch
-// that has them both, and across. First over samples of all borders, which gives a few ways; each is then
-// drawn tight over the vertices near it, and measured with its crossings unfolded. Vertices are given by
-// their numbers, places are counted over all rings.
+// that has them both, and across. First over samples of all borders, which gives a few ways; then again over
+// all vertices near each of these. Vertices are given by their numbers, places are counted over all rings.
 class OverlaySssd {
 public:
     OverlaySssd(const Index& index, std::pmr::memory_resource* memory);

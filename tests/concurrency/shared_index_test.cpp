@@ -72,10 +72,6 @@ uint64_t differences(const geoidx* index, uint32_t thread, uint32_t count, const
     return wrong;
 }
 
-}
-
-namespace {
-
 void check_eight_threads(uint32_t engine) {
     const TestMesh mesh = hills(20, 18);
     const uint32_t count = mesh.vertex_count();
