@@ -16,6 +16,7 @@ struct QueriesArguments {
     std::vector<std::string> meshes;
     std::string folder;
     std::string index; // file; empty: build
+    std::string keep;  // folder for the indices built; empty: they are not kept
     std::vector<std::string> engines{tools::ENGINE_NAMES[GEOIDX_ENGINE_OVERLAY],
                                      tools::ENGINE_NAMES[GEOIDX_ENGINE_GRAPH]};
     std::vector<uint32_t> patches;
@@ -35,7 +36,14 @@ geoidx_build_options build_options(const QueriesArguments& arguments, const std:
 }
 
 BuiltIndex built_or_opened(const Model& model, const QueriesArguments& arguments, const std::string& engine) {
-    if (arguments.index.empty()) return build_index(model, build_options(arguments, engine));
+    if (arguments.index.empty()) {
+        BuiltIndex built = build_index(model, build_options(arguments, engine));
+        if (!arguments.keep.empty()) {
+            const std::string path = arguments.keep + '/' + model.name + '-' + engine + ".gidx";
+            tools::require_ok(geoidx_save(built.index.get(), path.c_str()), path);
+        }
+        return built;
+    }
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     return {tools::open_index(arguments.index, &model.mesh), {unknown, unknown}};
 }
@@ -123,6 +131,9 @@ void add_index_options(CLI::App& command, QueriesArguments& arguments) {
     command.add_option("--delta", arguments.delta, "pruning threshold, % of the bounding-box diagonal")
         ->excludes(index)
         ->capture_default_str();
+    command.add_option("--keep", arguments.keep, "folder to save the indices in, as NAME-ENGINE.gidx")
+        ->excludes(index)
+        ->check(CLI::ExistingDirectory);
     command.add_option("--threads", arguments.threads, "of building")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

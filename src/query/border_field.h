@@ -31,17 +31,15 @@ public:
     // Returns whether the source reaches any.
     bool finish();
 
-    // As CrossFunction, if finish() returned true.
+    // As CrossingKernel, if finish() returned true.
     void cross(Rows rows, float* distances, uint16_t* winners) const {
-        crossing_kernels().back().cross(border_, rows, distances, winners);
+        kernel_.cross(border_, rows, distances, winners);
     }
 
     float nearest() const { return nearest_; }
 
 private:
-    void encode();
-    void unfold();
-
+    const CrossingKernel& kernel_;
     SeenBorder border_{};
     const int32_t* is_own_ = nullptr;
     float nearest_ = 0;

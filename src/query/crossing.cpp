@@ -1,300 +1,284 @@
 #include "src/query/crossing.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
-#include "src/index/unfolding.h"
+#include "src/query/lanes.h"
+#include "src/query/nearest_places.h"
 
 namespace geodesic {
 
 namespace {
 
-constexpr float INFINITE = std::numeric_limits<float>::infinity();
-
 // So many rows at a time: first their nearest places, then the ways over them, so that the processor has
 // several rows at work at once.
 constexpr size_t ROWS = 64;
 
-// ---- The place with the least sum of each row, in vectors of the kernel's width
+// ---- The border as seen from a source
 
 template <size_t BYTES>
-struct Vectors {
-    using Codes [[gnu::vector_size(BYTES), gnu::aligned(2), gnu::may_alias]] = int16_t; // at any address
-    using Keys [[gnu::vector_size(BYTES)]] = int32_t;
-};
-
-// A key is a sum, and below it a place: the least one is the first place with the least sum.
-constexpr int32_t PLACE_BITS = 16, PLACE_MASK = 0xffff;
-
-// Sums from here on may be of places that are not seen, or of no way.
-constexpr int32_t NO_SUM = SeenBorder::NEAREST + OverlayTables::UNREACHED;
-
-using FourKeys = Vectors<16>::Keys;
-
-// Vectors wider than the baseline's go by reference: how they are returned depends on the processor.
-template <class Keys>
-[[gnu::always_inline]] inline void lower(Keys& keys, const Keys& others) {
-    keys = keys < others ? keys : others;
+[[gnu::always_inline]] inline void load(const float* first, Floats<BYTES>& floats) {
+    std::memcpy(&floats, first, sizeof floats);
 }
-
-[[gnu::always_inline]] inline void fold(const FourKeys& keys, FourKeys& least) { least = keys; }
-
-[[gnu::always_inline]] inline void fold(const Vectors<32>::Keys& keys, FourKeys& least) {
-    least = __builtin_shufflevector(keys, keys, 0, 1, 2, 3);
-    lower<FourKeys>(least, __builtin_shufflevector(keys, keys, 4, 5, 6, 7));
-}
-
-[[gnu::always_inline]] inline void fold(const Vectors<64>::Keys& keys, FourKeys& least) {
-    Vectors<32>::Keys half = __builtin_shufflevector(keys, keys, 0, 1, 2, 3, 4, 5, 6, 7);
-    lower<Vectors<32>::Keys>(half, __builtin_shufflevector(keys, keys, 8, 9, 10, 11, 12, 13, 14, 15));
-    fold(half, least);
-}
-
-// least[i]: the least key of row i.
-[[gnu::always_inline]] inline void fold_rows(const FourKeys rows[4], FourKeys& least) {
-    FourKeys pair[2];
-    for (int i = 0; i < 2; ++i) {
-        const FourKeys &a = rows[2 * i], &b = rows[2 * i + 1];
-        pair[i] = __builtin_shufflevector(a, b, 0, 4, 1, 5);
-        lower<FourKeys>(pair[i], __builtin_shufflevector(a, b, 2, 6, 3, 7));
-    }
-    least = __builtin_shufflevector(pair[0], pair[1], 0, 1, 4, 5);
-    lower<FourKeys>(least, __builtin_shufflevector(pair[0], pair[1], 2, 3, 6, 7));
-}
-
-// Where the number of vectors that hold the places is known, 1 .. 8, the border's codes stay in registers;
-// BLOCKS = 0: any number.
-template <size_t BYTES, size_t BLOCKS>
-struct NearestPlaces {
-    using Codes = typename Vectors<BYTES>::Codes;
-    using Keys = typename Vectors<BYTES>::Keys;
-    static constexpr size_t LANES = BYTES / sizeof(int16_t);
-
-    [[gnu::always_inline]] static void find(const SeenBorder& border, Rows rows, int32_t* keys) {
-        const size_t blocks = BLOCKS ? BLOCKS : (border.places + LANES - 1) / LANES;
-        Codes codes[BLOCKS + 1], lanes;
-        for (size_t b = 0; b < BLOCKS; ++b) codes[b] = at(border.code, b);
-        for (size_t i = 0; i < LANES; ++i) lanes[i] = static_cast<int16_t>(i);
-        for (size_t r = 0; r < rows.size(); r += 4) {
-            FourKeys row_keys[4];
-            for (size_t i = 0; i < 4; ++i) {
-                const uint16_t* row = rows[std::min(r + i, rows.size() - 1)];
-                Codes best = at(row, 0) + (BLOCKS ? codes[0] : at(border.code, 0));
-                Codes place = lanes, here = lanes;
-                for (size_t b = 1; b < blocks; ++b) {
-                    here += static_cast<int16_t>(LANES);
-                    const Codes sum = at(row, b) + (BLOCKS ? codes[b] : at(border.code, b));
-                    const auto is_lower = sum < best;
-                    place = is_lower ? here : place;
-                    best = is_lower ? sum : best;
-                }
-                make_keys(best, place, row_keys[i]);
-            }
-            FourKeys least;
-            fold_rows(row_keys, least);
-            std::memcpy(keys + r, &least, sizeof least);
-        }
-    }
-
-private:
-    template <class Code>
-    [[gnu::always_inline]] static const Codes& at(const Code* first, size_t block) {
-        return *reinterpret_cast<const Codes*>(first + block * LANES);
-    }
-
-    [[gnu::always_inline]] static void make_keys(const Codes& sum, const Codes& place, FourKeys& keys) {
-        const Keys sums = reinterpret_cast<Keys>(sum), places = reinterpret_cast<Keys>(place);
-        Keys even = (sums << PLACE_BITS) | (places & PLACE_MASK);
-        const Keys odd = (sums & ~PLACE_MASK) | (places >> PLACE_BITS);
-        lower(even, odd);
-        fold(even, keys);
-    }
-};
 
 template <size_t BYTES>
-[[gnu::always_inline]] inline void find_keys(const SeenBorder& border, Rows rows, int32_t* keys) {
-    constexpr size_t LANES = BYTES / sizeof(int16_t);
-    switch ((border.places + LANES - 1) / LANES) {
-    case 1:
-        return NearestPlaces<BYTES, 1>::find(border, rows, keys);
-    case 2:
-        return NearestPlaces<BYTES, 2>::find(border, rows, keys);
-    case 3:
-        return NearestPlaces<BYTES, 3>::find(border, rows, keys);
-    case 4:
-        return NearestPlaces<BYTES, 4>::find(border, rows, keys);
-    case 5:
-        return NearestPlaces<BYTES, 5>::find(border, rows, keys);
-    case 6:
-        return NearestPlaces<BYTES, 6>::find(border, rows, keys);
-    case 7:
-        return NearestPlaces<BYTES, 7>::find(border, rows, keys);
-    case 8:
-        return NearestPlaces<BYTES, 8>::find(border, rows, keys);
-    default:
-        return NearestPlaces<BYTES, 0>::find(border, rows, keys);
+[[gnu::always_inline]] inline float nearest_distance(const SeenBorder& border) {
+    Floats<BYTES> nearest{}, distance;
+    nearest += INFINITE;
+    for (size_t k = 0; k < border.places; k += Lanes<BYTES>::FLOATS) {
+        load<BYTES>(border.distance + k, distance);
+        lower(nearest, distance);
+    }
+    NearFloats four;
+    fold(nearest, four);
+    return std::min(std::min(four[0], four[1]), std::min(four[2], four[3]));
+}
+
+template <size_t BYTES>
+[[gnu::always_inline]] inline void encode(const SeenBorder& border, float nearest, const int32_t* is_own,
+                                          int16_t* code) {
+    using Numbers = typename Lanes<BYTES>::Keys;
+    using Codes [[gnu::vector_size(BYTES / 2)]] = int16_t;
+    const Floats<BYTES> largest = Floats<BYTES>{} + float{OverlayTables::LARGEST};
+    const float scale = border.quantum > 0 ? 1 / border.quantum : 0;
+    for (size_t k = 0; k < border.places; k += Lanes<BYTES>::FLOATS) {
+        Floats<BYTES> distance;
+        load<BYTES>(border.distance + k, distance);
+        const Floats<BYTES> steps = (distance - nearest) * scale + 0.5f;
+        Numbers own;
+        std::memcpy(&own, is_own + k, sizeof own);
+        const Numbers number =
+            __builtin_convertvector(steps < largest ? steps : largest, Numbers) + SeenBorder::NEAREST;
+        const Codes codes = __builtin_convertvector(
+            distance < INFINITE ? number & own : Numbers{} + SeenBorder::NOT_SEEN, Codes);
+        std::memcpy(code + k, &codes, sizeof codes);
+    }
+    constexpr size_t BLOCK = SeenBorder::BLOCK;
+    std::fill(code + border.places, code + (border.places + BLOCK - 1) / BLOCK * BLOCK, SeenBorder::NOT_SEEN);
+}
+
+template <size_t BYTES>
+[[gnu::always_inline]] inline void unfold(const SeenBorder& border, float* feet, float* heights) {
+    for (size_t k = 0; k < border.places; k += Lanes<BYTES>::FLOATS) {
+        Segments<Floats<BYTES>> segments;
+        load<BYTES>(border.length + k, segments.length);
+        load<BYTES>(border.half_inverse + k, segments.half_inverse);
+        Floats<BYTES> from_first, from_second, foot, height;
+        load<BYTES>(border.distance + k, from_first);
+        load<BYTES>(border.distance + k + 1, from_second);
+        segments.place_point(from_first, from_second, foot, height);
+        std::memcpy(feet + k, &foot, sizeof foot);
+        std::memcpy(heights + k, &height, sizeof height);
     }
 }
 
-constexpr int32_t NO_PLACE = SeenBorder::NO_PLACE;
-
-// One place after the other, for what the sums of codes do not tell apart: ways of which one end is out of
-// reach. NO_PLACE if there is no way.
-int32_t nearest_place(const SeenBorder& border, const uint16_t* row) {
-    float least = INFINITE;
-    int32_t nearest = NO_PLACE;
-    for (size_t k = 0; k < border.places; ++k) {
-        if (border.code[k] == SeenBorder::NOT_SEEN || row[k] == OverlayTables::UNREACHED) continue;
-        const float d = border.distance[k] + static_cast<float>(row[k]) * border.quantum;
-        if (d >= least) continue;
-        least = d;
-        nearest = static_cast<int32_t>(k);
+template <size_t BYTES>
+[[gnu::always_inline]] inline float see(const SeenBorder& border, const int32_t* is_own, int16_t* code,
+                                        float* foot, float* height) {
+    const float nearest = nearest_distance<BYTES>(border);
+    if (nearest < INFINITE) {
+        encode<BYTES>(border, nearest, is_own, code);
+        unfold<BYTES>(border, foot, height);
     }
     return nearest;
 }
 
-// ---- The ways over these places
+// ---- The ways over the nearest places
 
-// Where the segments near a row's place begin, in the border and in the row.
-struct Near {
-    size_t first;
-    const uint16_t* codes;
+// Ways to be measured: over these places of a border. From one way to the next, rows are `row_step` pointers
+// apart, what is seen of the border `source_step` floats; known when this is compiled.
+struct Ways {
+    const int32_t* places;
+    const uint16_t* const* rows;
+    size_t row_step, source_step;
+
+    [[gnu::always_inline]] const uint16_t* codes_near(size_t way) const {
+        return rows[way * row_step] + places[way] - Rings::REACH;
+    }
+    [[gnu::always_inline]] NearFloats of_ring(const float* values, size_t way) const {
+        return near_floats(values + places[way] - Rings::REACH);
+    }
+    [[gnu::always_inline]] NearFloats of_source(const float* values, size_t way) const {
+        return near_floats(values + places[way] - Rings::REACH + way * source_step);
+    }
 };
 
-// As many as fit into the widest vector are added at the end, like the last one.
-constexpr size_t MOST_SIDE_BY_SIDE = 4;
-
+// The codes of the ways from `first` on, side by side, four each: those of the places that segments near the
+// place begin at, and those of the next ones.
 template <size_t BYTES>
-[[gnu::always_inline]] inline void find_near(const SeenBorder& border, Rows rows, int32_t* places,
-                                             Near* near) {
-    find_keys<BYTES>(border, rows, places);
-    for (size_t r = 0; r < rows.size(); ++r) {
-        const uint16_t* row = rows[r];
-        const int32_t sum = places[r] >> PLACE_BITS;
-        places[r] &= PLACE_MASK;
-        if (sum >= NO_SUM) [[unlikely]]
-            places[r] = nearest_place(border, row);
-        const size_t first = places[r] == NO_PLACE ? 0 : static_cast<size_t>(places[r]) - Rings::REACH;
-        near[r] = {first, row + first};
-    }
-    for (size_t i = 0; i < MOST_SIDE_BY_SIDE; ++i) near[rows.size() + i] = near[rows.size() - 1];
+[[gnu::always_inline]] inline void codes_near(const Ways& ways, size_t first, Floats<BYTES>& of_first,
+                                              Floats<BYTES>& of_second) {
+    constexpr std::make_index_sequence<BYTES / sizeof(uint16_t)> ALL;
+    typename VectorOf<uint16_t, BYTES>::Type codes;
+    typename Lanes<BYTES>::Keys numbers;
+    join([&](size_t i) { return load_eight(ways.codes_near(first + i)); }, codes);
+    widen_four<0>(codes, numbers, ALL);
+    of_first = __builtin_convertvector(numbers, Floats<BYTES>);
+    widen_four<1>(codes, numbers, ALL);
+    of_second = __builtin_convertvector(numbers, Floats<BYTES>);
 }
 
-[[gnu::always_inline]] inline void join(const NearFloats& a, const NearFloats& b, Floats<32>& out) {
-    out = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-[[gnu::always_inline]] inline void join(const FourKeys& a, const FourKeys& b, Vectors<32>::Keys& out) {
-    out = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-[[gnu::always_inline]] inline void join(const Floats<32>& a, const Floats<32>& b, Floats<64>& out) {
-    out = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-}
-[[gnu::always_inline]] inline void join(const Vectors<32>::Keys& a, const Vectors<32>::Keys& b,
-                                        Vectors<64>::Keys& out) {
-    out = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-}
-
-// out: part(0), part(1) ... side by side. Half: of four such parts.
-template <class Half, class Part, class Wide>
-[[gnu::always_inline]] inline void join_parts(const Part& part, Wide& out) {
-    if constexpr (sizeof out == 16) {
-        out = part(0);
-    } else if constexpr (sizeof out == 32) {
-        join(part(0), part(1), out);
-    } else {
-        Half first, second;
-        join(part(0), part(1), first);
-        join(part(2), part(3), second);
-        join(first, second, out);
-    }
-}
-
-// Four codes; eight are read.
-[[gnu::always_inline]] inline FourKeys four_codes(const uint16_t* first) {
-    using Codes [[gnu::vector_size(16)]] = uint16_t;
-    Codes codes;
-    std::memcpy(&codes, first, sizeof codes);
-    return reinterpret_cast<FourKeys>(__builtin_shufflevector(codes, Codes{}, 0, 8, 1, 9, 2, 10, 3, 11));
-}
-
-// sums[4 r ..]: of row r and the border's distances, near the row's place; squares[4 r ..]: of the ways over
-// the segments there. As many rows at a time as fit into a vector.
+// Four ways, as many side by side as fit into a vector.
 template <size_t BYTES>
-[[gnu::always_inline]] inline void measure_near(const SeenBorder& border, size_t count, const Near* near,
-                                                float* sums, float* squares) {
+[[gnu::always_inline]] inline void measure_four(const SeenBorder& border, const Ways& ways,
+                                                NearFloats& distances) {
     constexpr size_t SIDE_BY_SIDE = BYTES / sizeof(NearFloats);
-    static_assert(SIDE_BY_SIDE <= MOST_SIDE_BY_SIDE);
-    for (size_t r = 0; r < count; r += SIDE_BY_SIDE) {
-        const auto of_border = [&](const float* of_places, Floats<BYTES>& out) {
-            join_parts<Floats<32>>([&](size_t i) { return near_floats(of_places + near[r + i].first); }, out);
+    NearFloats squares[4], sums[4];
+    for (size_t r = 0; r < 4; r += SIDE_BY_SIDE) {
+        const auto of_ring = [&](const float* values, Floats<BYTES>& out) {
+            join([&](size_t i) { return ways.of_ring(values, r + i); }, out);
         };
-        const auto of_rows = [&](size_t step, Floats<BYTES>& out) {
-            typename Vectors<BYTES>::Keys codes;
-            join_parts<Vectors<32>::Keys>([&](size_t i) { return four_codes(near[r + i].codes + step); },
-                                          codes);
-            out = __builtin_convertvector(codes, Floats<BYTES>) * border.quantum;
+        const auto of_source = [&](const float* values, Floats<BYTES>& out) {
+            join([&](size_t i) { return ways.of_source(values, r + i); }, out);
         };
         SeenSegments<Floats<BYTES>> seen;
-        of_border(border.length, seen.segments.length);
-        of_border(border.half_inverse, seen.segments.half_inverse);
-        of_border(border.foot, seen.foot);
-        of_border(border.height, seen.height);
+        of_ring(border.length, seen.segments.length);
+        of_ring(border.half_inverse, seen.segments.half_inverse);
+        of_source(border.foot, seen.foot);
+        of_source(border.height, seen.height);
         Floats<BYTES> first, second, sum, square;
-        of_rows(0, first);
-        of_rows(1, second);
-        of_border(border.distance, sum);
+        codes_near<BYTES>(ways, r, first, second);
+        first *= border.quantum;
+        second *= border.quantum;
+        of_source(border.distance, sum);
         sum += first;
         seen.square_across(first, second, square);
-        std::memcpy(sums + 4 * r, &sum, sizeof sum);
-        std::memcpy(squares + 4 * r, &square, sizeof square);
+        split(sum, sums + r);
+        split(square, squares + r);
     }
+    NearFloats over;
+    least_lanes(squares, distances);
+    take_square_root(distances);
+    pick_lanes<Rings::REACH>(sums, over);
+    lower(distances, over);
+}
+
+// Each over its row, in groups of four, the last one filled up by its first way.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void measure(const SeenBorder& seen_border, const int32_t* places, Rows rows,
+                                           float* distances) {
+    const SeenBorder border = seen_border; // which nothing that is written can change
+    const size_t count = rows.size();
+    NearFloats measured;
+    size_t r = 0;
+    for (; r + 4 <= count; r += 4) {
+        measure_four<BYTES>(border, {places + r, rows.data() + r, 1, 0}, measured);
+        std::memcpy(distances + r, &measured, sizeof measured);
+    }
+    if (r == count) return;
+    int32_t last_places[4];
+    const uint16_t* last_rows[4];
+    for (size_t i = 0; i < 4; ++i) {
+        const size_t way = r + i < count ? r + i : r;
+        last_places[i] = places[way];
+        last_rows[i] = rows[way];
+    }
+    measure_four<BYTES>(border, {last_places, last_rows, 1, 0}, measured);
+    for (size_t i = 0; r + i < count; ++i) distances[r + i] = measured[i];
 }
 
 template <size_t BYTES>
 [[gnu::always_inline]] inline void cross(const SeenBorder& border, Rows rows, float* distances,
                                          uint16_t* winners) {
     int32_t places[ROWS];
-    Near near[ROWS + MOST_SIDE_BY_SIDE];
-    alignas(BYTES) float sums[4 * ROWS], squares[4 * ROWS];
     for (size_t done = 0; done < rows.size(); done += ROWS) {
-        const size_t part = std::min(ROWS, rows.size() - done);
-        find_near<BYTES>(border, rows.subspan(done, part), places, near);
-        measure_near<BYTES>(border, part, near, sums, squares);
-        for (size_t r = 0; r < part; ++r) {
-            const float* s = squares + 4 * r;
-            const float across = std::sqrt(std::min(std::min(s[0], s[1]), std::min(s[2], s[3])));
-            const float over = sums[4 * r + Rings::REACH];
-            distances[done + r] = places[r] == NO_PLACE ? INFINITE : std::min(over, across);
-        }
-        if (winners)
-            for (size_t r = 0; r < part; ++r) winners[done + r] = static_cast<uint16_t>(places[r]);
+        const Rows part = rows.subspan(done, std::min(ROWS, rows.size() - done));
+        const Missing missing = find_nearest_places<BYTES>(border, part, places);
+        measure<BYTES>(border, places, part, distances + done);
+        missing.for_each([&](size_t r) { distances[done + r] = INFINITE; });
+        if (!winners) continue;
+        for (size_t r = 0; r < part.size(); ++r) winners[done + r] = static_cast<uint16_t>(places[r]);
+        missing.for_each([&](size_t r) { winners[done + r] = SeenBorder::NO_PLACE; });
     }
+}
+
+// ---- From several sources
+
+// From each source over one row.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void measure_each(const SeenBorders& borders, const int32_t* places,
+                                                const uint16_t* row, float* distances) {
+    SeenBorder border = borders.first;
+    const size_t stride = borders.stride;
+    NearFloats measured;
+    for (size_t i = 0; i < SeenBorders::SOURCES; i += 4) {
+        measure_four<BYTES>(border, {places + i, &row, 0, stride}, measured);
+        std::memcpy(distances + i, &measured, sizeof measured);
+        for (const float** of_source : {&border.distance, &border.foot, &border.height})
+            *of_source += 4 * stride;
+    }
+}
+
+// Over four rows.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void cross_four(const SeenBorders& borders, const uint16_t* const* rows,
+                                              float* distances) {
+    constexpr size_t SOURCES = SeenBorders::SOURCES;
+    int32_t places[4 * SOURCES];
+    const Missing missing = find_nearest_places_of_each<BYTES>(borders, rows, places);
+    for (size_t r = 0; r < 4; ++r)
+        measure_each<BYTES>(borders, places + r * SOURCES, rows[r], distances + r * SOURCES);
+    missing.for_each([&](size_t way) { distances[way] = INFINITE; });
+}
+
+template <size_t BYTES>
+[[gnu::always_inline]] inline void cross_each(const SeenBorders& borders, Rows rows, float* distances) {
+    constexpr size_t SOURCES = SeenBorders::SOURCES;
+    size_t r = 0;
+    for (; r + 4 <= rows.size(); r += 4) cross_four<BYTES>(borders, rows.data() + r, distances + r * SOURCES);
+    if (r == rows.size()) return;
+    const uint16_t* last[4];
+    float last_distances[4 * SOURCES];
+    for (size_t i = 0; i < 4; ++i) last[i] = rows[r + i < rows.size() ? r + i : r];
+    cross_four<BYTES>(borders, last, last_distances);
+    std::copy_n(last_distances, (rows.size() - r) * SOURCES, distances + r * SOURCES);
 }
 
 // ---- For each kind of processor
 
+float see_baseline(const SeenBorder& border, const int32_t* is_own, int16_t* code, float* foot,
+                   float* height) {
+    return see<16>(border, is_own, code, foot, height);
+}
 void cross_baseline(const SeenBorder& border, Rows rows, float* distances, uint16_t* winners) {
     cross<16>(border, rows, distances, winners);
 }
+void cross_each_baseline(const SeenBorders& borders, Rows rows, float* distances) {
+    cross_each<16>(borders, rows, distances);
+}
 
 #ifdef __x86_64__
+[[gnu::target("avx2")]] float see_avx2(const SeenBorder& border, const int32_t* is_own, int16_t* code,
+                                       float* foot, float* height) {
+    return see<32>(border, is_own, code, foot, height);
+}
 [[gnu::target("avx2")]] void cross_avx2(const SeenBorder& border, Rows rows, float* distances,
                                         uint16_t* winners) {
     cross<32>(border, rows, distances, winners);
 }
+[[gnu::target("avx2")]] void cross_each_avx2(const SeenBorders& borders, Rows rows, float* distances) {
+    cross_each<32>(borders, rows, distances);
+}
 
+[[gnu::target("avx512bw,avx512vl")]] float see_avx512(const SeenBorder& border, const int32_t* is_own,
+                                                      int16_t* code, float* foot, float* height) {
+    return see<64>(border, is_own, code, foot, height);
+}
 [[gnu::target("avx512bw,avx512vl")]] void cross_avx512(const SeenBorder& border, Rows rows, float* distances,
                                                        uint16_t* winners) {
     cross<64>(border, rows, distances, winners);
 }
+[[gnu::target("avx512bw,avx512vl")]] void cross_each_avx512(const SeenBorders& borders, Rows rows,
+                                                            float* distances) {
+    cross_each<64>(borders, rows, distances);
+}
 #endif
 
 constexpr CrossingKernel KERNELS[] = {
-    {"baseline", cross_baseline},
+    {"baseline", see_baseline, cross_baseline, cross_each_baseline},
 #ifdef __x86_64__
-    {"AVX2", cross_avx2},
-    {"AVX-512", cross_avx512},
+    {"AVX2", see_avx2, cross_avx2, cross_each_avx2},
+    {"AVX-512", see_avx512, cross_avx512, cross_each_avx512},
 #endif
 };
 

@@ -17,23 +17,38 @@ struct SeenBorder {
 
     size_t places;
     const int16_t* code;
-    const float* distance;
+    const float* distance;              // infinity behind the last place, too, up to whole blocks
     const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
     const float *foot, *height;         // of the source, seen from the segment
     float quantum;                      // of the rows
 };
 
+// The same border as seen from several sources at once.
+struct SeenBorders {
+    static constexpr size_t SOURCES = 16;
+
+    SeenBorder first;    // from the first source
+    size_t stride;       // from one source's distances, feet and heights to the next one's
+    const int16_t* code; // [place * SOURCES + source]
+};
+
 // Rows of a table, each one code a place.
 using Rows = std::span<const uint16_t* const>;
-
-// distances[r]: the least way over a place and row r, straightened over the segments near the place where
-// that is shorter, or infinity; winners[r], if not NULL: that place, or NO_PLACE.
-using CrossFunction = void (*)(const SeenBorder& border, Rows rows, float* distances, uint16_t* winners);
 
 // For one kind of processor.
 struct CrossingKernel {
     const char* name;
-    CrossFunction cross;
+
+    // Fills code, foot and height, which are the border's own, from the rest of it; codes only where is_own
+    // is -1, not 0. Returns the distance of the nearest place; if it is infinity, it fills nothing.
+    float (*see)(const SeenBorder& border, const int32_t* is_own, int16_t* code, float* foot, float* height);
+
+    // distances[r]: the least way over a place and row r, straightened over the segments near the place where
+    // that is shorter, or infinity; winners[r], if not NULL: that place, or NO_PLACE.
+    void (*cross)(const SeenBorder& border, Rows rows, float* distances, uint16_t* winners);
+
+    // The same from each source: distances[r * SOURCES + source].
+    void (*cross_each)(const SeenBorders& borders, Rows rows, float* distances);
 };
 
 // Those that this processor can run, the fastest last. All give the same bits.

@@ -38,15 +38,6 @@ void GraphQuery::msad(std::span<const uint32_t> sources, float, std::span<float>
     for (uint32_t leaf = index_.first_leaf(); leaf < index_.patch_count(); ++leaf) fill_leaf(leaf);
 }
 
-void GraphQuery::ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
-    one_field_.resize(index_.vertex_count());
-    for (size_t i = 0; i < sources.size(); ++i) {
-        msad(sources.subspan(i, 1), INFINITE, one_field_);
-        for (size_t number = 0; number < one_field_.size(); ++number)
-            distances[number * sources.size() + i] = one_field_[number];
-    }
-}
-
 void GraphQuery::start_from(uint32_t source) {
     distance_[source] = 0;
     if (index_.is_border(source))

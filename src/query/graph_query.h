@@ -25,9 +25,6 @@ public:
     // distance[number], of every vertex, whatever the radius.
     void msad(std::span<const uint32_t> sources, float radius, std::span<float> distance);
 
-    // distances[number * sources.size() + i], of each source by itself.
-    void ssad_each(std::span<const uint32_t> sources, std::span<float> distances);
-
 private:
     // msad.cpp
     void start_from(uint32_t source);
@@ -50,8 +47,7 @@ private:
 
     const Index& index_;
     uint32_t prepared_ = NONE;
-    ArcQueue queue_;         // of SSSD
-    Array<float> one_field_; // of ssad_each()
+    ArcQueue queue_; // of SSSD
 
     // MSAD: distances by number, the caller's; which inner patches have sources below them.
     std::span<float> distance_;

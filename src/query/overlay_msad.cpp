@@ -11,13 +11,6 @@ constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
 void lower(float& distance, float candidate) { distance = std::min(distance, candidate); }
 
-// The child of a patch that has `inside` in it; NONE from there on.
-uint32_t next_inwards(const Index& index, uint32_t patch, uint32_t inside) {
-    if (inside == patch) return NONE;
-    while (index.parent[inside] != patch) inside = index.parent[inside];
-    return inside;
-}
-
 uint32_t most_rows(const Index& index) {
     uint32_t most = 0;
     for (uint32_t p = 0; p < index.first_leaf(); ++p) most = std::max(most, index.overlay_size(p));
@@ -29,8 +22,8 @@ uint32_t most_rows(const Index& index) {
 
 OverlayMsad::OverlayMsad(const Index& index, std::pmr::memory_resource* memory)
     : index_(index), tables_(index.overlay_tables), field_(index, memory), rows_(memory),
-      out_(most_rows(index), memory), sources_below_(index.patch_count(), memory), next_around_(memory) {
-    rows_.reserve(out_.size());
+      out_(most_rows(index), memory), sources_below_(index.patch_count(), memory) {
+    rows_.resize(out_.size());
 }
 
 void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
@@ -40,26 +33,6 @@ void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::sp
     // A patch that all sources lie in has its distances already.
     for (uint32_t p = 1; p < index_.patch_count(); ++p)
         if (sources_below_[p] < sources.size()) descend(p, radius, field);
-}
-
-void OverlayMsad::sweep_each(std::span<const uint32_t> sources, std::span<float> distances) {
-    const auto field = [&](size_t i) { return DistanceField{distances.data() + i, sources.size()}; };
-    std::ranges::fill(distances, INFINITE);
-    for (size_t i = 0; i < sources.size(); ++i) climb(sources.subspan(i, 1), field(i));
-    // Patches that a source lies in have its distances already: they are met from the whole mesh inwards.
-    next_around_.assign(sources.size(), 0);
-    for (uint32_t p = 0; p < index_.patch_count(); ++p)
-        for (size_t i = 0; i < sources.size(); ++i) {
-            if (p == next_around_[i])
-                next_around_[i] = next_inwards(index_, p, index_.entry(sources[i]));
-            else
-                descend(p, INFINITE, field(i));
-        }
-}
-
-void OverlayMsad::sweep_up(uint32_t source, std::span<float> distance) {
-    std::ranges::fill(distance, INFINITE);
-    climb({&source, 1}, {distance.data()});
 }
 
 void OverlayMsad::climb(std::span<const uint32_t> sources, DistanceField distance) {
@@ -109,8 +82,11 @@ void OverlayMsad::descend(uint32_t patch, float radius, DistanceField distance) 
     const auto out =
         hop(patch, tables_.quantum[patch], tables_.inner_tables.data() + index_.inner_row(patch, 0),
             index_.inner_size(patch), distance, radius);
-    const uint32_t first = index_.first_inner(patch);
-    for (size_t i = 0; i < out.size(); ++i) lower(distance[first + i], out[i]);
+    float* d = &distance[index_.first_inner(patch)];
+    for (const float candidate : out) {
+        lower(*d, candidate);
+        d += distance.stride;
+    }
 }
 
 // From the border of a patch over rows of its tables, unless all of it is beyond the radius.
@@ -126,9 +102,9 @@ std::span<const float> OverlayMsad::hop(uint32_t patch, float quantum, const uin
         std::ranges::fill(out, INFINITE);
         return out;
     }
-    rows_.resize(count);
-    for (size_t i = 0; i < count; ++i) rows_[i] = first_row + i * places;
-    field_.cross(rows_, out.data(), nullptr);
+    const uint16_t** row = rows_.data();
+    for (size_t i = 0; i < count; ++i, first_row += places) row[i] = first_row;
+    field_.cross({row, count}, out.data(), nullptr);
     return out;
 }
 

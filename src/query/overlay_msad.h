@@ -25,15 +25,11 @@ public:
     // infinity.
     void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance);
 
-    // The distances of each source by itself: distances[number * sources.size() + i] from the i-th. Each
-    // table is read once.
-    void sweep_each(std::span<const uint32_t> sources, std::span<float> distances);
-
-    // The first half: distances to the overlays of all patches that the source lies in; infinity elsewhere.
-    void sweep_up(uint32_t source, std::span<float> distance);
+    // The first half, into a field of infinity: distances to the overlays of all patches that a source lies
+    // in.
+    void climb(std::span<const uint32_t> sources, DistanceField distance);
 
 private:
-    void climb(std::span<const uint32_t> sources, DistanceField distance);
     void start_from(uint32_t source, DistanceField distance);
     void ascend(uint32_t child, DistanceField distance);
     void descend(uint32_t patch, float radius, DistanceField distance);
@@ -46,7 +42,6 @@ private:
     Array<const uint16_t*> rows_;
     Array<float> out_;              // per row
     Array<uint32_t> sources_below_; // per patch
-    Array<uint32_t> next_around_;   // per source of sweep_each()
 };
 
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+
+#include "src/query/overlay_batch.h"
 #include "src/query/overlay_msad.h"
 #include "src/query/overlay_sssd.h"
 
@@ -10,8 +13,8 @@ namespace geodesic {
 class OverlayQuery {
 public:
     OverlayQuery(const Index& index, std::pmr::memory_resource* memory)
-        : pairs_(index, memory), sweeps_(index, memory), vertex_count_(index.vertex_count()),
-          prepared_distance_(memory) {}
+        : pairs_(index, memory), sweeps_(index, memory), batch_(index, memory),
+          vertex_count_(index.vertex_count()), prepared_distance_(memory) {}
 
     // Symmetric bit for bit if low < high.
     float sssd(uint32_t low, uint32_t high) { return pairs_.distance(low, high); }
@@ -19,8 +22,8 @@ public:
     // From then on prepared_sssd() is from this source.
     void prepare(uint32_t source) {
         prepared_ = source;
-        prepared_distance_.resize(vertex_count_);
-        sweeps_.sweep_up(source, prepared_distance_);
+        prepared_distance_.assign(vertex_count_, std::numeric_limits<float>::infinity());
+        sweeps_.climb({&source, 1}, {prepared_distance_.data()});
     }
     float prepared_sssd(uint32_t target) {
         return pairs_.distance_from(prepared_, prepared_distance_, target);
@@ -31,14 +34,17 @@ public:
         sweeps_.sweep(sources, radius, distance);
     }
 
-    // distances[number * sources.size() + i], of each source by itself.
+    // distances[number * FIELDS_AT_ONCE + i], of each source by itself, of which there are 1 to so many. With
+    // fewer than FEWEST_AT_ONCE it is faster to ask for each.
+    static constexpr size_t FIELDS_AT_ONCE = OverlayBatch::SOURCES, FEWEST_AT_ONCE = 6;
     void ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
-        sweeps_.sweep_each(sources, distances);
+        batch_.sweep(sources, sweeps_, distances);
     }
 
 private:
     OverlaySssd pairs_;
     OverlayMsad sweeps_;
+    OverlayBatch batch_;
     size_t vertex_count_;
     uint32_t prepared_ = NONE;
     Array<float> prepared_distance_; // by number: of sweep_up()

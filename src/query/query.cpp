@@ -64,11 +64,20 @@ void Query::check_count(std::span<const float> distances, uint64_t fields) const
     if (fields == 0) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "there is no source");
 }
 
+void Query::write_by_id(std::span<float> field) const {
+    const uint32_t* number = index_.number_of_id.data();
+    for (float& d : field) {
+        d = *number == NONE ? INFINITE : distance_[*number];
+        ++number;
+    }
+}
+
 // Of fields that lie side by side: the one pass over them reads each line of memory once.
 void Query::write_by_id(std::span<float* const> fields) const {
+    constexpr size_t STRIDE = OverlayQuery::FIELDS_AT_ONCE;
     for (size_t id = 0; id < index_.id_count; ++id) {
         const uint32_t number = index_.number_of_id[id];
-        const float* by_field = distance_.data() + (number == NONE ? 0 : number) * fields.size();
+        const float* by_field = distance_.data() + size_t{number == NONE ? 0 : number} * STRIDE;
         for (size_t i = 0; i < fields.size(); ++i) fields[i][id] = number == NONE ? INFINITE : by_field[i];
     }
 }
@@ -82,8 +91,7 @@ void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<f
         if (const uint32_t source = number_of(id); source != NONE) sources_.push_back(source);
     const auto by_number = std::span(distance_).first(index_.vertex_count());
     std::visit([&](auto& engine) { engine.msad(sources_, radius, by_number); }, engine_);
-    float* const field = distances.data();
-    write_by_id({&field, 1});
+    write_by_id(distances);
     if (radius < INFINITE)
         for (float& d : distances)
             if (d > radius) d = INFINITE;
@@ -91,28 +99,42 @@ void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<f
 }
 
 void Query::ssad_each(std::span<const uint32_t> source_ids, std::span<float> distances) {
+    constexpr size_t AT_ONCE = OverlayQuery::FIELDS_AT_ONCE;
     check_count(distances, source_ids.size());
-    constexpr size_t AT_ONCE = 16;
-    const size_t at_once = std::min(AT_ONCE, source_ids.size()) * index_.vertex_count();
-    if (distance_.size() < at_once) distance_.resize(at_once);
-    for (size_t done = 0; done < source_ids.size(); done += AT_ONCE) {
-        const auto ids = source_ids.subspan(done, std::min(AT_ONCE, source_ids.size() - done));
-        std::array<float*, AT_ONCE> fields;
-        sources_.clear();
-        for (size_t i = 0; i < ids.size(); ++i) {
-            const auto out = distances.subspan((done + i) * index_.id_count, index_.id_count);
-            if (const uint32_t source = number_of(ids[i]); source != NONE) {
-                fields[sources_.size()] = out.data();
-                sources_.push_back(source);
-            } else {
-                std::ranges::fill(out, INFINITE);
-            }
-        }
-        const auto by_number = std::span(distance_).first(sources_.size() * index_.vertex_count());
-        std::visit([&](auto& engine) { engine.ssad_each(sources_, by_number); }, engine_);
-        write_by_id(std::span(fields).first(sources_.size()));
-        for (size_t i = 0; i < ids.size(); ++i) distances[(done + i) * index_.id_count + ids[i]] = 0;
+    for (uint32_t id : source_ids) number_of(id);
+    auto* const overlay = std::get_if<OverlayQuery>(&engine_);
+    for (size_t done = 0; done < source_ids.size();) {
+        const size_t left = source_ids.size() - done;
+        const size_t count = overlay && left >= OverlayQuery::FEWEST_AT_ONCE ? std::min(AT_ONCE, left) : 1;
+        const auto ids = source_ids.subspan(done, count);
+        const auto fields = distances.subspan(done * index_.id_count, count * index_.id_count);
+        if (count == 1)
+            msad(ids, INFINITE, fields);
+        else
+            ssad_at_once(*overlay, ids, fields);
+        done += count;
     }
+}
+
+void Query::ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_ids,
+                         std::span<float> distances) {
+    std::array<float*, OverlayQuery::FIELDS_AT_ONCE> fields;
+    sources_.clear();
+    for (size_t i = 0; i < source_ids.size(); ++i) {
+        const auto field = distances.subspan(i * index_.id_count, index_.id_count);
+        if (const uint32_t source = number_of(source_ids[i]); source != NONE) {
+            fields[sources_.size()] = field.data();
+            sources_.push_back(source);
+        } else {
+            std::ranges::fill(field, INFINITE);
+        }
+    }
+    if (!sources_.empty()) {
+        distance_.resize(fields.size() * index_.vertex_count());
+        engine.ssad_each(sources_, distance_);
+        write_by_id(std::span(fields).first(sources_.size()));
+    }
+    for (size_t i = 0; i < source_ids.size(); ++i) distances[i * index_.id_count + source_ids[i]] = 0;
 }
 
 }

@@ -30,13 +30,15 @@ public:
 private:
     uint32_t number_of(uint32_t id) const;
     void check_count(std::span<const float> distances, uint64_t fields) const;
+    void ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_ids, std::span<float> distances);
+    void write_by_id(std::span<float> field) const;
     void write_by_id(std::span<float* const> fields) const;
 
     const Index& index_;
     std::variant<GraphQuery, OverlayQuery> engine_;
     uint32_t prepared_id_ = NONE, prepared_ = NONE;
     Array<uint32_t> sources_; // of MSAD, by number
-    Array<float> distance_;   // by number; of several fields side by side
+    Array<float> distance_;   // by number; of ssad_at_once() side by side
 };
 
 }

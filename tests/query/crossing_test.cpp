@@ -172,3 +172,102 @@ TEST_CASE("crossing: ways of which one end is out of reach") {
         CHECK(double{crossed.distances[2]} == doctest::Approx(6).epsilon(1e-3));
     }
 }
+
+TEST_CASE("crossing: what is seen of a border, by every kernel") {
+    std::mt19937 random(4);
+    for (size_t places : {5u, 16u, 33u, 70u, 129u}) {
+        const Point source{9, -4};
+        FlatBorder border(places, source, {{3, 2}}, random);
+        const size_t room = border.code.size();
+        std::fill(border.to_source.begin() + static_cast<std::ptrdiff_t>(places), border.to_source.end(),
+                  INFINITE);
+        if (places > 30) border.to_source[20] = INFINITE;
+        std::vector<int32_t> is_own(room, -1);
+        is_own[0] = is_own[1] = is_own[places - 2] = is_own[places - 1] = 0;
+        float nearest = INFINITE;
+        for (size_t k = 0; k < places; ++k) nearest = std::min(nearest, border.to_source[k]);
+        for (const CrossingKernel& kernel : crossing_kernels()) {
+            CAPTURE(kernel.name);
+            CAPTURE(places);
+            std::vector<int16_t> code(room, 77);
+            std::vector<float> foot(room), height(room);
+            const SeenBorder seen{places,
+                                  code.data(),
+                                  border.to_source.data(),
+                                  border.length.data(),
+                                  border.half_inverse.data(),
+                                  foot.data(),
+                                  height.data(),
+                                  border.quantum};
+            CHECK(kernel.see(seen, is_own.data(), code.data(), foot.data(), height.data()) == nearest);
+            uint64_t wrong = 0;
+            for (size_t k = 0; k < (places + SeenBorder::BLOCK - 1) / SeenBorder::BLOCK * SeenBorder::BLOCK;
+                 ++k) {
+                const bool is_seen = k < places && is_own[k] && border.to_source[k] < INFINITE;
+                const double steps = (double{border.to_source[k]} - double{nearest}) / double{border.quantum};
+                wrong += is_seen ? std::abs(code[k] - SeenBorder::NEAREST - std::min(steps, 32766.0)) > 0.51
+                                 : code[k] != SeenBorder::NOT_SEEN;
+            }
+            for (size_t k = 0; k + 1 < places; ++k) {
+                if (border.to_source[k] == INFINITE || border.to_source[k + 1] == INFINITE) continue;
+                wrong += std::abs(foot[k] - border.foot[k]) > 1e-3f * border.to_source[k];
+                wrong += std::abs(height[k] - border.height[k]) > 1e-3f * border.to_source[k];
+            }
+            CHECK(wrong == 0);
+            const std::vector<float> nothing(room, INFINITE);
+            SeenBorder unseen = seen;
+            unseen.distance = nothing.data();
+            CHECK(kernel.see(unseen, is_own.data(), code.data(), foot.data(), height.data()) == INFINITE);
+        }
+    }
+}
+
+TEST_CASE("crossing: from each of several sources as from each alone, by every kernel") {
+    constexpr size_t SOURCES = SeenBorders::SOURCES;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> along(-5, 60), off(0.5, 30);
+    for (size_t places : {5u, 17u, 48u, 130u})
+        for (size_t targets : {1u, 4u, 7u, 70u}) {
+            std::vector<Point> points;
+            for (size_t i = 0; i < targets; ++i) points.push_back({along(random), off(random)});
+            std::vector<FlatBorder> borders;
+            for (size_t i = 0; i < SOURCES; ++i) {
+                auto same = std::mt19937(6); // the same border from another source
+                borders.emplace_back(places, Point{along(random), -off(random)}, points, same);
+            }
+            if (places > 40) // a row that nothing is seen over, but from one source
+                for (size_t k = 0; k < places; ++k)
+                    if (k != 30) borders[0].codes[k] = OverlayTables::UNREACHED;
+            borders[3].code[30 % places] = SeenBorder::NOT_SEEN;
+            const size_t stride = borders[0].foot.size();
+            std::vector<float> distance, foot, height;
+            std::vector<int16_t> code(stride * SOURCES);
+            for (size_t i = 0; i < SOURCES; ++i) {
+                borders[i].quantum = borders[0].quantum;
+                distance.insert(distance.end(), borders[i].to_source.begin(), borders[i].to_source.end());
+                foot.insert(foot.end(), borders[i].foot.begin(), borders[i].foot.end());
+                height.insert(height.end(), borders[i].height.begin(), borders[i].height.end());
+                for (size_t k = 0; k < places; ++k) code[k * SOURCES + i] = borders[i].code[k];
+            }
+            SeenBorder first = borders[0].seen();
+            first.distance = distance.data();
+            first.foot = foot.data();
+            first.height = height.data();
+            first.places = places;
+            for (const CrossingKernel& kernel : crossing_kernels()) {
+                CAPTURE(kernel.name);
+                std::vector<float> each(targets * SOURCES);
+                kernel.cross_each({first, stride, code.data()}, borders[0].rows, each.data());
+                uint64_t wrong = 0;
+                for (size_t i = 0; i < SOURCES; ++i) {
+                    SeenBorder alone = borders[i].seen();
+                    alone.places = places;
+                    const Crossed crossed = cross(kernel, alone, borders[0].rows);
+                    for (size_t r = 0; r < targets; ++r)
+                        wrong +=
+                            std::memcmp(&crossed.distances[r], &each[r * SOURCES + i], sizeof(float)) != 0;
+                }
+                CHECK(wrong == 0);
+            }
+        }
+}

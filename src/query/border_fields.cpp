@@ -1,0 +1,102 @@
+#include "src/query/border_fields.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "src/query/lanes.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
+constexpr size_t BLOCK = SeenBorder::BLOCK;
+
+// From one source's places to the next one's.
+constexpr size_t stride_of(size_t places) { return (places + BLOCK - 1) / BLOCK * BLOCK + BLOCK; }
+
+// Four places of four sources: rows become columns.
+void transpose(NearFloats four[4]) {
+    const NearFloats low_01 = __builtin_shufflevector(four[0], four[1], 0, 4, 1, 5);
+    const NearFloats low_23 = __builtin_shufflevector(four[2], four[3], 0, 4, 1, 5);
+    const NearFloats high_01 = __builtin_shufflevector(four[0], four[1], 2, 6, 3, 7);
+    const NearFloats high_23 = __builtin_shufflevector(four[2], four[3], 2, 6, 3, 7);
+    four[0] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
+    four[1] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
+    four[2] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
+    four[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
+}
+
+}
+
+BorderFields::BorderFields(const Index& index, std::pmr::memory_resource* memory)
+    : rings_(index.overlay_tables.rings), kernel_(crossing_kernels().back()), distance_(memory),
+      foot_(memory), height_(memory), code_(memory), code_of_one_(memory) {
+    const size_t most = stride_of(rings_.largest_size());
+    for (Array<float>* of_each : {&distance_, &foot_, &height_}) of_each->resize(SOURCES * most);
+    code_.resize(SOURCES * most);
+    code_of_one_.resize(most);
+}
+
+bool BorderFields::see(uint32_t patch, float quantum, const float* distances) {
+    const uint32_t first = rings_.begin[patch], places = rings_.size(patch);
+    const SeenBorder border{places,
+                            code_of_one_.data(),
+                            distance_.data(),
+                            rings_.segment_length.data() + first,
+                            rings_.half_inverse.data() + first,
+                            foot_.data(),
+                            height_.data(),
+                            quantum};
+    borders_ = {border, stride_of(places), code_.data()};
+    gather(rings_.vertex.data() + first, distances);
+    size_t reached = SOURCES; // a source that is
+    for (size_t i = 0; i < SOURCES; ++i) {
+        const size_t begin = i * borders_.stride;
+        SeenBorder of_source = border;
+        of_source.distance += begin;
+        is_reached_[i] = kernel_.see(of_source, rings_.is_own.data() + first, code_of_one_.data(),
+                                     foot_.data() + begin, height_.data() + begin) < INFINITE;
+        if (!is_reached_[i]) continue;
+        reached = i;
+        for (size_t k = 0; k < places; ++k) code_[k * SOURCES + i] = code_of_one_[k];
+    }
+    if (reached == SOURCES) return false;
+    all_reached_ = std::ranges::find(is_reached_, false) == is_reached_.end();
+    for (size_t i = 0; i < SOURCES && !all_reached_; ++i)
+        if (!is_reached_[i]) copy_source(reached, i);
+    return true;
+}
+
+void BorderFields::gather(const uint32_t* vertices, const float* distances) {
+    const size_t places = borders_.first.places, stride = borders_.stride;
+    for (size_t k = 0; k < places; k += 4)
+        for (size_t i = 0; i < SOURCES; i += 4) {
+            NearFloats four[4];
+            for (size_t j = 0; j < 4; ++j)
+                four[j] = near_floats(distances + size_t{vertices[k + j]} * SOURCES + i);
+            transpose(four);
+            for (size_t j = 0; j < 4; ++j)
+                std::memcpy(distance_.data() + (i + j) * stride + k, &four[j], sizeof four[j]);
+        }
+    for (size_t i = 0; i < SOURCES; ++i) std::fill_n(distance_.data() + i * stride + places, BLOCK, INFINITE);
+}
+
+// So that no source is without a way, which takes long.
+void BorderFields::copy_source(size_t from, size_t to) {
+    const size_t places = borders_.first.places, stride = borders_.stride;
+    for (Array<float>* of_each : {&distance_, &foot_, &height_})
+        std::copy_n(of_each->data() + from * stride, stride, of_each->data() + to * stride);
+    for (size_t k = 0; k < places; ++k) code_[k * SOURCES + to] = code_[k * SOURCES + from];
+}
+
+void BorderFields::cross(Rows rows, float* distances) const {
+    kernel_.cross_each(borders_, rows, distances);
+    if (all_reached_) return;
+    for (size_t r = 0; r < rows.size(); ++r)
+        for (size_t i = 0; i < SOURCES; ++i)
+            if (!is_reached_[i]) distances[r * SOURCES + i] = INFINITE;
+}
+
+}

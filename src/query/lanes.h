@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+#include "src/index/unfolding.h"
+
+namespace geodesic {
+
+// Vectors of the kernels, of the width of a processor. All functions are always inlined and take vectors by
+// reference, as those of unfolding.h.
+template <size_t BYTES>
+struct Lanes {
+    static constexpr size_t CODES = BYTES / sizeof(int16_t), FLOATS = BYTES / sizeof(float);
+    using Codes [[gnu::vector_size(BYTES)]] = int16_t;
+    using CodesAnywhere [[gnu::vector_size(BYTES), gnu::aligned(2), gnu::may_alias]] = int16_t;
+    using Keys [[gnu::vector_size(BYTES)]] = int32_t;
+};
+
+using FourKeys = Lanes<16>::Keys;
+
+template <class T, size_t BYTES>
+struct VectorOf {
+    using Type [[gnu::vector_size(BYTES)]] = T;
+};
+
+using EightCodes [[gnu::vector_size(16)]] = uint16_t;
+[[gnu::always_inline]] inline EightCodes load_eight(const uint16_t* first) {
+    EightCodes codes;
+    std::memcpy(&codes, first, sizeof codes);
+    return codes;
+}
+
+template <class V>
+[[gnu::always_inline]] inline void lower(V& least, const V& others) {
+    least = others < least ? others : least;
+}
+
+// least[i]: the least lane of four[i].
+template <class Four>
+[[gnu::always_inline]] inline void least_lanes(const Four four[4], Four& least) {
+    Four pair[2];
+    for (int i = 0; i < 2; ++i) {
+        const Four &a = four[2 * i], &b = four[2 * i + 1];
+        pair[i] = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+        lower<Four>(pair[i], __builtin_shufflevector(a, b, 2, 6, 3, 7));
+    }
+    least = __builtin_shufflevector(pair[0], pair[1], 0, 1, 4, 5);
+    lower<Four>(least, __builtin_shufflevector(pair[0], pair[1], 2, 3, 6, 7));
+}
+
+// lane[i]: lane I of four[i].
+template <int I, class Four>
+[[gnu::always_inline]] inline void pick_lanes(const Four four[4], Four& lane) {
+    lane = __builtin_shufflevector(__builtin_shufflevector(four[0], four[1], I, I + 4, I, I + 4),
+                                   __builtin_shufflevector(four[2], four[3], I, I + 4, I, I + 4), 0, 1, 4, 5);
+}
+
+// The lanes of a vector, four by four.
+template <class Wide, class Four>
+[[gnu::always_inline]] inline void split(const Wide& wide, Four* four) {
+    if constexpr (sizeof wide == sizeof(Four)) {
+        four[0] = wide;
+    } else if constexpr (sizeof wide == 2 * sizeof(Four)) {
+        four[0] = __builtin_shufflevector(wide, wide, 0, 1, 2, 3);
+        four[1] = __builtin_shufflevector(wide, wide, 4, 5, 6, 7);
+    } else {
+        four[0] = __builtin_shufflevector(wide, wide, 0, 1, 2, 3);
+        four[1] = __builtin_shufflevector(wide, wide, 4, 5, 6, 7);
+        four[2] = __builtin_shufflevector(wide, wide, 8, 9, 10, 11);
+        four[3] = __builtin_shufflevector(wide, wide, 12, 13, 14, 15);
+    }
+}
+
+template <class Half, class Wide, size_t... I>
+[[gnu::always_inline]] inline void concatenate(const Half& low, const Half& high, Wide& wide,
+                                               std::index_sequence<I...>) {
+    wide = __builtin_shufflevector(low, high, static_cast<int>(I)...);
+}
+
+// part(0), part(1) ..., of 16 bytes each, side by side.
+template <class Part, class Wide>
+[[gnu::always_inline]] inline void join(const Part& part, Wide& wide) {
+    using Lane = std::remove_cvref_t<decltype(wide[0])>;
+    constexpr std::make_index_sequence<sizeof wide / sizeof(Lane)> ALL;
+    if constexpr (sizeof wide == 16) {
+        wide = part(0);
+    } else if constexpr (sizeof wide == 32) {
+        concatenate(part(0), part(1), wide, ALL);
+    } else {
+        typename VectorOf<Lane, 32>::Type low, high;
+        join(part, low);
+        join([&](size_t i) { return part(i + 2); }, high);
+        concatenate(low, high, wide, ALL);
+    }
+}
+
+// Of each 16 bytes of codes four, from the STEP-th on.
+template <size_t STEP, class Codes, class Numbers, size_t... I>
+[[gnu::always_inline]] inline void widen_four(const Codes& codes, Numbers& numbers,
+                                              std::index_sequence<I...>) {
+    constexpr size_t ZERO = sizeof...(I);
+    numbers = reinterpret_cast<Numbers>(__builtin_shufflevector(
+        codes, Codes{}, static_cast<int>(I % 2 ? ZERO : I / 8 * 8 + STEP + I % 8 / 2)...));
+}
+
+// The least lanes of a wide vector, in four.
+template <class Wide, class Four>
+[[gnu::always_inline]] inline void fold(const Wide& wide, Four& least) {
+    constexpr size_t PARTS = sizeof wide / sizeof least;
+    Four parts[PARTS];
+    split(wide, parts);
+    least = parts[0];
+    for (size_t i = 1; i < PARTS; ++i) lower(least, parts[i]);
+}
+
+}

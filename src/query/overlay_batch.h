@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "src/index/index.h"
+#include "src/query/border_fields.h"
+#include "src/query/overlay_msad.h"
+
+namespace geodesic {
+
+// The fields of several sources, each by itself, in one sweep: each table is read once. Vertices are given by
+// their numbers.
+class OverlayBatch {
+public:
+    static constexpr size_t SOURCES = BorderFields::SOURCES;
+
+    OverlayBatch(const Index& index, std::pmr::memory_resource* memory);
+
+    // distances[number * SOURCES + i] from the i-th source, of which there are 1 to SOURCES; those of no
+    // source are undefined. climber: for the way up.
+    void sweep(std::span<const uint32_t> sources, OverlayMsad& climber, std::span<float> distances);
+
+private:
+    void descend(uint32_t patch, std::span<float> distances);
+    void enter(uint32_t patch);
+
+    const Index& index_;
+    const OverlayTables& tables_;
+    BorderFields fields_; // of the patch at hand
+    Array<const uint16_t*> rows_;
+    Array<float> out_;                            // per row, SOURCES each
+    std::array<uint32_t, SOURCES> source_{};      // the last one repeated
+    std::array<uint32_t, SOURCES> next_around_{}; // the next patch that each lies in
+    std::array<bool, SOURCES> is_outside_{};      // of the patch at hand
+};
+
+}
