@@ -57,7 +57,8 @@ struct OverlayTables {
         : quantum(memory), rings(memory), place_of_slot(memory), outer_begin(memory), inner_begin(memory),
           outer_tables(memory), inner_tables(memory), internal_tables(memory), coarse_rings(memory),
           coarse_places(memory), coarse_samples(memory), sample_count(memory), coarse_rows(memory),
-          coarse_begin(memory), coarse_tables(memory) {}
+          coarse_begin(memory), coarse_tables(memory), label_offset(memory), label_begin(memory),
+          labels(memory) {}
 
     float distance(uint16_t code, uint32_t patch) const {
         return code == UNREACHED ? std::numeric_limits<float>::infinity()
@@ -87,6 +88,16 @@ struct OverlayTables {
     std::pmr::vector<uint32_t> coarse_rows; // per patch: its samples' first row in the tables of its siblings
     std::pmr::vector<uint64_t> coarse_begin; // per patch
     std::pmr::vector<uint16_t> coarse_tables;
+
+    // The label of a vertex: its distances to the samples of each patch that it lies in beyond the first one
+    // (Index::entry()), from the outermost one inwards, without the whole mesh, in steps of the quantum of
+    // that patch's parent: the nearest one's, its low half and its high one, then how much longer each is, at
+    // most LARGEST. Labels choose a way, and do not measure it.
+    static constexpr uint32_t LABEL_HEAD = 2;
+    std::pmr::vector<uint32_t> label_offset; // per patch: where its samples begin in the labels of what lies
+                                             // deeper; where the labels of what lies just inside end
+    std::pmr::vector<uint64_t> label_begin;  // per patch: of what lies just inside
+    std::pmr::vector<uint16_t> labels;
 };
 
 }

@@ -192,6 +192,19 @@ template <size_t BYTES>
     }
 }
 
+template <size_t BYTES>
+[[gnu::always_inline]] inline void choose(const SeenBorder& border, Rows rows, uint16_t* winners) {
+    int32_t places[ROWS];
+    for (size_t done = 0; done < rows.size(); done += ROWS) {
+        const Rows part = rows.subspan(done, std::min(ROWS, rows.size() - done));
+        find_keys<BYTES>(border, part, places);
+        const Missing missing =
+            take_places(places, part.size(), [&](size_t r) { return choose_place(border, part[r]); });
+        for (size_t r = 0; r < part.size(); ++r) winners[done + r] = static_cast<uint16_t>(places[r]);
+        missing.for_each([&](size_t r) { winners[done + r] = SeenBorder::NO_PLACE; });
+    }
+}
+
 // ---- From several sources
 
 // From each source over one row.
@@ -243,6 +256,9 @@ float see_baseline(const SeenBorder& border, const int32_t* is_own, int16_t* cod
 void cross_baseline(const SeenBorder& border, Rows rows, float* distances, uint16_t* winners) {
     cross<16>(border, rows, distances, winners);
 }
+void choose_baseline(const SeenBorder& border, Rows rows, uint16_t* winners) {
+    choose<16>(border, rows, winners);
+}
 void cross_each_baseline(const SeenBorders& borders, Rows rows, float* distances) {
     cross_each<16>(borders, rows, distances);
 }
@@ -256,6 +272,9 @@ void cross_each_baseline(const SeenBorders& borders, Rows rows, float* distances
                                         uint16_t* winners) {
     cross<32>(border, rows, distances, winners);
 }
+[[gnu::target("avx2")]] void choose_avx2(const SeenBorder& border, Rows rows, uint16_t* winners) {
+    choose<32>(border, rows, winners);
+}
 [[gnu::target("avx2")]] void cross_each_avx2(const SeenBorders& borders, Rows rows, float* distances) {
     cross_each<32>(borders, rows, distances);
 }
@@ -268,6 +287,10 @@ void cross_each_baseline(const SeenBorders& borders, Rows rows, float* distances
                                                        uint16_t* winners) {
     cross<64>(border, rows, distances, winners);
 }
+[[gnu::target("avx512bw,avx512vl")]] void choose_avx512(const SeenBorder& border, Rows rows,
+                                                        uint16_t* winners) {
+    choose<64>(border, rows, winners);
+}
 [[gnu::target("avx512bw,avx512vl")]] void cross_each_avx512(const SeenBorders& borders, Rows rows,
                                                             float* distances) {
     cross_each<64>(borders, rows, distances);
@@ -275,10 +298,10 @@ void cross_each_baseline(const SeenBorders& borders, Rows rows, float* distances
 #endif
 
 constexpr CrossingKernel KERNELS[] = {
-    {"baseline", see_baseline, cross_baseline, cross_each_baseline},
+    {"baseline", see_baseline, cross_baseline, choose_baseline, cross_each_baseline},
 #ifdef __x86_64__
-    {"AVX2", see_avx2, cross_avx2, cross_each_avx2},
-    {"AVX-512", see_avx512, cross_avx512, cross_each_avx512},
+    {"AVX2", see_avx2, cross_avx2, choose_avx2, cross_each_avx2},
+    {"AVX-512", see_avx512, cross_avx512, choose_avx512, cross_each_avx512},
 #endif
 };
 

@@ -47,7 +47,10 @@ struct CrossingKernel {
     // that is shorter, or infinity; winners[r], if not NULL: that place, or NO_PLACE.
     void (*cross)(const SeenBorder& border, Rows rows, float* distances, uint16_t* winners);
 
-    // The same from each source: distances[r * SOURCES + source].
+    // winners[r]: the place with the least sum of codes, or NO_PLACE; reads no more of the border than these.
+    void (*choose)(const SeenBorder& border, Rows rows, uint16_t* winners);
+
+    // As cross() from each source: distances[r * SOURCES + source].
     void (*cross_each)(const SeenBorders& borders, Rows rows, float* distances);
 };
 

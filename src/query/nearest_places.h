@@ -139,6 +139,19 @@ inline int32_t find_nearest_place(const SeenBorder& border, const int16_t* code,
     return nearest;
 }
 
+// Likewise, by codes alone.
+inline int32_t choose_place(const SeenBorder& border, const uint16_t* row) {
+    int32_t least = std::numeric_limits<int32_t>::max(), place = SeenBorder::NO_PLACE;
+    for (size_t k = 0; k < border.places; ++k) {
+        if (border.code[k] == SeenBorder::NOT_SEEN || row[k] == OverlayTables::UNREACHED) continue;
+        const int32_t sum = border.code[k] + row[k];
+        if (sum >= least) continue;
+        least = sum;
+        place = static_cast<int32_t>(k);
+    }
+    return place;
+}
+
 // Where there is no way, the place is some one.
 template <class FindOne>
 [[gnu::always_inline]] inline Missing take_places(int32_t* keys, size_t count, const FindOne& find_one) {

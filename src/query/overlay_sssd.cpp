@@ -12,8 +12,9 @@ namespace {
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 constexpr uint32_t REACH = Rings::REACH;
 
-constexpr size_t WAYS = 2;              // that are measured
-constexpr float WORTH_MEASURING = 1.1f; // how long over samples, compared to the shortest
+constexpr size_t WAYS = 2;               // that are measured
+constexpr float WORTH_MEASURING = 1.05f; // how long over samples, compared to the shortest
+constexpr uint32_t MARGIN = 2;           // places more on each side where every vertex is a sample
 
 // Asks for memory that is going to be read soon.
 template <class T>
@@ -21,6 +22,17 @@ void prefetch(const T* first, size_t count) {
     constexpr size_t LINE = 64;
     const char* end = reinterpret_cast<const char*>(first + count);
     for (const char* at = reinterpret_cast<const char*>(first); at < end; at += LINE) __builtin_prefetch(at);
+}
+
+// Of a place at so many steps, for sums with table entries that choose a place.
+int16_t seen_code(int32_t is_own, float steps) {
+    if (!is_own || steps == INFINITE) return SeenBorder::NOT_SEEN;
+    return static_cast<int16_t>(SeenBorder::NEAREST +
+                                static_cast<int32_t>(std::min(steps, float{OverlayTables::LARGEST})));
+}
+int16_t seen_code(int32_t is_own, uint16_t code) {
+    if (!is_own || code == OverlayTables::UNREACHED) return SeenBorder::NOT_SEEN;
+    return static_cast<int16_t>(SeenBorder::NEAREST + code);
 }
 
 // A parent has a smaller number than its children.
@@ -33,13 +45,14 @@ uint32_t lowest_common_patch(const Index& index, uint32_t a, uint32_t b) {
 
 OverlaySssd::OverlaySssd(const Index& index, std::pmr::memory_resource* memory)
     : index_(index), tables_(index.overlay_tables), field_(index, memory), rows_(memory), from_(memory),
-      to_(memory), samples_(std::ranges::max(index.overlay_tables.sample_count), memory),
+      to_(memory), code_(memory), traced_(memory),
+      samples_(std::ranges::max(index.overlay_tables.sample_count), memory),
       winners_(samples_.size(), memory), from_window_(index.overlay_tables.rings.largest_size(), memory) {
     rows_.reserve(from_window_.size());
+    code_.resize(index.overlay_tables.coarse_rings.largest_size() + SeenBorder::BLOCK);
     for (End* end : {&from_, &to_}) {
         end->borders.reserve(index.level_count());
-        end->distance.reserve(index.level_count() * samples_.size());
-        end->winner.reserve(end->distance.capacity());
+        end->distance.resize(samples_.size());
         end->window_distance.resize(index.level_count() * from_window_.size());
     }
 }
@@ -51,11 +64,14 @@ struct OverlaySssd::FromEnd {
     End& end;
     uint32_t patch;
 
-    void samples(std::span<float> out) const {
-        search.cross_samples(end, search.tables_.coarse_rows[patch], out, search.winners_.data());
-    }
+    void samples(std::span<float> out) const { search.cross_samples(end, patch, out); }
     void trace(Samples samples) const {
-        search.trace(end, search.samples_before(patch, samples, search.winners_.data()));
+        const uint32_t* sample =
+            search.tables_.coarse_samples.data() + search.tables_.coarse_rings.begin[patch];
+        const std::array<uint16_t, 3> winners{search.winners_[sample[samples.first - 1]],
+                                              search.winners_[sample[samples.first]],
+                                              search.winners_[sample[samples.first + 1]]};
+        search.trace(end, search.range_of(winners));
     }
     void window(Window window, std::span<float> out) const {
         search.climb_windows(end);
@@ -94,8 +110,6 @@ float OverlaySssd::distance(uint32_t low, uint32_t high) {
         return tables_.distance(
             index_.overlay_code(top, index_.position_at_owner(low), index_.position_at_owner(high)), top);
     const bool both_climb = !low_is_there && !high_is_there;
-    prefetch_climb(high_is_there ? low : high, top);
-    if (both_climb) prefetch_climb(low, top);
     climb(high_is_there ? low : high, top, to_);
     const uint32_t patch = to_.borders.back().patch;
     if (both_climb) {
@@ -125,7 +139,7 @@ float OverlaySssd::meet(const From& from, End& to) {
     from.samples(distance);
     const Rings& rings = tables_.coarse_rings;
     const auto sum = [&](uint32_t k) {
-        return distance[tables_.coarse_samples[k]] + to.distance[border.samples + tables_.coarse_samples[k]];
+        return distance[tables_.coarse_samples[k]] + to.distance[tables_.coarse_samples[k]];
     };
     std::array<std::pair<float, uint32_t>, WAYS> ways; // shortest first
     ways.fill({INFINITE, 0});
@@ -184,78 +198,109 @@ auto OverlaySssd::distances_from(uint32_t vertex) const {
 
 // ---- Over samples
 
-// What climb() is going to read: most of the time it would wait for it, border after border.
-void OverlaySssd::prefetch_climb(uint32_t vertex, uint32_t top) const {
-    const Rings& rings = tables_.coarse_rings;
-    for (uint32_t patch = index_.entry(vertex); patch != top; patch = index_.parent[patch]) {
-        const uint32_t first = rings.begin[patch], places = rings.size(patch);
-        prefetch(rings.segment_length.data() + first, places);
-        prefetch(rings.half_inverse.data() + first, places);
-        prefetch(rings.is_own.data() + first, places);
-        prefetch(tables_.coarse_samples.data() + first, places);
-        prefetch(tables_.coarse_places.data() + first, places);
-        if (index_.parent[patch] != top)
-            prefetch(tables_.coarse_tables.data() + tables_.coarse_begin[patch],
-                     size_t{places} * tables_.sample_count[index_.parent[patch]]);
-    }
-}
-
+// The borders around a vertex below `top`, and its distances to the samples of the last one.
 void OverlaySssd::climb(uint32_t vertex, uint32_t top, End& end) {
     end.vertex = vertex;
     end.crossed = 0;
-    uint32_t patch = index_.entry(vertex);
-    end.borders.assign(1, {patch, 0, {0, 0}});
-    end.distance.resize(tables_.sample_count[patch]);
-    end.winner.resize(end.distance.size());
-    const auto distance = distances_from(vertex);
-    for (uint32_t k = tables_.coarse_rings.begin[patch]; k < tables_.coarse_rings.begin[patch + 1]; ++k)
-        end.distance[tables_.coarse_samples[k]] = distance(tables_.coarse_places[k]);
-    for (; index_.parent[patch] != top; patch = index_.parent[patch]) {
-        const uint32_t parent = index_.parent[patch], count = tables_.sample_count[parent];
-        const auto first = static_cast<uint32_t>(end.distance.size());
-        end.distance.resize(size_t{first} + count);
-        end.winner.resize(end.distance.size());
-        cross_samples(end, 0, std::span(end.distance).last(count), end.winner.data() + first);
-        end.borders.push_back({parent, first, {0, 0}});
+    end.borders.clear();
+    for (uint32_t patch = index_.entry(vertex); patch != top; patch = index_.parent[patch])
+        end.borders.push_back({patch, {0, 0}});
+    const uint32_t patch = end.borders.back().patch;
+    if (end.borders.size() == 1) {
+        const auto distance = distances_from(vertex);
+        for (uint32_t k = tables_.coarse_rings.begin[patch]; k < tables_.coarse_rings.begin[patch + 1]; ++k)
+            end.distance[tables_.coarse_samples[k]] = distance(tables_.coarse_places[k]);
+    } else {
+        const uint16_t* head = label(vertex, patch);
+        const uint16_t* code = head + OverlayTables::LABEL_HEAD;
+        const float nearest = static_cast<float>(head[0] + 0x10000u * head[1]) * tables_.quantum[top];
+        for (uint32_t i = 0; i < tables_.sample_count[patch]; ++i)
+            end.distance[i] = nearest + tables_.distance(code[i], top);
     }
 }
 
-// From the last border of an end over rows of its coarse table.
-void OverlaySssd::cross_samples(const End& end, uint32_t first_row, std::span<float> out, uint16_t* winners) {
+// Of the samples of a patch that a vertex lies in beyond its first one.
+const uint16_t* OverlaySssd::label(uint32_t vertex, uint32_t patch) const {
+    const uint32_t entry = index_.entry(vertex);
+    return tables_.labels.data() + tables_.label_begin[entry] +
+           uint64_t{vertex - index_.first_inner(entry)} * tables_.label_offset[entry] +
+           tables_.label_offset[patch];
+}
+
+// From the last border of an end to the samples of a sibling's; winners_ are the places that the ways come
+// over.
+void OverlaySssd::cross_samples(const End& end, uint32_t sibling, std::span<float> out) {
     const uint32_t patch = end.borders.back().patch;
-    const float* distance = end.distance.data() + end.borders.back().samples;
     const Rings& rings = tables_.coarse_rings;
     const uint32_t places = rings.size(patch);
     const uint32_t* sample = tables_.coarse_samples.data() + rings.begin[patch];
+    const uint16_t* row = coarse_row(patch, tables_.coarse_rows[sibling]);
+    prefetch(row, out.size() * places);
     for (float& d : field_.begin(rings, rings.begin[patch], places, tables_.quantum[index_.parent[patch]]))
-        d = distance[*sample++];
+        d = end.distance[*sample++];
     if (!field_.finish()) {
         std::ranges::fill(out, INFINITE);
         return;
     }
-    const uint16_t* row =
-        tables_.coarse_tables.data() + tables_.coarse_begin[patch] + size_t{first_row} * places;
     rows_.resize(out.size());
     for (size_t i = 0; i < out.size(); ++i) rows_[i] = row + i * places;
-    field_.cross(rows_, out.data(), winners);
+    field_.cross(rows_, out.data(), winners_.data());
 }
 
 // Lets the ways at hand be those to samples of the last border.
-void OverlaySssd::trace(End& end, Samples samples) const {
+void OverlaySssd::trace(End& end, Samples samples) {
     for (size_t b = end.borders.size(); b-- > 0;) {
         Border& border = end.borders[b];
-        const Window window =
-            b > 0 || end.borders.size() == 1 ? window_of(border.patch, samples) : whole_ring(border.patch);
+        const Window window = window_of(border.patch, samples);
         if (window != border.window) end.crossed = std::min(end.crossed, b);
         border.window = window;
-        if (b > 0) samples = samples_before(border.patch, samples, end.winner.data() + border.samples);
+        if (b > 0) samples = samples_before(end, b, samples);
     }
     for (size_t b = 0; b < end.borders.size(); ++b) prefetch_window(end, b);
 }
 
+// Those of the border before that the ways to these samples and to their neighbours come over.
+OverlaySssd::Samples OverlaySssd::samples_before(const End& end, size_t b, Samples samples) {
+    const uint32_t patch = end.borders[b].patch, before = end.borders[b - 1].patch;
+    const Rings& rings = tables_.coarse_rings;
+    const uint32_t first = rings.begin[before], places = rings.size(before);
+    if (b == 1) {
+        const auto distance = distances_from(end.vertex);
+        const float scale = tables_.quantum[patch] > 0 ? 1 / tables_.quantum[patch] : 0;
+        for (uint32_t k = 0; k < places; ++k)
+            code_[k] = seen_code(rings.is_own[first + k], distance(tables_.coarse_places[first + k]) * scale);
+    } else {
+        const uint16_t* label = this->label(end.vertex, before) + OverlayTables::LABEL_HEAD;
+        for (uint32_t k = 0; k < places; ++k)
+            code_[k] = seen_code(rings.is_own[first + k], label[tables_.coarse_samples[first + k]]);
+    }
+    std::fill_n(code_.data() + places, SeenBorder::BLOCK, SeenBorder::NOT_SEEN);
+    const uint32_t* sample = tables_.coarse_samples.data() + rings.begin[patch];
+    rows_.clear();
+    for (uint32_t k = samples.first - 1; k <= samples.last + 1; ++k)
+        rows_.push_back(coarse_row(before, sample[k]));
+    SeenBorder border{};
+    border.places = places;
+    border.code = code_.data();
+    traced_.resize(rows_.size());
+    crossing_kernels().back().choose(border, rows_, traced_.data());
+    return range_of(traced_);
+}
+
+OverlaySssd::Samples OverlaySssd::range_of(std::span<const uint16_t> winners) const {
+    Samples range{UINT16_MAX, 0};
+    for (const uint16_t winner : winners) {
+        if (winner == SeenBorder::NO_PLACE) continue;
+        range.first = std::min<uint32_t>(range.first, winner);
+        range.last = std::max<uint32_t>(range.last, winner);
+    }
+    if (range.first > range.last) return {REACH, REACH}; // some place of the ring
+    return range;
+}
+
 // What climb_windows() is going to read.
 void OverlaySssd::prefetch_window(const End& end, size_t b) const {
-    const auto& [patch, samples, window] = end.borders[b];
+    const auto& [patch, window] = end.borders[b];
     const Rings& rings = tables_.rings;
     prefetch(rings.segment_length.data() + window.first, window.size());
     prefetch(rings.half_inverse.data() + window.first, window.size());
@@ -268,34 +313,19 @@ void OverlaySssd::prefetch_window(const End& end, size_t b) const {
         prefetch(rows + size_t{position_at(k)} * rings.size(patch), window.size());
 }
 
-OverlaySssd::Window OverlaySssd::whole_ring(uint32_t patch) const {
-    return {tables_.rings.begin[patch], tables_.rings.begin[patch + 1] - 1};
-}
-
-// The samples of the border before that the ways to these and to their neighbours come over.
-OverlaySssd::Samples OverlaySssd::samples_before(uint32_t patch, Samples samples,
-                                                 const uint16_t* winners) const {
-    const uint32_t* sample = tables_.coarse_samples.data() + tables_.coarse_rings.begin[patch];
-    Samples before{UINT16_MAX, 0};
-    for (uint32_t k = samples.first - 1; k <= samples.last + 1; ++k) {
-        const uint16_t winner = winners[sample[k]];
-        if (winner == SeenBorder::NO_PLACE) continue;
-        before.first = std::min<uint32_t>(before.first, winner);
-        before.last = std::max<uint32_t>(before.last, winner);
-    }
-    return before;
-}
-
 // ---- Over windows
 
 // The vertices from the second sample before to the second one after, or of whole chains where these are not
 // beside each other.
 OverlaySssd::Window OverlaySssd::window_of(uint32_t patch, Samples samples) const {
+    const Rings& rings = tables_.rings;
     const uint32_t* place = tables_.coarse_places.data() + tables_.coarse_rings.begin[patch];
+    const auto chain = [&](uint32_t k) { return rings.chains[rings.chain[place[k]]]; };
+    const uint32_t begin = chain(samples.first).first - REACH, end = chain(samples.last).last + REACH;
     const uint32_t first = place[samples.first - REACH], last = place[samples.last + REACH];
-    if (first <= place[samples.first] && place[samples.last] <= last) return {first, last};
-    const auto chain = [&](uint32_t k) { return tables_.rings.chains[tables_.rings.chain[place[k]]]; };
-    return {chain(samples.first).first - REACH, chain(samples.last).last + REACH};
+    if (first > place[samples.first] || place[samples.last] > last) return {begin, end};
+    if (tables_.coarse_rings.size(patch) < rings.size(patch)) return {first, last};
+    return {std::max(first, begin + MARGIN) - MARGIN, std::min(last + MARGIN, end)};
 }
 
 std::span<float> OverlaySssd::window_distances(End& end, size_t b) const {

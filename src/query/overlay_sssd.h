@@ -9,8 +9,8 @@
 namespace geodesic {
 
 // Single source, single destination on overlay tables: up from both ends to the children of the lowest patch
-// that has them both, and across. First over samples of all borders, which gives a few ways; then again over
-// all vertices near each of these. Vertices are given by their numbers, places are counted over all rings.
+// that has them both, and across. Labels and samples of all borders tell a few ways; then each of these is
+// measured over all vertices near it. Vertices are given by their numbers, places are counted over all rings.
 class OverlaySssd {
 public:
     OverlaySssd(const Index& index, std::pmr::memory_resource* memory);
@@ -38,16 +38,14 @@ private:
     // the patch where both ends meet.
     struct Border {
         uint32_t patch;
-        uint32_t samples; // where its samples begin in the arrays of its end
-        Window window;    // where the way at hand crosses it
+        Window window; // where the way at hand crosses it
     };
     struct End {
         explicit End(std::pmr::memory_resource* memory)
-            : borders(memory), distance(memory), winner(memory), window_distance(memory) {}
+            : borders(memory), distance(memory), window_distance(memory) {}
         uint32_t vertex = 0;
         Array<Border> borders;
-        Array<float> distance;        // per sample
-        Array<uint16_t> winner;       // the place in the coarse ring before that the way comes over
+        Array<float> distance;        // of the last border's samples
         Array<float> window_distance; // of each border's window; those of the first `crossed` are known
         size_t crossed = 0;
     };
@@ -64,14 +62,17 @@ private:
 
     // Over samples.
     void climb(uint32_t vertex, uint32_t top, End& end);
-    void cross_samples(const End& end, uint32_t first_row, std::span<float> out, uint16_t* winners);
-    void trace(End& end, Samples samples) const;
-    Samples samples_before(uint32_t patch, Samples samples, const uint16_t* winners) const;
-
-    void prefetch_climb(uint32_t vertex, uint32_t top) const;
+    const uint16_t* label(uint32_t vertex, uint32_t patch) const;
+    void cross_samples(const End& end, uint32_t sibling, std::span<float> out);
+    void trace(End& end, Samples samples);
+    Samples samples_before(const End& end, size_t b, Samples samples);
+    const uint16_t* coarse_row(uint32_t patch, uint32_t row) const {
+        return tables_.coarse_tables.data() + tables_.coarse_begin[patch] +
+               size_t{row} * tables_.coarse_rings.size(patch);
+    }
+    Samples range_of(std::span<const uint16_t> winners) const;
 
     // Over windows.
-    Window whole_ring(uint32_t patch) const;
     std::span<float> window_distances(End& end, size_t b) const;
     Window window_of(uint32_t patch, Samples samples) const;
     void prefetch_window(const End& end, size_t b) const;
@@ -91,10 +92,13 @@ private:
     BorderField field_;
     Array<const uint16_t*> rows_; // of the hop at hand
     End from_, to_;
+    // Of a border that a way is traced over: codes of its places, the winners of the rows.
+    Array<int16_t> code_;
+    Array<uint16_t> traced_;
     // At the border where they meet.
     Array<float> samples_;     // distances from the other end
-    Array<uint16_t> winners_;  // likewise
-    Array<float> from_window_; // likewise, of its window
+    Array<uint16_t> winners_;  // the places, in the other end's coarse ring, that the ways to these come over
+    Array<float> from_window_; // distances from the other end, of the window
 };
 
 }

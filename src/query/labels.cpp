@@ -1,0 +1,150 @@
+#include "src/query/labels.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "src/query/border_fields.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr size_t SOURCES = BorderFields::SOURCES;
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
+
+void lay_out_labels(Index& index) {
+    OverlayTables& tables = index.overlay_tables;
+    tables.label_offset.assign(index.patch_count(), 0);
+    tables.label_begin.assign(index.patch_count(), 0);
+    uint64_t size = 0;
+    for (uint32_t p = 1; p < index.patch_count(); ++p) {
+        const uint32_t parent = index.parent[p];
+        if (parent != 0)
+            tables.label_offset[p] =
+                tables.label_offset[parent] + OverlayTables::LABEL_HEAD + tables.sample_count[parent];
+        tables.label_begin[p] = size;
+        size += uint64_t{index.inner_size(p)} * tables.label_offset[p];
+    }
+    tables.labels.resize(size);
+}
+
+// Distances from the samples of a patch's ring to all that lies inside of its descendants, SOURCES samples at
+// a time.
+class LabelSweep {
+public:
+    explicit LabelSweep(Index& index)
+        : index_(index), tables_(index.overlay_tables), fields_(index, std::pmr::get_default_resource()),
+          distances_(SOURCES * index.vertex_count()) {
+        for (uint32_t p = 0; p < index.patch_count(); ++p)
+            rows_.resize(std::max<size_t>(rows_.size(), index.inner_size(p)));
+    }
+
+    void label(uint32_t patch) {
+        descendants_.clear();
+        add_descendants(patch);
+        const Rings& rings = tables_.coarse_rings;
+        positions_.clear();
+        for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
+            if (rings.is_own[k]) positions_.push_back(rings.position[k]);
+        lay_out_distances();
+        for (size_t first = 0; first < positions_.size(); first += SOURCES) {
+            start(patch, std::span(positions_).subspan(first, std::min(SOURCES, positions_.size() - first)));
+            for (uint32_t p : descendants_) descend(p, first);
+        }
+        for (uint32_t p : descendants_) encode(p, patch);
+    }
+
+private:
+    void add_descendants(uint32_t patch) {
+        if (patch >= index_.first_leaf()) return;
+        for (uint32_t child = index_.child_begin[patch]; child < index_.child_begin[patch + 1]; ++child) {
+            descendants_.push_back(child);
+            add_descendants(child);
+        }
+    }
+
+    void lay_out_distances() {
+        size_t inside = 0;
+        begin_.resize(index_.patch_count());
+        for (uint32_t p : descendants_) {
+            begin_[p] = inside * positions_.size();
+            inside += index_.inner_size(p);
+        }
+        of_samples_.resize(inside * positions_.size());
+    }
+
+    // To the overlay of the patch, from the samples at these positions of it; the last one is repeated.
+    void start(uint32_t patch, std::span<const uint32_t> positions) {
+        count_ = positions.size();
+        for (uint32_t i = 0; i < index_.overlay_size(patch); ++i) {
+            float* distance = distances_.data() + size_t{index_.overlay_number(patch, i)} * SOURCES;
+            for (size_t s = 0; s < SOURCES; ++s) {
+                const uint32_t position = positions[std::min(s, count_ - 1)];
+                distance[s] =
+                    i == position ? 0 : tables_.distance(index_.overlay_code(patch, i, position), patch);
+            }
+        }
+    }
+
+    void descend(uint32_t patch, size_t first_sample) {
+        const uint32_t count = index_.inner_size(patch), places = index_.ring_size(patch);
+        if (count == 0) return;
+        float* const inside = distances_.data() + size_t{index_.first_inner(patch)} * SOURCES;
+        if (fields_.see(patch, tables_.quantum[patch], distances_.data())) {
+            const uint16_t* row = tables_.inner_tables.data() + index_.inner_row(patch, 0);
+            for (uint32_t i = 0; i < count; ++i, row += places) rows_[i] = row;
+            fields_.cross({rows_.data(), count}, inside);
+        } else {
+            std::fill_n(inside, count * SOURCES, INFINITE);
+        }
+        float* of_samples = of_samples_.data() + begin_[patch] + first_sample;
+        for (uint32_t i = 0; i < count; ++i, of_samples += positions_.size())
+            std::copy_n(inside + i * SOURCES, count_, of_samples);
+    }
+
+    void encode(uint32_t patch, uint32_t labelled) {
+        const float quantum = tables_.quantum[index_.parent[labelled]];
+        const size_t samples = positions_.size();
+        const float* distance = of_samples_.data() + begin_[patch];
+        uint16_t* label = tables_.labels.data() + tables_.label_begin[patch] + tables_.label_offset[labelled];
+        for (uint32_t i = 0; i < index_.inner_size(patch); ++i) {
+            write_label({distance, samples}, quantum > 0 ? 1 / quantum : 0, label);
+            distance += samples;
+            label += tables_.label_offset[patch];
+        }
+    }
+
+    static void write_label(std::span<const float> distances, float scale, uint16_t* label) {
+        const float nearest = distances.empty() ? INFINITE : std::ranges::min(distances);
+        const auto head = static_cast<uint32_t>(nearest < INFINITE ? std::min(nearest * scale, 0x1p30f) : 0);
+        *label++ = static_cast<uint16_t>(head & 0xffff);
+        *label++ = static_cast<uint16_t>(head >> 16);
+        for (const float distance : distances)
+            *label++ = distance < INFINITE
+                           ? static_cast<uint16_t>(std::clamp(distance * scale - static_cast<float>(head),
+                                                              0.f, float{OverlayTables::LARGEST}))
+                           : OverlayTables::UNREACHED;
+    }
+
+    Index& index_;
+    OverlayTables& tables_;
+    BorderFields fields_;
+    size_t count_ = 0;
+    std::vector<float> distances_;  // [number * SOURCES + sample], of the samples at hand
+    std::vector<float> of_samples_; // of all samples: rows of what lies inside of each descendant
+    std::vector<size_t> begin_;     // of these, per patch
+    std::vector<const uint16_t*> rows_;
+    std::vector<uint32_t> descendants_, positions_;
+};
+
+}
+
+void make_labels(Index& index) {
+    if (index.engine != GEOIDX_ENGINE_OVERLAY) return;
+    lay_out_labels(index);
+    LabelSweep sweep(index);
+    for (uint32_t p = 1; p < index.first_leaf(); ++p) sweep.label(p);
+}
+
+}
