@@ -91,13 +91,14 @@ struct OverlayTables {
 
     // The label of a vertex: its distances to the samples of each patch that it lies in beyond the first one
     // (Index::entry()), from the outermost one inwards, without the whole mesh, in steps of the quantum of
-    // that patch's parent: the nearest one's, its low half and its high one, then how much longer each is, at
-    // most LARGEST. Labels choose a way, and do not measure it.
+    // that patch's parent: the nearest one's, its low half and its high one, then, per place of the coarse
+    // ring, how much longer each is, as a kernel reads it (SeenBorder). Labels choose a way, and do not
+    // measure it.
     static constexpr uint32_t LABEL_HEAD = 2;
     std::pmr::vector<uint32_t> label_offset; // per patch: where its samples begin in the labels of what lies
                                              // deeper; where the labels of what lies just inside end
     std::pmr::vector<uint64_t> label_begin;  // per patch: of what lies just inside
-    std::pmr::vector<uint16_t> labels;
+    std::pmr::vector<int16_t> labels;
 };
 
 }

@@ -9,7 +9,6 @@ namespace {
 
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 constexpr size_t BLOCK = SeenBorder::BLOCK;
-constexpr size_t whole_blocks(size_t places) { return (places + BLOCK - 1) / BLOCK * BLOCK; }
 static_assert(OverlayTables::PADDING >= BLOCK && Rings::PADDING >= BLOCK,
               "the last row of a table is read in whole blocks");
 
@@ -17,7 +16,7 @@ static_assert(OverlayTables::PADDING >= BLOCK && Rings::PADDING >= BLOCK,
 
 BorderField::BorderField(const Index& index, std::pmr::memory_resource* memory)
     : kernel_(crossing_kernels().back()),
-      distance_(whole_blocks(index.overlay_tables.rings.largest_size()) + BLOCK, memory),
+      distance_(SeenBorder::whole_blocks(index.overlay_tables.rings.largest_size()) + BLOCK, memory),
       code_(distance_.size(), memory), foot_(distance_.size(), memory), height_(distance_.size(), memory) {}
 
 bool BorderField::finish() {

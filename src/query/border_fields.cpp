@@ -14,7 +14,7 @@ constexpr float INFINITE = std::numeric_limits<float>::infinity();
 constexpr size_t BLOCK = SeenBorder::BLOCK;
 
 // From one source's places to the next one's.
-constexpr size_t stride_of(size_t places) { return (places + BLOCK - 1) / BLOCK * BLOCK + BLOCK; }
+constexpr size_t stride_of(size_t places) { return SeenBorder::whole_blocks(places) + BLOCK; }
 
 // Four places of four sources: rows become columns.
 void transpose(NearFloats four[4]) {

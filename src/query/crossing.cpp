@@ -53,8 +53,7 @@ template <size_t BYTES>
             distance < INFINITE ? number & own : Numbers{} + SeenBorder::NOT_SEEN, Codes);
         std::memcpy(code + k, &codes, sizeof codes);
     }
-    constexpr size_t BLOCK = SeenBorder::BLOCK;
-    std::fill(code + border.places, code + (border.places + BLOCK - 1) / BLOCK * BLOCK, SeenBorder::NOT_SEEN);
+    std::fill(code + border.places, code + SeenBorder::whole_blocks(border.places), SeenBorder::NOT_SEEN);
 }
 
 template <size_t BYTES>

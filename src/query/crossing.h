@@ -13,6 +13,7 @@ struct SeenBorder {
     // fit; a place that is not reached has NOT_SEEN, and so have those behind the last up to whole blocks.
     static constexpr int16_t NEAREST = std::numeric_limits<int16_t>::min(), NOT_SEEN = 0;
     static constexpr size_t BLOCK = 32;
+    static constexpr size_t whole_blocks(size_t places) { return (places + BLOCK - 1) / BLOCK * BLOCK; }
     static constexpr uint16_t NO_PLACE = 0xffff; // a winner where there is no way
 
     size_t places;

@@ -22,11 +22,11 @@ void lay_out_labels(Index& index) {
         const uint32_t parent = index.parent[p];
         if (parent != 0)
             tables.label_offset[p] =
-                tables.label_offset[parent] + OverlayTables::LABEL_HEAD + tables.sample_count[parent];
+                tables.label_offset[parent] + OverlayTables::LABEL_HEAD + tables.coarse_rings.size(parent);
         tables.label_begin[p] = size;
         size += uint64_t{index.inner_size(p)} * tables.label_offset[p];
     }
-    tables.labels.resize(size);
+    tables.labels.assign(size, SeenBorder::NOT_SEEN);
 }
 
 // Distances from the samples of a patch's ring to all that lies inside of its descendants, SOURCES samples at
@@ -45,8 +45,12 @@ public:
         add_descendants(patch);
         const Rings& rings = tables_.coarse_rings;
         positions_.clear();
-        for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
-            if (rings.is_own[k]) positions_.push_back(rings.position[k]);
+        places_.clear();
+        for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
+            if (!rings.is_own[k]) continue;
+            positions_.push_back(rings.position[k]);
+            places_.push_back(k - rings.begin[patch]);
+        }
         lay_out_distances();
         for (size_t first = 0; first < positions_.size(); first += SOURCES) {
             start(patch, std::span(positions_).subspan(first, std::min(SOURCES, positions_.size() - first)));
@@ -107,7 +111,7 @@ private:
         const float quantum = tables_.quantum[index_.parent[labelled]];
         const size_t samples = positions_.size();
         const float* distance = of_samples_.data() + begin_[patch];
-        uint16_t* label = tables_.labels.data() + tables_.label_begin[patch] + tables_.label_offset[labelled];
+        int16_t* label = tables_.labels.data() + tables_.label_begin[patch] + tables_.label_offset[labelled];
         for (uint32_t i = 0; i < index_.inner_size(patch); ++i) {
             write_label({distance, samples}, quantum > 0 ? 1 / quantum : 0, label);
             distance += samples;
@@ -115,16 +119,18 @@ private:
         }
     }
 
-    static void write_label(std::span<const float> distances, float scale, uint16_t* label) {
+    void write_label(std::span<const float> distances, float scale, int16_t* label) const {
         const float nearest = distances.empty() ? INFINITE : std::ranges::min(distances);
         const auto head = static_cast<uint32_t>(nearest < INFINITE ? std::min(nearest * scale, 0x1p30f) : 0);
-        *label++ = static_cast<uint16_t>(head & 0xffff);
-        *label++ = static_cast<uint16_t>(head >> 16);
-        for (const float distance : distances)
-            *label++ = distance < INFINITE
-                           ? static_cast<uint16_t>(std::clamp(distance * scale - static_cast<float>(head),
-                                                              0.f, float{OverlayTables::LARGEST}))
-                           : OverlayTables::UNREACHED;
+        label[0] = static_cast<int16_t>(head & 0xffff);
+        label[1] = static_cast<int16_t>(head >> 16);
+        for (size_t s = 0; s < distances.size(); ++s) {
+            if (distances[s] == INFINITE) continue;
+            const float steps = std::clamp(distances[s] * scale - static_cast<float>(head), 0.f,
+                                           float{OverlayTables::LARGEST});
+            label[OverlayTables::LABEL_HEAD + places_[s]] =
+                static_cast<int16_t>(SeenBorder::NEAREST + static_cast<int32_t>(steps));
+        }
     }
 
     Index& index_;
@@ -135,7 +141,8 @@ private:
     std::vector<float> of_samples_; // of all samples: rows of what lies inside of each descendant
     std::vector<size_t> begin_;     // of these, per patch
     std::vector<const uint16_t*> rows_;
-    std::vector<uint32_t> descendants_, positions_;
+    std::vector<uint32_t> descendants_;
+    std::vector<uint32_t> positions_, places_; // of the samples, in the border and in the coarse ring
 };
 
 }

@@ -14,7 +14,6 @@ constexpr uint32_t REACH = Rings::REACH;
 
 constexpr size_t WAYS = 2;               // that are measured
 constexpr float WORTH_MEASURING = 1.05f; // how long over samples, compared to the shortest
-constexpr uint32_t MARGIN = 2;           // places more on each side where every vertex is a sample
 
 // Asks for memory that is going to be read soon.
 template <class T>
@@ -24,15 +23,10 @@ void prefetch(const T* first, size_t count) {
     for (const char* at = reinterpret_cast<const char*>(first); at < end; at += LINE) __builtin_prefetch(at);
 }
 
-// Of a place at so many steps, for sums with table entries that choose a place.
-int16_t seen_code(int32_t is_own, float steps) {
-    if (!is_own || steps == INFINITE) return SeenBorder::NOT_SEEN;
-    return static_cast<int16_t>(SeenBorder::NEAREST +
-                                static_cast<int32_t>(std::min(steps, float{OverlayTables::LARGEST})));
-}
-int16_t seen_code(int32_t is_own, uint16_t code) {
-    if (!is_own || code == OverlayTables::UNREACHED) return SeenBorder::NOT_SEEN;
-    return static_cast<int16_t>(SeenBorder::NEAREST + code);
+// With those behind the last one that a kernel may read.
+void copy_codes(std::span<const int16_t> codes, Array<int16_t>& out) {
+    std::ranges::copy(codes, out.begin());
+    std::fill_n(out.data() + codes.size(), SeenBorder::BLOCK, SeenBorder::NOT_SEEN);
 }
 
 // A parent has a smaller number than its children.
@@ -53,6 +47,7 @@ OverlaySssd::OverlaySssd(const Index& index, std::pmr::memory_resource* memory)
     for (End* end : {&from_, &to_}) {
         end->borders.reserve(index.level_count());
         end->distance.resize(samples_.size());
+        end->first_code.resize(code_.size());
         end->window_distance.resize(index.level_count() * from_window_.size());
     }
 }
@@ -202,29 +197,39 @@ auto OverlaySssd::distances_from(uint32_t vertex) const {
 void OverlaySssd::climb(uint32_t vertex, uint32_t top, End& end) {
     end.vertex = vertex;
     end.crossed = 0;
+    end.is_first_encoded = false;
     end.borders.clear();
     for (uint32_t patch = index_.entry(vertex); patch != top; patch = index_.parent[patch])
-        end.borders.push_back({patch, {0, 0}});
+        end.borders.push_back({patch, {0, 0}, {0, 0}});
     const uint32_t patch = end.borders.back().patch;
+    const Rings& rings = tables_.coarse_rings;
+    const uint32_t first = rings.begin[patch];
     if (end.borders.size() == 1) {
         const auto distance = distances_from(vertex);
-        for (uint32_t k = tables_.coarse_rings.begin[patch]; k < tables_.coarse_rings.begin[patch + 1]; ++k)
+        for (uint32_t k = first; k < rings.begin[patch + 1]; ++k)
             end.distance[tables_.coarse_samples[k]] = distance(tables_.coarse_places[k]);
     } else {
-        const uint16_t* head = label(vertex, patch);
-        const uint16_t* code = head + OverlayTables::LABEL_HEAD;
-        const float nearest = static_cast<float>(head[0] + 0x10000u * head[1]) * tables_.quantum[top];
-        for (uint32_t i = 0; i < tables_.sample_count[patch]; ++i)
-            end.distance[i] = nearest + tables_.distance(code[i], top);
+        const Label label = label_of(vertex, patch);
+        for (size_t k = 0; k < label.codes.size(); ++k) {
+            const int32_t steps = label.codes[k] - SeenBorder::NEAREST;
+            const float distance =
+                static_cast<float>(label.nearest + static_cast<uint32_t>(steps)) * tables_.quantum[top];
+            if (rings.is_own[first + k])
+                end.distance[tables_.coarse_samples[first + k]] =
+                    label.codes[k] == SeenBorder::NOT_SEEN ? INFINITE : distance;
+        }
     }
 }
 
-// Of the samples of a patch that a vertex lies in beyond its first one.
-const uint16_t* OverlaySssd::label(uint32_t vertex, uint32_t patch) const {
+// Of a patch that a vertex lies in beyond its first one.
+OverlaySssd::Label OverlaySssd::label_of(uint32_t vertex, uint32_t patch) const {
     const uint32_t entry = index_.entry(vertex);
-    return tables_.labels.data() + tables_.label_begin[entry] +
-           uint64_t{vertex - index_.first_inner(entry)} * tables_.label_offset[entry] +
-           tables_.label_offset[patch];
+    const int16_t* label = tables_.labels.data() + tables_.label_begin[entry] +
+                           uint64_t{vertex - index_.first_inner(entry)} * tables_.label_offset[entry] +
+                           tables_.label_offset[patch];
+    return {static_cast<uint32_t>(static_cast<uint16_t>(label[0])) +
+                0x10000u * static_cast<uint32_t>(static_cast<uint16_t>(label[1])),
+            {label + OverlayTables::LABEL_HEAD, tables_.coarse_rings.size(patch)}};
 }
 
 // From the last border of an end to the samples of a sibling's; winners_ are the places that the ways come
@@ -247,44 +252,58 @@ void OverlaySssd::cross_samples(const End& end, uint32_t sibling, std::span<floa
     field_.cross(rows_, out.data(), winners_.data());
 }
 
-// Lets the ways at hand be those to samples of the last border.
+// Lets the ways at hand be those to samples of the last border. What is known of another way is kept as long
+// as it covers them, from the first border on.
 void OverlaySssd::trace(End& end, Samples samples) {
     for (size_t b = end.borders.size(); b-- > 0;) {
-        Border& border = end.borders[b];
-        const Window window = window_of(border.patch, samples);
-        if (window != border.window) end.crossed = std::min(end.crossed, b);
-        border.window = window;
+        end.borders[b].traced = window_of(end.borders[b].patch, samples);
         if (b > 0) samples = samples_before(end, b, samples);
     }
+    size_t kept = 0;
+    while (kept < end.crossed && end.borders[kept].window.covers(end.borders[kept].traced)) ++kept;
+    end.crossed = kept;
+    for (size_t b = kept; b < end.borders.size(); ++b) end.borders[b].window = end.borders[b].traced;
     for (size_t b = 0; b < end.borders.size(); ++b) prefetch_window(end, b);
 }
 
 // Those of the border before that the ways to these samples and to their neighbours come over.
-OverlaySssd::Samples OverlaySssd::samples_before(const End& end, size_t b, Samples samples) {
+OverlaySssd::Samples OverlaySssd::samples_before(End& end, size_t b, Samples samples) {
     const uint32_t patch = end.borders[b].patch, before = end.borders[b - 1].patch;
     const Rings& rings = tables_.coarse_rings;
-    const uint32_t first = rings.begin[before], places = rings.size(before);
-    if (b == 1) {
-        const auto distance = distances_from(end.vertex);
-        const float scale = tables_.quantum[patch] > 0 ? 1 / tables_.quantum[patch] : 0;
-        for (uint32_t k = 0; k < places; ++k)
-            code_[k] = seen_code(rings.is_own[first + k], distance(tables_.coarse_places[first + k]) * scale);
-    } else {
-        const uint16_t* label = this->label(end.vertex, before) + OverlayTables::LABEL_HEAD;
-        for (uint32_t k = 0; k < places; ++k)
-            code_[k] = seen_code(rings.is_own[first + k], label[tables_.coarse_samples[first + k]]);
-    }
-    std::fill_n(code_.data() + places, SeenBorder::BLOCK, SeenBorder::NOT_SEEN);
+    if (b == 1)
+        encode_first(end);
+    else
+        copy_codes(label_of(end.vertex, before).codes, code_);
     const uint32_t* sample = tables_.coarse_samples.data() + rings.begin[patch];
     rows_.clear();
     for (uint32_t k = samples.first - 1; k <= samples.last + 1; ++k)
         rows_.push_back(coarse_row(before, sample[k]));
     SeenBorder border{};
-    border.places = places;
-    border.code = code_.data();
+    border.places = rings.size(before);
+    border.code = b == 1 ? end.first_code.data() : code_.data();
     traced_.resize(rows_.size());
     crossing_kernels().back().choose(border, rows_, traced_.data());
     return range_of(traced_);
+}
+
+// The samples of the first border, by the quantum of the second one's rows.
+void OverlaySssd::encode_first(End& end) const {
+    if (end.is_first_encoded) return;
+    const uint32_t patch = end.borders.front().patch;
+    const Rings& rings = tables_.coarse_rings;
+    const uint32_t first = rings.begin[patch], places = rings.size(patch);
+    const float quantum = tables_.quantum[index_.parent[patch]];
+    const float scale = quantum > 0 ? 1 / quantum : 0;
+    const auto distance = distances_from(end.vertex);
+    for (uint32_t k = 0; k < places; ++k) {
+        const float d = distance(tables_.coarse_places[first + k]);
+        const auto steps = static_cast<int32_t>(std::min(d * scale, float{OverlayTables::LARGEST}));
+        end.first_code[k] = rings.is_own[first + k] && d < INFINITE
+                                ? static_cast<int16_t>(SeenBorder::NEAREST + steps)
+                                : SeenBorder::NOT_SEEN;
+    }
+    std::fill_n(end.first_code.data() + places, SeenBorder::BLOCK, SeenBorder::NOT_SEEN);
+    end.is_first_encoded = true;
 }
 
 OverlaySssd::Samples OverlaySssd::range_of(std::span<const uint16_t> winners) const {
@@ -300,7 +319,7 @@ OverlaySssd::Samples OverlaySssd::range_of(std::span<const uint16_t> winners) co
 
 // What climb_windows() is going to read.
 void OverlaySssd::prefetch_window(const End& end, size_t b) const {
-    const auto& [patch, window] = end.borders[b];
+    const auto& [patch, window, traced] = end.borders[b];
     const Rings& rings = tables_.rings;
     prefetch(rings.segment_length.data() + window.first, window.size());
     prefetch(rings.half_inverse.data() + window.first, window.size());
@@ -318,14 +337,11 @@ void OverlaySssd::prefetch_window(const End& end, size_t b) const {
 // The vertices from the second sample before to the second one after, or of whole chains where these are not
 // beside each other.
 OverlaySssd::Window OverlaySssd::window_of(uint32_t patch, Samples samples) const {
-    const Rings& rings = tables_.rings;
     const uint32_t* place = tables_.coarse_places.data() + tables_.coarse_rings.begin[patch];
-    const auto chain = [&](uint32_t k) { return rings.chains[rings.chain[place[k]]]; };
-    const uint32_t begin = chain(samples.first).first - REACH, end = chain(samples.last).last + REACH;
     const uint32_t first = place[samples.first - REACH], last = place[samples.last + REACH];
-    if (first > place[samples.first] || place[samples.last] > last) return {begin, end};
-    if (tables_.coarse_rings.size(patch) < rings.size(patch)) return {first, last};
-    return {std::max(first, begin + MARGIN) - MARGIN, std::min(last + MARGIN, end)};
+    if (first <= place[samples.first] && place[samples.last] <= last) return {first, last};
+    const auto chain = [&](uint32_t k) { return tables_.rings.chains[tables_.rings.chain[place[k]]]; };
+    return {chain(samples.first).first - REACH, chain(samples.last).last + REACH};
 }
 
 std::span<float> OverlaySssd::window_distances(End& end, size_t b) const {

@@ -26,7 +26,7 @@ private:
     struct Window {
         uint32_t first, last;
         uint32_t size() const { return last - first + 1; }
-        bool operator==(const Window&) const = default;
+        bool covers(const Window& other) const { return first <= other.first && other.last <= last; }
     };
 
     // Consecutive places of a coarse ring, counted in it.
@@ -38,14 +38,17 @@ private:
     // the patch where both ends meet.
     struct Border {
         uint32_t patch;
-        Window window; // where the way at hand crosses it
+        Window window; // where the way at hand crosses it, and around
+        Window traced; // of trace()
     };
     struct End {
         explicit End(std::pmr::memory_resource* memory)
-            : borders(memory), distance(memory), window_distance(memory) {}
+            : borders(memory), distance(memory), first_code(memory), window_distance(memory) {}
         uint32_t vertex = 0;
         Array<Border> borders;
-        Array<float> distance;        // of the last border's samples
+        Array<float> distance;     // of the last border's samples
+        Array<int16_t> first_code; // of the first border's samples
+        bool is_first_encoded = false;
         Array<float> window_distance; // of each border's window; those of the first `crossed` are known
         size_t crossed = 0;
     };
@@ -62,10 +65,15 @@ private:
 
     // Over samples.
     void climb(uint32_t vertex, uint32_t top, End& end);
-    const uint16_t* label(uint32_t vertex, uint32_t patch) const;
+    struct Label {
+        uint32_t nearest;
+        std::span<const int16_t> codes; // per place of the coarse ring
+    };
+    Label label_of(uint32_t vertex, uint32_t patch) const;
     void cross_samples(const End& end, uint32_t sibling, std::span<float> out);
     void trace(End& end, Samples samples);
-    Samples samples_before(const End& end, size_t b, Samples samples);
+    Samples samples_before(End& end, size_t b, Samples samples);
+    void encode_first(End& end) const;
     const uint16_t* coarse_row(uint32_t patch, uint32_t row) const {
         return tables_.coarse_tables.data() + tables_.coarse_begin[patch] +
                size_t{row} * tables_.coarse_rings.size(patch);
@@ -92,7 +100,7 @@ private:
     BorderField field_;
     Array<const uint16_t*> rows_; // of the hop at hand
     End from_, to_;
-    // Of a border that a way is traced over: codes of its places, the winners of the rows.
+    // Of a border that a way is traced over: codes of its samples, the winners of the rows.
     Array<int16_t> code_;
     Array<uint16_t> traced_;
     // At the border where they meet.
