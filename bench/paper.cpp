@@ -63,6 +63,7 @@ public:
         progress(model_.name + ": n1 " + std::to_string(configuration.n1) + ", n2 " +
                  std::to_string(configuration.n2) + ", delta " + to_text(configuration.delta, 2) + " %");
         geoidx_build_options options = options_for(arguments_.threads, {configuration.n1, configuration.n2});
+        options.engine = GEOIDX_ENGINE_GRAPH;
         options.delta = configuration.delta;
         const Measurement measurement = measure(build_index(model_, options), model_, workload_);
         const std::string note = mismatch_note(model_.name, measurement.errors);

@@ -193,7 +193,7 @@ typedef struct geoidx_build_options {
     const double* face_costs;
     uint64_t face_cost_count; /* the mesh's triangle_count */
     uint32_t points_per_edge; /* default 12: within 0.5 % of Snell's law on a grid of 16 x 16 cells */
-    uint32_t engine;          /* GEOIDX_ENGINE_*; default GEOIDX_ENGINE_GRAPH */
+    uint32_t engine;          /* GEOIDX_ENGINE_*; default GEOIDX_ENGINE_OVERLAY */
     /* GEOIDX_METRIC_EXACT and _WEIGHTED: a surface given by lengths instead of positions, which then only
      * weld and order vertices: edge_lengths[3 t + k] is the length of the edge opposite to corner k of
      * triangle t, 1.2e-38 to 3.4e38, the same in all triangles at the edge (to 1e-9). A triangle whose

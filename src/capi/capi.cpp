@@ -135,6 +135,7 @@ void geoidx_build_options_init(geoidx_build_options* options) {
     options->struct_size = sizeof *options;
     options->lloyd_iterations = 4;
     options->points_per_edge = 12;
+    options->engine = GEOIDX_ENGINE_OVERLAY;
     options->exact_vertices = 400;
 }
 

@@ -25,7 +25,8 @@ using QueryHandle = std::unique_ptr<geoidx_query, Close>;
 using SolverHandle = std::unique_ptr<geoidx_solver, Close>;
 using Bytes = std::vector<std::byte>;
 
-// Two threads, whatever the machine, and the given levels.
+// Two threads, whatever the machine, the given levels, and the graph engine, whose distances are known to
+// float precision.
 inline geoidx_build_options build_options(uint32_t metric = GEOIDX_METRIC_EXACT, uint32_t levels = 0,
                                           double delta = 0) {
     geoidx_build_options options;
@@ -34,6 +35,7 @@ inline geoidx_build_options build_options(uint32_t metric = GEOIDX_METRIC_EXACT,
     options.level_count = levels;
     options.delta = delta;
     options.threads = 2;
+    options.engine = GEOIDX_ENGINE_GRAPH;
     for (uint32_t l = 0; l < levels; ++l) options.patches[l] = levels == 1 ? 9 : levels == 2 ? 4 : 3;
     return options;
 }

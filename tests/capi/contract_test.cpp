@@ -72,6 +72,8 @@ TEST_CASE("init functions set struct_size and defaults, and bear NULL") {
     CHECK(build_options.level_count == 0);
     for (uint32_t count : build_options.patches) CHECK(count == 0);
     CHECK(build_options.lloyd_iterations == 4);
+    CHECK(build_options.engine == GEOIDX_ENGINE_OVERLAY);
+    CHECK(build_options.exact_vertices == 400);
     CHECK(build_options.edge_cost_count == 0);
     CHECK(!build_options.progress);
     CHECK(!build_options.allocator.allocate);

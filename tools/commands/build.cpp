@@ -18,7 +18,7 @@ struct BuildArguments {
     std::string mesh;
     std::string output;
     MetricArguments metric;
-    std::string engine = ENGINE_NAMES[GEOIDX_ENGINE_GRAPH];
+    std::string engine;
     uint32_t exact_vertices = 0;
     double delta = 0;
     uint32_t levels = 0;
@@ -121,6 +121,7 @@ void add_build(CLI::App& app) {
     arguments->lloyd_iterations = defaults.lloyd_iterations;
     arguments->seed = defaults.seed;
     arguments->exact_vertices = defaults.exact_vertices;
+    arguments->engine = ENGINE_NAMES[defaults.engine];
 
     CLI::App* command = app.add_subcommand("build", "build the index of a mesh");
     command->add_option("MESH", arguments->mesh, "mesh file: .obj, .ply, .off or .stl")->required();
