@@ -1,6 +1,7 @@
 #include "src/index/coarse_tables.h"
 
 #include <algorithm>
+#include <span>
 
 #include "src/index/rings.h"
 
@@ -70,6 +71,19 @@ void add_samples(const Index& index, uint32_t ring_of, bool of_child, std::vecto
                                     : rings.position[k]);
 }
 
+void sample_table(Index& index, uint32_t patch, std::span<const uint32_t> rows) {
+    OverlayTables& tables = index.overlay_tables;
+    tables.coarse_begin[patch] = tables.coarse_tables.size();
+    const uint32_t* place = tables.coarse_places.data() + tables.coarse_rings.begin[patch];
+    const uint32_t first_place = tables.rings.begin[patch];
+    const uint32_t places = tables.coarse_rings.size(patch);
+    if (places == index.ring_size(patch)) return;
+    for (uint32_t row : rows)
+        for (uint32_t k = 0; k < places; ++k)
+            tables.coarse_tables.push_back(
+                tables.outer_tables[index.outer_row(patch, row) + place[k] - first_place]);
+}
+
 void sample_tables(Index& index, uint32_t patch) {
     OverlayTables& tables = index.overlay_tables;
     std::vector<uint32_t> rows;
@@ -78,16 +92,10 @@ void sample_tables(Index& index, uint32_t patch) {
         tables.coarse_rows[child] = static_cast<uint32_t>(rows.size());
         add_samples(index, child, true, rows);
     }
-    for (uint32_t child = index.child_begin[patch]; child < index.child_begin[patch + 1]; ++child) {
-        tables.coarse_begin[child] = tables.coarse_tables.size();
-        const uint32_t* place = tables.coarse_places.data() + tables.coarse_rings.begin[child];
-        const uint32_t first_place = tables.rings.begin[child];
-        const uint32_t places = tables.coarse_rings.size(child);
-        for (uint32_t row : rows)
-            for (uint32_t k = 0; k < places; ++k)
-                tables.coarse_tables.push_back(
-                    tables.outer_tables[index.outer_row(child, row) + place[k] - first_place]);
-    }
+    for (uint32_t child = index.child_begin[patch]; child < index.child_begin[patch + 1]; ++child)
+        sample_table(index, child, rows);
+    tables.coarse_positions_begin.push_back(static_cast<uint32_t>(tables.coarse_positions.size()));
+    tables.coarse_positions.insert(tables.coarse_positions.end(), rows.begin(), rows.end());
 }
 
 }

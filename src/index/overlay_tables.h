@@ -57,8 +57,8 @@ struct OverlayTables {
         : quantum(memory), rings(memory), place_of_slot(memory), outer_begin(memory), inner_begin(memory),
           outer_tables(memory), inner_tables(memory), internal_tables(memory), coarse_rings(memory),
           coarse_places(memory), coarse_samples(memory), sample_count(memory), coarse_rows(memory),
-          coarse_begin(memory), coarse_tables(memory), label_offset(memory), label_begin(memory),
-          labels(memory) {}
+          coarse_positions_begin(memory), coarse_positions(memory), coarse_begin(memory),
+          coarse_tables(memory), label_offset(memory), label_begin(memory), labels(memory) {}
 
     float distance(uint16_t code, uint32_t patch) const {
         return code == UNREACHED ? std::numeric_limits<float>::infinity()
@@ -78,15 +78,18 @@ struct OverlayTables {
     std::pmr::vector<uint16_t> outer_tables, inner_tables;
     std::pmr::vector<uint16_t> internal_tables; // placed as those of Index
 
-    // A sample of each ring, and of the outer tables, which SSSD looks for a way in first. The table of a
-    // patch has rows for the samples of its parent's ring and of its siblings' and its own, in this order.
+    // A sample of each ring, and of the outer tables, which SSSD looks for a way in first. The coarse table
+    // of a patch has rows for the samples of its parent's ring and of its siblings' and its own, in this
+    // order; that of a ring whose vertices are all samples is not stored: its rows are in the outer table.
     Rings coarse_rings;
     // Per place of coarse_rings: the own place of the same vertex in `rings`, counted over all, and which of
     // the ring's samples it is.
     std::pmr::vector<uint32_t> coarse_places, coarse_samples;
     std::pmr::vector<uint32_t> sample_count; // per patch
     std::pmr::vector<uint32_t> coarse_rows; // per patch: its samples' first row in the tables of its siblings
-    std::pmr::vector<uint64_t> coarse_begin; // per patch
+    std::pmr::vector<uint32_t> coarse_positions_begin; // per inner patch
+    std::pmr::vector<uint32_t> coarse_positions; // of these rows, in the parent's overlay, parent by parent
+    std::pmr::vector<uint64_t> coarse_begin;     // per patch
     std::pmr::vector<uint16_t> coarse_tables;
 
     // The label of a vertex: its distances to the samples of each patch that it lies in beyond the first one

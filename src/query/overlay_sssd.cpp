@@ -232,6 +232,16 @@ OverlaySssd::Label OverlaySssd::label_of(uint32_t vertex, uint32_t patch) const 
             {label + OverlayTables::LABEL_HEAD, tables_.coarse_rings.size(patch)}};
 }
 
+// A row of the coarse table of a patch.
+const uint16_t* OverlaySssd::coarse_row(uint32_t patch, uint32_t row) const {
+    const uint32_t places = tables_.coarse_rings.size(patch);
+    if (places < index_.ring_size(patch))
+        return tables_.coarse_tables.data() + tables_.coarse_begin[patch] + size_t{row} * places;
+    const uint32_t parent = index_.parent[patch];
+    return tables_.outer_tables.data() +
+           index_.outer_row(patch, tables_.coarse_positions[tables_.coarse_positions_begin[parent] + row]);
+}
+
 // From the last border of an end to the samples of a sibling's; winners_ are the places that the ways come
 // over.
 void OverlaySssd::cross_samples(const End& end, uint32_t sibling, std::span<float> out) {
@@ -239,16 +249,17 @@ void OverlaySssd::cross_samples(const End& end, uint32_t sibling, std::span<floa
     const Rings& rings = tables_.coarse_rings;
     const uint32_t places = rings.size(patch);
     const uint32_t* sample = tables_.coarse_samples.data() + rings.begin[patch];
-    const uint16_t* row = coarse_row(patch, tables_.coarse_rows[sibling]);
-    prefetch(row, out.size() * places);
+    rows_.resize(out.size());
+    for (uint32_t i = 0; i < out.size(); ++i) {
+        rows_[i] = coarse_row(patch, tables_.coarse_rows[sibling] + i);
+        prefetch(rows_[i], places);
+    }
     for (float& d : field_.begin(rings, rings.begin[patch], places, tables_.quantum[index_.parent[patch]]))
         d = end.distance[*sample++];
     if (!field_.finish()) {
         std::ranges::fill(out, INFINITE);
         return;
     }
-    rows_.resize(out.size());
-    for (size_t i = 0; i < out.size(); ++i) rows_[i] = row + i * places;
     field_.cross(rows_, out.data(), winners_.data());
 }
 
@@ -297,10 +308,10 @@ void OverlaySssd::encode_first(End& end) const {
     const auto distance = distances_from(end.vertex);
     for (uint32_t k = 0; k < places; ++k) {
         const float d = distance(tables_.coarse_places[first + k]);
+        end.first_code[k] = SeenBorder::NOT_SEEN;
+        if (!rings.is_own[first + k] || d == INFINITE) continue;
         const auto steps = static_cast<int32_t>(std::min(d * scale, float{OverlayTables::LARGEST}));
-        end.first_code[k] = rings.is_own[first + k] && d < INFINITE
-                                ? static_cast<int16_t>(SeenBorder::NEAREST + steps)
-                                : SeenBorder::NOT_SEEN;
+        end.first_code[k] = static_cast<int16_t>(SeenBorder::NEAREST + steps);
     }
     std::fill_n(end.first_code.data() + places, SeenBorder::BLOCK, SeenBorder::NOT_SEEN);
     end.is_first_encoded = true;

@@ -74,10 +74,7 @@ private:
     void trace(End& end, Samples samples);
     Samples samples_before(End& end, size_t b, Samples samples);
     void encode_first(End& end) const;
-    const uint16_t* coarse_row(uint32_t patch, uint32_t row) const {
-        return tables_.coarse_tables.data() + tables_.coarse_begin[patch] +
-               size_t{row} * tables_.coarse_rings.size(patch);
-    }
+    const uint16_t* coarse_row(uint32_t patch, uint32_t row) const;
     Samples range_of(std::span<const uint16_t> winners) const;
 
     // Over windows.
