@@ -299,7 +299,9 @@ GEOIDX_API geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_i
  * GEOIDX_ENGINE_OVERLAY. */
 GEOIDX_API geoidx_status geoidx_sssd(const geoidx* index, uint32_t source, uint32_t target, float* distance);
 
-/* pair_count pairs: source_target_pairs[2 i] and [2 i + 1] give distances[i]. */
+/* pair_count pairs: source_target_pairs[2 i] and [2 i + 1] give distances[i], the same bits as geoidx_sssd.
+ * Many pairs at once take less time each: those that begin near each other are answered one after the
+ * other. When a vertex is out of range, nothing is written. */
 GEOIDX_API geoidx_status geoidx_sssd_batch(const geoidx* index, const uint32_t* source_target_pairs,
                                            uint64_t pair_count, float* distances);
 

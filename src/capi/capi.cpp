@@ -240,9 +240,7 @@ geoidx_status geoidx_sssd_batch(const geoidx* index, const uint32_t* source_targ
         require(index, "index is NULL");
         require(pair_count == 0 || source_target_pairs, "source_target_pairs is NULL");
         require(pair_count == 0 || distances, "distances is NULL");
-        const BorrowedQuery query(*index);
-        for (uint64_t i = 0; i < pair_count; ++i)
-            distances[i] = query->sssd(source_target_pairs[2 * i], source_target_pairs[2 * i + 1]);
+        BorrowedQuery(*index)->sssd_each({source_target_pairs, 2 * pair_count}, {distances, pair_count});
     });
 }
 

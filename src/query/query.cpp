@@ -21,7 +21,7 @@ std::variant<GraphQuery, OverlayQuery> make_engine(const Index& index, std::pmr:
 }
 
 Query::Query(const Index& index, std::pmr::memory_resource* memory)
-    : index_(index), engine_(make_engine(index, memory)), sources_(memory),
+    : index_(index), engine_(make_engine(index, memory)), order_(memory), sources_(memory),
       distance_(index.vertex_count(), memory) {}
 
 uint32_t Query::number_of(uint32_t id) const {
@@ -38,6 +38,25 @@ float Query::sssd(uint32_t source_id, uint32_t target_id) {
     if (a == NONE || b == NONE) return INFINITE;
     if (a == b) return 0;
     return std::visit([&](auto& engine) { return engine.sssd(std::min(a, b), std::max(a, b)); }, engine_);
+}
+
+// Pairs that begin near each other one after the other: what the ones have read is at hand for the next.
+void Query::sssd_each(std::span<const uint32_t> ids, std::span<float> distances) {
+    constexpr size_t AT_ONCE = 1 << 16;
+    for (uint32_t id : ids) number_of(id);
+    for (size_t done = 0; done < distances.size(); done += AT_ONCE) {
+        order_.clear();
+        for (size_t i = done; i < std::min(done + AT_ONCE, distances.size()); ++i) {
+            const uint32_t a = number_of(ids[2 * i]), b = number_of(ids[2 * i + 1]);
+            order_.emplace_back(uint64_t{std::min(a, b)} << 32 | std::max(a, b),
+                                static_cast<uint32_t>(i - done));
+        }
+        std::ranges::sort(order_);
+        for (const auto& [pair, position] : order_) {
+            const size_t i = done + position;
+            distances[i] = sssd(ids[2 * i], ids[2 * i + 1]);
+        }
+    }
 }
 
 void Query::prepare(uint32_t source_id) {

@@ -17,6 +17,9 @@ public:
     // Single source, single destination: symmetric bit for bit.
     float sssd(uint32_t source_id, uint32_t target_id);
 
+    // Of pairs of vertices that follow each other.
+    void sssd_each(std::span<const uint32_t> ids, std::span<float> distances);
+
     // From then on prepared_sssd() is from this source, until the next call.
     void prepare(uint32_t source_id);
     float prepared_sssd(uint32_t target_id);
@@ -37,8 +40,9 @@ private:
     const Index& index_;
     std::variant<GraphQuery, OverlayQuery> engine_;
     uint32_t prepared_id_ = NONE, prepared_ = NONE;
-    Array<uint32_t> sources_; // of MSAD, by number
-    Array<float> distance_;   // by number; of ssad_at_once() side by side
+    Array<std::pair<uint64_t, uint32_t>> order_; // of pairs: by their numbers, and which ones they are
+    Array<uint32_t> sources_;                    // of MSAD, by number
+    Array<float> distance_;                      // by number; of ssad_at_once() side by side
 };
 
 }
