@@ -7,6 +7,7 @@
 #include "src/build/measure.h"
 #include "src/build/metric_options.h"
 #include "src/partition/hierarchy.h"
+#include "src/query/labels.h"
 #include "src/tables/borders.h"
 #include "src/tables/fill.h"
 #include "src/tables/layout.h"
@@ -92,6 +93,8 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     const auto vertex_of_number = lay_out(intake, hierarchy, leaves_at_vertex, is_border, workers, index);
     workers.begin_stage("tables", 0.98);
     fill_tables(intake.mesh, vertex_of_number, options, workers, index);
+    workers.begin_stage("labels", 0.985);
+    workers.run(1, [&](FieldSolver&, size_t) { make_labels(index, [&] { workers.check_cancelled(); }); });
     workers.begin_stage("accuracy", 1);
     index.error = measure_error(index, vertex_of_number, intake.id_of_vertex, workers);
 }

@@ -52,8 +52,8 @@ void open_bytes(std::span<const std::byte> file, const geoidx_open_options* give
     const geoidx_open_options options = whole_or_default(given, geoidx_open_options_init);
     OwnedIndex index = make_index(options.allocator);
     read_index(file, index->index);
-    make_labels(index->index);
     check_mesh_matches(options.expected_mesh, index->index);
+    make_labels(index->index, [] {});
     *out = index.release();
 }
 
@@ -153,7 +153,6 @@ geoidx_status geoidx_build(const geoidx_mesh* mesh, const geoidx_build_options* 
         const auto all_options = whole_or_default(options, geoidx_build_options_init);
         OwnedIndex index = make_index(all_options.allocator);
         build_index(whole(*mesh, geoidx_mesh_init), all_options, index->index);
-        make_labels(index->index);
         *out = index.release();
     });
 }

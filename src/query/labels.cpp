@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <string>
 
+#include "format/error.h"
 #include "src/query/border_fields.h"
+#include "src/query/steps.h"
 
 namespace geodesic {
 
@@ -12,6 +15,9 @@ namespace {
 
 constexpr size_t SOURCES = BorderFields::SOURCES;
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
+
+// Labels of a mesh are a fraction of its tables; a file that needs so many for each entry is none of a mesh.
+constexpr uint64_t MOST_PER_ENTRY = 64;
 
 void lay_out_labels(Index& index) {
     OverlayTables& tables = index.overlay_tables;
@@ -22,10 +28,14 @@ void lay_out_labels(Index& index) {
         const uint32_t parent = index.parent[p];
         if (parent != 0)
             tables.label_offset[p] =
-                tables.label_offset[parent] + OverlayTables::LABEL_HEAD + tables.coarse_rings.size(parent);
+                tables.label_offset[parent] + OverlayTables::LABEL_HEAD + tables.sample_count[parent];
         tables.label_begin[p] = size;
         size += uint64_t{index.inner_size(p)} * tables.label_offset[p];
     }
+    const uint64_t entries = tables.outer_tables.size() + tables.inner_tables.size();
+    if (size > MOST_PER_ENTRY * entries)
+        throw Error(GEOIDX_ERROR_LIMIT, "labels would take " + std::to_string(size) +
+                                            " numbers, for tables of " + std::to_string(entries));
     tables.labels.assign(size, SeenBorder::NOT_SEEN);
 }
 
@@ -45,12 +55,8 @@ public:
         add_descendants(patch);
         const Rings& rings = tables_.coarse_rings;
         positions_.clear();
-        places_.clear();
-        for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
-            if (!rings.is_own[k]) continue;
-            positions_.push_back(rings.position[k]);
-            places_.push_back(k - rings.begin[patch]);
-        }
+        for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
+            if (rings.is_own[k]) positions_.push_back(rings.position[k]);
         lay_out_distances();
         for (size_t first = 0; first < positions_.size(); first += SOURCES) {
             start(patch, std::span(positions_).subspan(first, std::min(SOURCES, positions_.size() - first)));
@@ -108,29 +114,23 @@ private:
     }
 
     void encode(uint32_t patch, uint32_t labelled) {
+        const uint32_t count = index_.inner_size(patch);
+        if (count == 0) return;
         const float quantum = tables_.quantum[index_.parent[labelled]];
-        const size_t samples = positions_.size();
         const float* distance = of_samples_.data() + begin_[patch];
         int16_t* label = tables_.labels.data() + tables_.label_begin[patch] + tables_.label_offset[labelled];
-        for (uint32_t i = 0; i < index_.inner_size(patch); ++i) {
-            write_label({distance, samples}, quantum > 0 ? 1 / quantum : 0, label);
-            distance += samples;
+        for (uint32_t i = 0; i < count; ++i) {
+            write_label({distance, positions_.size()}, quantum, label);
+            distance += positions_.size();
             label += tables_.label_offset[patch];
         }
     }
 
-    void write_label(std::span<const float> distances, float scale, int16_t* label) const {
-        const float nearest = distances.empty() ? INFINITE : std::ranges::min(distances);
-        const auto head = static_cast<uint32_t>(nearest < INFINITE ? std::min(nearest * scale, 0x1p30f) : 0);
-        label[0] = static_cast<int16_t>(head & 0xffff);
-        label[1] = static_cast<int16_t>(head >> 16);
-        for (size_t s = 0; s < distances.size(); ++s) {
-            if (distances[s] == INFINITE) continue;
-            const float steps = std::clamp(distances[s] * scale - static_cast<float>(head), 0.f,
-                                           float{OverlayTables::LARGEST});
-            label[OverlayTables::LABEL_HEAD + places_[s]] =
-                static_cast<int16_t>(SeenBorder::NEAREST + static_cast<int32_t>(steps));
-        }
+    static void write_label(std::span<const float> distances, float quantum, int16_t* label) {
+        const StepsOf steps(distances, quantum);
+        *label++ = static_cast<int16_t>(steps.nearest() & 0xffff);
+        *label++ = static_cast<int16_t>(steps.nearest() >> 16);
+        for (const float distance : distances) *label++ = steps.code(distance);
     }
 
     Index& index_;
@@ -142,16 +142,19 @@ private:
     std::vector<size_t> begin_;     // of these, per patch
     std::vector<const uint16_t*> rows_;
     std::vector<uint32_t> descendants_;
-    std::vector<uint32_t> positions_, places_; // of the samples, in the border and in the coarse ring
+    std::vector<uint32_t> positions_; // of the samples, in the border
 };
 
 }
 
-void make_labels(Index& index) {
+void make_labels(Index& index, const std::function<void()>& look_up) {
     if (index.engine != GEOIDX_ENGINE_OVERLAY) return;
     lay_out_labels(index);
     LabelSweep sweep(index);
-    for (uint32_t p = 1; p < index.first_leaf(); ++p) sweep.label(p);
+    for (uint32_t p = 1; p < index.first_leaf(); ++p) {
+        sweep.label(p);
+        look_up();
+    }
 }
 
 }

@@ -9,16 +9,16 @@
 
 namespace geodesic {
 
-// The fields of several sources, each by itself, in one sweep: each table is read once. Vertices are given by
-// their numbers.
+// The fields of several sources, each by itself, in one sweep down, which reads each table once. Vertices are
+// given by their numbers.
 class OverlayBatch {
 public:
     static constexpr size_t SOURCES = BorderFields::SOURCES;
 
     OverlayBatch(const Index& index, std::pmr::memory_resource* memory);
 
-    // distances[number * SOURCES + i] from the i-th source, of which there are 1 to SOURCES; those of no
-    // source are undefined. climber: for the way up.
+    // distances[number * SOURCES + i] from the i-th source, of which there are 1 to SOURCES, the last one
+    // repeated. climber: for the way up.
     void sweep(std::span<const uint32_t> sources, OverlayMsad& climber, std::span<float> distances);
 
 private:

@@ -79,6 +79,7 @@ void OverlayMsad::ascend(uint32_t child, DistanceField distance) {
 
 // To what lies inside.
 void OverlayMsad::descend(uint32_t patch, float radius, DistanceField distance) {
+    if (index_.inner_size(patch) == 0) return;
     const auto out =
         hop(patch, tables_.quantum[patch], tables_.inner_tables.data() + index_.inner_row(patch, 0),
             index_.inner_size(patch), distance, radius);

@@ -47,7 +47,7 @@ private:
     OverlayBatch batch_;
     size_t vertex_count_;
     uint32_t prepared_ = NONE;
-    Array<float> prepared_distance_; // by number: of sweep_up()
+    Array<float> prepared_distance_; // by number: of climb()
 };
 
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "src/index/unfolding.h"
+#include "src/query/steps.h"
 
 namespace geodesic {
 
@@ -23,12 +24,6 @@ void prefetch(const T* first, size_t count) {
     for (const char* at = reinterpret_cast<const char*>(first); at < end; at += LINE) __builtin_prefetch(at);
 }
 
-// With those behind the last one that a kernel may read.
-void copy_codes(std::span<const int16_t> codes, Array<int16_t>& out) {
-    std::ranges::copy(codes, out.begin());
-    std::fill_n(out.data() + codes.size(), SeenBorder::BLOCK, SeenBorder::NOT_SEEN);
-}
-
 // A parent has a smaller number than its children.
 uint32_t lowest_common_patch(const Index& index, uint32_t a, uint32_t b) {
     while (a != b) (a > b ? a : b) = index.parent[std::max(a, b)];
@@ -39,10 +34,12 @@ uint32_t lowest_common_patch(const Index& index, uint32_t a, uint32_t b) {
 
 OverlaySssd::OverlaySssd(const Index& index, std::pmr::memory_resource* memory)
     : index_(index), tables_(index.overlay_tables), field_(index, memory), rows_(memory), from_(memory),
-      to_(memory), code_(memory), traced_(memory),
+      to_(memory), code_(memory), traced_(memory), samples_of_first_(memory), code_of_first_(memory),
       samples_(std::ranges::max(index.overlay_tables.sample_count), memory),
       winners_(samples_.size(), memory), from_window_(index.overlay_tables.rings.largest_size(), memory) {
     rows_.reserve(from_window_.size());
+    samples_of_first_.resize(samples_.size());
+    code_of_first_.resize(samples_.size());
     code_.resize(index.overlay_tables.coarse_rings.largest_size() + SeenBorder::BLOCK);
     for (End* end : {&from_, &to_}) {
         end->borders.reserve(index.level_count());
@@ -210,13 +207,11 @@ void OverlaySssd::climb(uint32_t vertex, uint32_t top, End& end) {
             end.distance[tables_.coarse_samples[k]] = distance(tables_.coarse_places[k]);
     } else {
         const Label label = label_of(vertex, patch);
-        for (size_t k = 0; k < label.codes.size(); ++k) {
-            const int32_t steps = label.codes[k] - SeenBorder::NEAREST;
-            const float distance =
-                static_cast<float>(label.nearest + static_cast<uint32_t>(steps)) * tables_.quantum[top];
-            if (rings.is_own[first + k])
-                end.distance[tables_.coarse_samples[first + k]] =
-                    label.codes[k] == SeenBorder::NOT_SEEN ? INFINITE : distance;
+        for (size_t i = 0; i < label.codes.size(); ++i) {
+            const auto steps = static_cast<uint32_t>(label.codes[i] - SeenBorder::NEAREST);
+            end.distance[i] = label.codes[i] == SeenBorder::NOT_SEEN
+                                  ? INFINITE
+                                  : static_cast<float>(label.nearest + steps) * tables_.quantum[top];
         }
     }
 }
@@ -229,7 +224,7 @@ OverlaySssd::Label OverlaySssd::label_of(uint32_t vertex, uint32_t patch) const 
                            tables_.label_offset[patch];
     return {static_cast<uint32_t>(static_cast<uint16_t>(label[0])) +
                 0x10000u * static_cast<uint32_t>(static_cast<uint16_t>(label[1])),
-            {label + OverlayTables::LABEL_HEAD, tables_.coarse_rings.size(patch)}};
+            {label + OverlayTables::LABEL_HEAD, tables_.sample_count[patch]}};
 }
 
 // A row of the coarse table of a patch.
@@ -284,7 +279,7 @@ OverlaySssd::Samples OverlaySssd::samples_before(End& end, size_t b, Samples sam
     if (b == 1)
         encode_first(end);
     else
-        copy_codes(label_of(end.vertex, before).codes, code_);
+        spread(label_of(end.vertex, before).codes, before, code_);
     const uint32_t* sample = tables_.coarse_samples.data() + rings.begin[patch];
     rows_.clear();
     for (uint32_t k = samples.first - 1; k <= samples.last + 1; ++k)
@@ -297,23 +292,27 @@ OverlaySssd::Samples OverlaySssd::samples_before(End& end, size_t b, Samples sam
     return range_of(traced_);
 }
 
+// To the places of a coarse ring, from its samples.
+void OverlaySssd::spread(std::span<const int16_t> codes, uint32_t patch, std::span<int16_t> out) const {
+    const Rings& rings = tables_.coarse_rings;
+    const uint32_t first = rings.begin[patch], places = rings.size(patch);
+    for (uint32_t k = 0; k < places; ++k)
+        out[k] = rings.is_own[first + k] ? codes[tables_.coarse_samples[first + k]] : SeenBorder::NOT_SEEN;
+    std::ranges::fill(out.subspan(places, SeenBorder::BLOCK), SeenBorder::NOT_SEEN);
+}
+
 // The samples of the first border, by the quantum of the second one's rows.
-void OverlaySssd::encode_first(End& end) const {
+void OverlaySssd::encode_first(End& end) {
     if (end.is_first_encoded) return;
     const uint32_t patch = end.borders.front().patch;
     const Rings& rings = tables_.coarse_rings;
-    const uint32_t first = rings.begin[patch], places = rings.size(patch);
-    const float quantum = tables_.quantum[index_.parent[patch]];
-    const float scale = quantum > 0 ? 1 / quantum : 0;
     const auto distance = distances_from(end.vertex);
-    for (uint32_t k = 0; k < places; ++k) {
-        const float d = distance(tables_.coarse_places[first + k]);
-        end.first_code[k] = SeenBorder::NOT_SEEN;
-        if (!rings.is_own[first + k] || d == INFINITE) continue;
-        const auto steps = static_cast<int32_t>(std::min(d * scale, float{OverlayTables::LARGEST}));
-        end.first_code[k] = static_cast<int16_t>(SeenBorder::NEAREST + steps);
-    }
-    std::fill_n(end.first_code.data() + places, SeenBorder::BLOCK, SeenBorder::NOT_SEEN);
+    const auto distances = std::span(samples_of_first_).first(tables_.sample_count[patch]);
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
+        distances[tables_.coarse_samples[k]] = distance(tables_.coarse_places[k]);
+    const StepsOf steps(distances, tables_.quantum[index_.parent[patch]]);
+    for (size_t i = 0; i < distances.size(); ++i) code_of_first_[i] = steps.code(distances[i]);
+    spread(std::span(code_of_first_).first(distances.size()), patch, end.first_code);
     end.is_first_encoded = true;
 }
 

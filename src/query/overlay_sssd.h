@@ -67,13 +67,14 @@ private:
     void climb(uint32_t vertex, uint32_t top, End& end);
     struct Label {
         uint32_t nearest;
-        std::span<const int16_t> codes; // per place of the coarse ring
+        std::span<const int16_t> codes; // per sample
     };
     Label label_of(uint32_t vertex, uint32_t patch) const;
     void cross_samples(const End& end, uint32_t sibling, std::span<float> out);
     void trace(End& end, Samples samples);
     Samples samples_before(End& end, size_t b, Samples samples);
-    void encode_first(End& end) const;
+    void encode_first(End& end);
+    void spread(std::span<const int16_t> codes, uint32_t patch, std::span<int16_t> out) const;
     const uint16_t* coarse_row(uint32_t patch, uint32_t row) const;
     Samples range_of(std::span<const uint16_t> winners) const;
 
@@ -100,6 +101,8 @@ private:
     // Of a border that a way is traced over: codes of its samples, the winners of the rows.
     Array<int16_t> code_;
     Array<uint16_t> traced_;
+    Array<float> samples_of_first_; // of encode_first()
+    Array<int16_t> code_of_first_;
     // At the border where they meet.
     Array<float> samples_;     // distances from the other end
     Array<uint16_t> winners_;  // the places, in the other end's coarse ring, that the ways to these come over

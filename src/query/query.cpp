@@ -60,9 +60,11 @@ void Query::sssd_each(std::span<const uint32_t> ids, std::span<float> distances)
 }
 
 void Query::prepare(uint32_t source_id) {
-    prepared_ = number_of(source_id);
+    const uint32_t source = number_of(source_id);
+    prepared_id_ = NONE; // unless this succeeds
+    if (source != NONE) std::visit([&](auto& engine) { engine.prepare(source); }, engine_);
+    prepared_ = source;
     prepared_id_ = source_id;
-    if (prepared_ != NONE) std::visit([&](auto& engine) { engine.prepare(prepared_); }, engine_);
 }
 
 float Query::prepared_sssd(uint32_t target_id) {
