@@ -85,6 +85,48 @@ TEST_CASE("overlay: distances along edges are the metric's, but for the codes") 
     }
 }
 
+TEST_CASE("overlay: a vertex far from all borders finds its way as MSAD does") {
+    constexpr uint32_t SIDE = 40, TIP = 20 * SIDE + 20, COUNT = SIDE * SIDE;
+    TestMesh mesh = grid(SIDE, SIDE);
+    mesh.positions[3 * TIP + 2] = 3000; // a needle: far longer than the mesh is wide
+    for (uint32_t metric : {GEOIDX_METRIC_EDGES, GEOIDX_METRIC_EXACT}) {
+        CAPTURE(metric);
+        const auto index = build(mesh, overlay_options(metric, 3, 400));
+        const auto field = msad(index.get(), TIP, COUNT);
+        uint64_t wrong = 0;
+        for (uint32_t target = 0; target < COUNT; ++target) {
+            const double difference = double{sssd(index.get(), TIP, target)} - double{field[target]};
+            wrong += std::abs(difference) > 0.5; // half an edge; the needle's own code is 0.1 long
+        }
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("overlay: costs next to nothing") {
+    const TestMesh mesh = hills(18, 17);
+    std::vector<uint32_t> vertices;
+    std::vector<double> costs;
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3)
+        for (size_t k = 0; k < 3; ++k) {
+            vertices.insert(vertices.end(), {mesh.triangles[t + k], mesh.triangles[t + (k + 1) % 3]});
+            costs.push_back((t + k) % 3 == 0 ? 0 : 1e-36);
+        }
+    auto options = overlay_options(GEOIDX_METRIC_EDGES, 3, 400);
+    options.edge_cost_count = static_cast<uint32_t>(costs.size());
+    options.edge_cost_vertices = vertices.data();
+    options.edge_costs = costs.data();
+    const auto index = build(mesh, options);
+    const auto metric = solver(mesh, options);
+    const uint32_t count = mesh.vertex_count();
+    uint64_t wrong = 0;
+    for (uint32_t source : {0u, count / 2}) {
+        const auto expected = metric_distances(metric.get(), source, count);
+        for (uint32_t target = 0; target < count; ++target)
+            wrong += !is_within(1e-36, double{sssd(index.get(), source, target)}, expected[target]);
+    }
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("overlay: several sources are the nearest of them") {
     for (const QueryCase& test : overlay_cases(GEOIDX_METRIC_EDGES)) {
         CAPTURE(test.name);
