@@ -94,9 +94,8 @@ struct OverlayTables {
 
     // The label of a vertex: its distances to the samples of each patch that it lies in beyond the first one
     // (Index::entry()), from the outermost one inwards, without the whole mesh, in steps of the quantum of
-    // that patch's parent: the nearest one's, its low half and its high one, then, per place of the coarse
-    // ring, how much longer each is, as a kernel reads it (SeenBorder). Labels choose a way, and do not
-    // measure it.
+    // that patch's parent: the nearest one's, its low half and its high one, then how much longer each is
+    // (StepsOf). Labels choose a way, and do not measure it.
     static constexpr uint32_t LABEL_HEAD = 2;
     std::pmr::vector<uint32_t> label_offset; // per patch: where its samples begin in the labels of what lies
                                              // deeper; where the labels of what lies just inside end

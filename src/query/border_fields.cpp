@@ -31,15 +31,18 @@ void transpose(NearFloats four[4]) {
 }
 
 BorderFields::BorderFields(const Index& index, std::pmr::memory_resource* memory)
-    : rings_(index.overlay_tables.rings), kernel_(crossing_kernels().back()), distance_(memory),
-      foot_(memory), height_(memory), code_(memory), code_of_one_(memory) {
+    : index_(index), rings_(index.overlay_tables.rings), kernel_(crossing_kernels().back()),
+      distance_(memory), foot_(memory), height_(memory), code_(memory), code_of_one_(memory), rows_(memory) {
     const size_t most = stride_of(rings_.largest_size());
     for (Array<float>* of_each : {&distance_, &foot_, &height_}) of_each->resize(SOURCES * most);
     code_.resize(SOURCES * most);
     code_of_one_.resize(most);
+    for (uint32_t p = 0; p < index.patch_count(); ++p)
+        rows_.resize(std::max<size_t>(rows_.size(), index.inner_size(p)));
 }
 
-bool BorderFields::see(uint32_t patch, float quantum, const float* distances) {
+bool BorderFields::see(uint32_t patch, const float* distances) {
+    patch_ = patch;
     const uint32_t first = rings_.begin[patch], places = rings_.size(patch);
     const SeenBorder border{places,
                             code_of_one_.data(),
@@ -48,7 +51,7 @@ bool BorderFields::see(uint32_t patch, float quantum, const float* distances) {
                             rings_.half_inverse.data() + first,
                             foot_.data(),
                             height_.data(),
-                            quantum};
+                            index_.overlay_tables.quantum[patch]};
     borders_ = {border, stride_of(places), code_.data()};
     gather(rings_.vertex.data() + first, distances);
     size_t reached = SOURCES; // a source that is
@@ -91,12 +94,15 @@ void BorderFields::copy_source(size_t from, size_t to) {
     for (size_t k = 0; k < places; ++k) code_[k * SOURCES + to] = code_[k * SOURCES + from];
 }
 
-void BorderFields::cross(Rows rows, float* distances) const {
-    kernel_.cross_each(borders_, rows, distances);
+void BorderFields::cross(float* inside) {
+    const uint32_t count = index_.inner_size(patch_), places = rings_.size(patch_);
+    const uint16_t* row = index_.overlay_tables.inner_tables.data() + index_.inner_row(patch_, 0);
+    for (uint32_t i = 0; i < count; ++i, row += places) rows_[i] = row;
+    kernel_.cross_each(borders_, {rows_.data(), count}, inside);
     if (all_reached_) return;
-    for (size_t r = 0; r < rows.size(); ++r)
+    for (size_t r = 0; r < count; ++r)
         for (size_t i = 0; i < SOURCES; ++i)
-            if (!is_reached_[i]) distances[r * SOURCES + i] = INFINITE;
+            if (!is_reached_[i]) inside[r * SOURCES + i] = INFINITE;
 }
 
 }

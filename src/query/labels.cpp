@@ -45,10 +45,7 @@ class LabelSweep {
 public:
     explicit LabelSweep(Index& index)
         : index_(index), tables_(index.overlay_tables), fields_(index, std::pmr::get_default_resource()),
-          distances_(SOURCES * index.vertex_count()) {
-        for (uint32_t p = 0; p < index.patch_count(); ++p)
-            rows_.resize(std::max<size_t>(rows_.size(), index.inner_size(p)));
-    }
+          distances_(SOURCES * index.vertex_count()) {}
 
     void label(uint32_t patch) {
         descendants_.clear();
@@ -98,16 +95,13 @@ private:
     }
 
     void descend(uint32_t patch, size_t first_sample) {
-        const uint32_t count = index_.inner_size(patch), places = index_.ring_size(patch);
+        const uint32_t count = index_.inner_size(patch);
         if (count == 0) return;
         float* const inside = distances_.data() + size_t{index_.first_inner(patch)} * SOURCES;
-        if (fields_.see(patch, tables_.quantum[patch], distances_.data())) {
-            const uint16_t* row = tables_.inner_tables.data() + index_.inner_row(patch, 0);
-            for (uint32_t i = 0; i < count; ++i, row += places) rows_[i] = row;
-            fields_.cross({rows_.data(), count}, inside);
-        } else {
+        if (fields_.see(patch, distances_.data()))
+            fields_.cross(inside);
+        else
             std::fill_n(inside, count * SOURCES, INFINITE);
-        }
         float* of_samples = of_samples_.data() + begin_[patch] + first_sample;
         for (uint32_t i = 0; i < count; ++i, of_samples += positions_.size())
             std::copy_n(inside + i * SOURCES, count_, of_samples);
@@ -140,7 +134,6 @@ private:
     std::vector<float> distances_;  // [number * SOURCES + sample], of the samples at hand
     std::vector<float> of_samples_; // of all samples: rows of what lies inside of each descendant
     std::vector<size_t> begin_;     // of these, per patch
-    std::vector<const uint16_t*> rows_;
     std::vector<uint32_t> descendants_;
     std::vector<uint32_t> positions_; // of the samples, in the border
 };

@@ -124,32 +124,34 @@ template <size_t BYTES>
 }
 
 // One place after the other, for what the sums of codes do not tell apart: ways of which one end is out of
-// reach. Codes of the border are `stride` apart. Returns NO_PLACE if there is no way.
-inline int32_t find_nearest_place(const SeenBorder& border, const int16_t* code, size_t stride,
-                                  const float* distance, const uint16_t* row) {
+// reach. Codes of the border are `stride` apart; sum_of(k) is the way over place k. Returns NO_PLACE if there
+// is no way.
+template <class SumOf>
+int32_t find_place(size_t places, const int16_t* code, size_t stride, const uint16_t* row,
+                   const SumOf& sum_of) {
     float least = INFINITE;
     int32_t nearest = SeenBorder::NO_PLACE;
-    for (size_t k = 0; k < border.places; ++k) {
+    for (size_t k = 0; k < places; ++k) {
         if (code[k * stride] == SeenBorder::NOT_SEEN || row[k] == OverlayTables::UNREACHED) continue;
-        const float d = distance[k] + static_cast<float>(row[k]) * border.quantum;
-        if (d >= least) continue;
-        least = d;
+        const float sum = sum_of(k);
+        if (sum >= least) continue;
+        least = sum;
         nearest = static_cast<int32_t>(k);
     }
     return nearest;
 }
 
-// Likewise, by codes alone.
+// By distances, of which codes are rounded.
+inline int32_t find_nearest_place(const SeenBorder& border, const int16_t* code, size_t stride,
+                                  const float* distance, const uint16_t* row) {
+    return find_place(border.places, code, stride, row,
+                      [&](size_t k) { return distance[k] + static_cast<float>(row[k]) * border.quantum; });
+}
+
+// By codes alone.
 inline int32_t choose_place(const SeenBorder& border, const uint16_t* row) {
-    int32_t least = std::numeric_limits<int32_t>::max(), place = SeenBorder::NO_PLACE;
-    for (size_t k = 0; k < border.places; ++k) {
-        if (border.code[k] == SeenBorder::NOT_SEEN || row[k] == OverlayTables::UNREACHED) continue;
-        const int32_t sum = border.code[k] + row[k];
-        if (sum >= least) continue;
-        least = sum;
-        place = static_cast<int32_t>(k);
-    }
-    return place;
+    return find_place(border.places, border.code, 1, row,
+                      [&](size_t k) { return static_cast<float>(border.code[k] + row[k]); });
 }
 
 // Where there is no way, the place is some one.

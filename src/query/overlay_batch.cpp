@@ -19,10 +19,9 @@ uint32_t next_inwards(const Index& index, uint32_t patch, uint32_t inside) {
 }
 
 OverlayBatch::OverlayBatch(const Index& index, std::pmr::memory_resource* memory)
-    : index_(index), tables_(index.overlay_tables), fields_(index, memory), rows_(memory), out_(memory) {
+    : index_(index), fields_(index, memory), out_(memory) {
     uint32_t most = 0;
     for (uint32_t p = 0; p < index.patch_count(); ++p) most = std::max(most, index.inner_size(p));
-    rows_.resize(most);
     out_.resize(most * SOURCES);
 }
 
@@ -50,17 +49,14 @@ void OverlayBatch::enter(uint32_t patch) {
 
 // To what lies inside.
 void OverlayBatch::descend(uint32_t patch, std::span<float> distances) {
-    const uint32_t count = index_.inner_size(patch), places = index_.ring_size(patch);
-    if (count == 0 || !fields_.see(patch, tables_.quantum[patch], distances.data())) return;
-    const uint16_t* row = tables_.inner_tables.data() + index_.inner_row(patch, 0);
-    for (uint32_t i = 0; i < count; ++i, row += places) rows_[i] = row;
-    const Rows rows(rows_.data(), count);
+    const uint32_t count = index_.inner_size(patch);
+    if (count == 0 || !fields_.see(patch, distances.data())) return;
     float* const inside = distances.data() + size_t{index_.first_inner(patch)} * SOURCES;
     if (std::ranges::find(is_outside_, false) == is_outside_.end()) {
-        fields_.cross(rows, inside);
+        fields_.cross(inside);
         return;
     }
-    fields_.cross(rows, out_.data());
+    fields_.cross(out_.data());
     for (size_t r = 0; r < count; ++r)
         for (size_t i = 0; i < SOURCES; ++i)
             if (is_outside_[i]) inside[r * SOURCES + i] = out_[r * SOURCES + i];

@@ -26,9 +26,7 @@ private:
     void enter(uint32_t patch);
 
     const Index& index_;
-    const OverlayTables& tables_;
-    BorderFields fields_; // of the patch at hand
-    Array<const uint16_t*> rows_;
+    BorderFields fields_;                         // of the patch at hand
     Array<float> out_;                            // per row, SOURCES each
     std::array<uint32_t, SOURCES> source_{};      // the last one repeated
     std::array<uint32_t, SOURCES> next_around_{}; // the next patch that each lies in

@@ -24,6 +24,15 @@ void prefetch(const T* first, size_t count) {
     for (const char* at = reinterpret_cast<const char*>(first); at < end; at += LINE) __builtin_prefetch(at);
 }
 
+// Of the samples of a patch's ring, where of_place(k) is that of a place counted over all rings.
+template <class OfPlace>
+void sample_distances(const OverlayTables& tables, uint32_t patch, const OfPlace& of_place,
+                      std::span<float> out) {
+    const Rings& rings = tables.coarse_rings;
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
+        out[tables.coarse_samples[k]] = of_place(tables.coarse_places[k]);
+}
+
 // A parent has a smaller number than its children.
 uint32_t lowest_common_patch(const Index& index, uint32_t a, uint32_t b) {
     while (a != b) (a > b ? a : b) = index.parent[std::max(a, b)];
@@ -80,10 +89,7 @@ struct OverlaySssd::FromVertex {
     uint32_t patch;
     OfPlace of_place;
 
-    void samples(std::span<float> out) const {
-        for (uint32_t k = tables.coarse_rings.begin[patch]; k < tables.coarse_rings.begin[patch + 1]; ++k)
-            out[tables.coarse_samples[k]] = of_place(tables.coarse_places[k]);
-    }
+    void samples(std::span<float> out) const { sample_distances(tables, patch, of_place, out); }
     void trace(Samples) const {}
     void window(Window window, std::span<float> out) const {
         for (uint32_t i = 0; i < window.size(); ++i) out[i] = of_place(window.first + i);
@@ -199,12 +205,8 @@ void OverlaySssd::climb(uint32_t vertex, uint32_t top, End& end) {
     for (uint32_t patch = index_.entry(vertex); patch != top; patch = index_.parent[patch])
         end.borders.push_back({patch, {0, 0}, {0, 0}});
     const uint32_t patch = end.borders.back().patch;
-    const Rings& rings = tables_.coarse_rings;
-    const uint32_t first = rings.begin[patch];
     if (end.borders.size() == 1) {
-        const auto distance = distances_from(vertex);
-        for (uint32_t k = first; k < rings.begin[patch + 1]; ++k)
-            end.distance[tables_.coarse_samples[k]] = distance(tables_.coarse_places[k]);
+        sample_distances(tables_, patch, distances_from(vertex), end.distance);
     } else {
         const Label label = label_of(vertex, patch);
         for (size_t i = 0; i < label.codes.size(); ++i) {
@@ -305,11 +307,8 @@ void OverlaySssd::spread(std::span<const int16_t> codes, uint32_t patch, std::sp
 void OverlaySssd::encode_first(End& end) {
     if (end.is_first_encoded) return;
     const uint32_t patch = end.borders.front().patch;
-    const Rings& rings = tables_.coarse_rings;
-    const auto distance = distances_from(end.vertex);
     const auto distances = std::span(samples_of_first_).first(tables_.sample_count[patch]);
-    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
-        distances[tables_.coarse_samples[k]] = distance(tables_.coarse_places[k]);
+    sample_distances(tables_, patch, distances_from(end.vertex), distances);
     const StepsOf steps(distances, tables_.quantum[index_.parent[patch]]);
     for (size_t i = 0; i < distances.size(); ++i) code_of_first_[i] = steps.code(distances[i]);
     spread(std::span(code_of_first_).first(distances.size()), patch, end.first_code);
