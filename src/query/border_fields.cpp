@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "src/query/lanes.h"
+#include "src/query/four_at_a_time.h"
 
 namespace geodesic {
 
@@ -15,18 +15,6 @@ constexpr size_t BLOCK = SeenBorder::BLOCK;
 
 // From one source's places to the next one's.
 constexpr size_t stride_of(size_t places) { return SeenBorder::whole_blocks(places) + BLOCK; }
-
-// Four places of four sources: rows become columns.
-void transpose(NearFloats four[4]) {
-    const NearFloats low_01 = __builtin_shufflevector(four[0], four[1], 0, 4, 1, 5);
-    const NearFloats low_23 = __builtin_shufflevector(four[2], four[3], 0, 4, 1, 5);
-    const NearFloats high_01 = __builtin_shufflevector(four[0], four[1], 2, 6, 3, 7);
-    const NearFloats high_23 = __builtin_shufflevector(four[2], four[3], 2, 6, 3, 7);
-    four[0] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
-    four[1] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
-    four[2] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
-    four[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
-}
 
 }
 

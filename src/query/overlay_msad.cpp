@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/query/four_at_a_time.h"
+
 namespace geodesic {
 
 namespace {
@@ -32,7 +34,7 @@ void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::sp
     climb(sources, field);
     // A patch that all sources lie in has its distances already.
     for (uint32_t p = 1; p < index_.patch_count(); ++p)
-        if (sources_below_[p] < sources.size()) descend(p, radius, field);
+        if (sources_below_[p] < sources.size()) descend(p, radius, distance);
 }
 
 void OverlayMsad::climb(std::span<const uint32_t> sources, DistanceField distance) {
@@ -69,44 +71,40 @@ void OverlayMsad::start_from(uint32_t source, DistanceField distance) {
 // To the overlay of the parent. The child's border keeps its own distances.
 void OverlayMsad::ascend(uint32_t child, DistanceField distance) {
     const uint32_t parent = index_.parent[child];
-    const auto out =
-        hop(child, tables_.quantum[parent], tables_.outer_tables.data() + index_.outer_row(child, 0),
-            index_.overlay_size(parent), distance, INFINITE);
+    const auto out = std::span(out_).first(index_.overlay_size(parent));
+    hop(child, tables_.quantum[parent], tables_.outer_tables.data() + index_.outer_row(child, 0), distance,
+        INFINITE, out);
     for (uint32_t slot = index_.border_begin[child]; slot < index_.border_begin[child + 1]; ++slot)
         out_[index_.overlay_position[slot]] = INFINITE;
     for (uint32_t i = 0; i < out.size(); ++i) lower(distance[index_.overlay_number(parent, i)], out[i]);
 }
 
-// To what lies inside.
-void OverlayMsad::descend(uint32_t patch, float radius, DistanceField distance) {
-    if (index_.inner_size(patch) == 0) return;
-    const auto out =
-        hop(patch, tables_.quantum[patch], tables_.inner_tables.data() + index_.inner_row(patch, 0),
-            index_.inner_size(patch), distance, radius);
-    float* d = &distance[index_.first_inner(patch)];
-    for (const float candidate : out) {
-        lower(*d, candidate);
-        d += distance.stride;
-    }
+// To what lies inside, of which some is known where a source is there, too.
+void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distance) {
+    const auto inside = distance.subspan(index_.first_inner(patch), index_.inner_size(patch));
+    if (inside.empty()) return;
+    const auto out = sources_below_[patch] == 0 ? inside : std::span(out_).first(inside.size());
+    hop(patch, tables_.quantum[patch], tables_.inner_tables.data() + index_.inner_row(patch, 0),
+        {distance.data()}, radius, out);
+    if (sources_below_[patch] > 0)
+        for (size_t i = 0; i < inside.size(); ++i) lower(inside[i], out[i]);
 }
 
 // From the border of a patch over rows of its tables, unless all of it is beyond the radius.
-std::span<const float> OverlayMsad::hop(uint32_t patch, float quantum, const uint16_t* first_row,
-                                        size_t count, DistanceField distance, float radius) {
-    const auto out = std::span(out_).first(count);
+void OverlayMsad::hop(uint32_t patch, float quantum, const uint16_t* first_row, DistanceField distance,
+                      float radius, std::span<float> out) {
+    if (out.empty()) return;
     const Rings& rings = tables_.rings;
     const uint32_t places = rings.size(patch);
-    if (count == 0) return out;
+    const auto border = field_.begin(rings, rings.begin[patch], places, quantum);
     const uint32_t* vertex = rings.vertex.data() + rings.begin[patch];
-    for (float& d : field_.begin(rings, rings.begin[patch], places, quantum)) d = distance[*vertex++];
+    four_at_a_time(border.size(), [&](size_t k) { border[k] = distance[vertex[k]]; });
     if (!field_.finish() || field_.nearest() > radius) {
         std::ranges::fill(out, INFINITE);
-        return out;
+        return;
     }
-    const uint16_t** row = rows_.data();
-    for (size_t i = 0; i < count; ++i, first_row += places) row[i] = first_row;
-    field_.cross({row, count}, out.data(), nullptr);
-    return out;
+    four_at_a_time(out.size(), [&](size_t i) { rows_[i] = first_row + i * places; });
+    field_.cross({rows_.data(), out.size()}, out.data(), nullptr);
 }
 
 }

@@ -32,9 +32,9 @@ public:
 private:
     void start_from(uint32_t source, DistanceField distance);
     void ascend(uint32_t child, DistanceField distance);
-    void descend(uint32_t patch, float radius, DistanceField distance);
-    std::span<const float> hop(uint32_t patch, float quantum, const uint16_t* first_row, size_t count,
-                               DistanceField distance, float radius);
+    void descend(uint32_t patch, float radius, std::span<float> distance);
+    void hop(uint32_t patch, float quantum, const uint16_t* first_row, DistanceField distance, float radius,
+             std::span<float> out);
 
     const Index& index_;
     const OverlayTables& tables_;

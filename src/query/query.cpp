@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <string>
 
 #include "format/error.h"
+#include "src/query/four_at_a_time.h"
 
 namespace geodesic {
 
@@ -86,21 +88,41 @@ void Query::check_count(std::span<const float> distances, uint64_t fields) const
 }
 
 void Query::write_by_id(std::span<float> field) const {
-    const uint32_t* number = index_.number_of_id.data();
-    for (float& d : field) {
-        d = *number == NONE ? INFINITE : distance_[*number];
-        ++number;
-    }
+    const uint32_t* const number_of_id = index_.number_of_id.data();
+    const float* const by_number = distance_.data();
+    four_at_a_time(field.size(), [&](size_t id) {
+        const uint32_t number = number_of_id[id];
+        field[id] = number == NONE ? INFINITE : by_number[number];
+    });
 }
 
 // Of fields that lie side by side: the one pass over them reads each line of memory once.
-void Query::write_by_id(std::span<float* const> fields) const {
-    constexpr size_t STRIDE = OverlayQuery::FIELDS_AT_ONCE;
-    for (size_t id = 0; id < index_.id_count; ++id) {
-        const uint32_t number = index_.number_of_id[id];
-        const float* by_field = distance_.data() + size_t{number == NONE ? 0 : number} * STRIDE;
-        for (size_t i = 0; i < fields.size(); ++i) fields[i][id] = number == NONE ? INFINITE : by_field[i];
+void Query::write_by_id(const SideBySide& fields) const {
+    const uint32_t* const number_of_id = index_.number_of_id.data();
+    const float* const by_number = distance_.data();
+    const auto four_fields = [&](size_t id, size_t first) {
+        return near_floats(by_number + size_t{number_of_id[id]} * fields.size() + first);
+    };
+    const auto write_one = [&](size_t id) {
+        const uint32_t number = number_of_id[id];
+        for (size_t i = 0; i < fields.size(); ++i)
+            fields[i][id] = number == NONE ? INFINITE : by_number[size_t{number} * fields.size() + i];
+    };
+    const auto is_unused = [&](size_t id) { return number_of_id[id] == NONE; };
+    size_t id = 0;
+    for (; id + 4 <= index_.id_count; id += 4) {
+        if (is_unused(id) || is_unused(id + 1) || is_unused(id + 2) || is_unused(id + 3)) {
+            for (size_t j = 0; j < 4; ++j) write_one(id + j);
+            continue;
+        }
+        for (size_t i = 0; i < fields.size(); i += 4) {
+            NearFloats four[4] = {four_fields(id, i), four_fields(id + 1, i), four_fields(id + 2, i),
+                                  four_fields(id + 3, i)};
+            transpose(four);
+            for (size_t j = 0; j < 4; ++j) std::memcpy(fields[i + j] + id, &four[j], sizeof four[j]);
+        }
     }
+    for (; id < index_.id_count; ++id) write_one(id);
 }
 
 void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<float> distances) {
@@ -139,7 +161,7 @@ void Query::ssad_each(std::span<const uint32_t> source_ids, std::span<float> dis
 
 void Query::ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_ids,
                          std::span<float> distances) {
-    std::array<float*, OverlayQuery::FIELDS_AT_ONCE> fields;
+    SideBySide fields;
     sources_.clear();
     for (size_t i = 0; i < source_ids.size(); ++i) {
         const auto field = distances.subspan(i * index_.id_count, index_.id_count);
@@ -153,7 +175,9 @@ void Query::ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_
     if (!sources_.empty()) {
         distance_.resize(fields.size() * index_.vertex_count());
         engine.ssad_each(sources_, distance_);
-        write_by_id(std::span(fields).first(sources_.size()));
+        // The last source is repeated.
+        std::fill(fields.begin() + sources_.size(), fields.end(), fields[sources_.size() - 1]);
+        write_by_id(fields);
     }
     for (size_t i = 0; i < source_ids.size(); ++i) distances[i * index_.id_count + source_ids[i]] = 0;
 }

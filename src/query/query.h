@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <variant>
 
@@ -35,7 +36,8 @@ private:
     void check_count(std::span<const float> distances, uint64_t fields) const;
     void ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_ids, std::span<float> distances);
     void write_by_id(std::span<float> field) const;
-    void write_by_id(std::span<float* const> fields) const;
+    using SideBySide = std::array<float*, OverlayQuery::FIELDS_AT_ONCE>;
+    void write_by_id(const SideBySide& fields) const;
 
     const Index& index_;
     std::variant<GraphQuery, OverlayQuery> engine_;
