@@ -52,23 +52,23 @@ void place_samples(Index& index, uint32_t patch) {
     std::vector<uint32_t> sample(index.border_size(patch), 0); // per position
     uint32_t count = 0;
     for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
-        if (rings.is_own[k]) sample[rings.position[k]] = count++;
+        if (rings.is_own[k]) {
+            sample[rings.position[k]] = count++;
+            tables.sample_positions.push_back(rings.position[k]);
+        }
     for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
         tables.coarse_places.push_back(tables.rings.begin[patch] +
                                        tables.place_of_slot[index.border_begin[patch] + rings.position[k]]);
         tables.coarse_samples.push_back(sample[rings.position[k]]);
     }
-    tables.sample_count.push_back(count);
+    tables.sample_begin.push_back(static_cast<uint32_t>(tables.sample_positions.size()));
 }
 
 // The overlay positions, in a patch, of the samples of its child's ring, or of its own.
 void add_samples(const Index& index, uint32_t ring_of, bool of_child, std::vector<uint32_t>& positions) {
-    const Rings& rings = index.overlay_tables.coarse_rings;
-    for (uint32_t k = rings.begin[ring_of]; k < rings.begin[ring_of + 1]; ++k)
-        if (rings.is_own[k])
-            positions.push_back(of_child
-                                    ? index.overlay_position[index.border_begin[ring_of] + rings.position[k]]
-                                    : rings.position[k]);
+    for (uint32_t position : index.overlay_tables.samples_of(ring_of))
+        positions.push_back(of_child ? index.overlay_position[index.border_begin[ring_of] + position]
+                                     : position);
 }
 
 void sample_table(Index& index, uint32_t patch, std::span<const uint32_t> rows) {
@@ -105,6 +105,7 @@ void make_coarse_tables(Index& index) {
     RingWriter writer(tables.coarse_rings);
     writer.begin();
     for (uint32_t p = 0; p < index.patch_count(); ++p) sample_ring(index, p, writer);
+    tables.sample_begin.assign(1, 0);
     for (uint32_t p = 0; p < index.patch_count(); ++p) place_samples(index, p);
     writer.end();
     tables.coarse_rows.assign(index.patch_count(), 0);

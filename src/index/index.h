@@ -132,6 +132,13 @@ struct Index {
         const uint64_t owned = inner_size(patch);
         return owned * border_size(patch) + (owned ? owned * (owned - 1) / 2 : 0);
     }
+    // Distances in a label to the border of a patch.
+    uint32_t label_size(uint32_t patch) const {
+        const uint32_t size = border_size(patch);
+        return size <= OverlayTables::LABELLED_WHOLE
+                   ? size
+                   : static_cast<uint32_t>(overlay_tables.samples_of(patch).size());
+    }
     // The patch that a vertex lies inside of so: its owner or its leaf.
     uint32_t entry(uint32_t number) const { return is_border(number) ? owner[number] : leaf_of(number); }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 namespace geodesic {
@@ -56,13 +57,18 @@ struct OverlayTables {
     explicit OverlayTables(std::pmr::memory_resource* memory)
         : quantum(memory), rings(memory), place_of_slot(memory), outer_begin(memory), inner_begin(memory),
           outer_tables(memory), inner_tables(memory), internal_tables(memory), coarse_rings(memory),
-          coarse_places(memory), coarse_samples(memory), sample_count(memory), coarse_rows(memory),
-          coarse_positions_begin(memory), coarse_positions(memory), coarse_begin(memory),
+          coarse_places(memory), coarse_samples(memory), sample_begin(memory), sample_positions(memory),
+          coarse_rows(memory), coarse_positions_begin(memory), coarse_positions(memory), coarse_begin(memory),
           coarse_tables(memory), label_offset(memory), label_begin(memory), labels(memory) {}
 
     float distance(uint16_t code, uint32_t patch) const {
         return code == UNREACHED ? std::numeric_limits<float>::infinity()
                                  : static_cast<float>(code) * quantum[patch];
+    }
+
+    std::span<const uint32_t> samples_of(uint32_t patch) const {
+        return {sample_positions.data() + sample_begin[patch],
+                sample_positions.data() + sample_begin[patch + 1]};
     }
 
     std::pmr::vector<float> quantum; // per patch
@@ -85,19 +91,22 @@ struct OverlayTables {
     // Per place of coarse_rings: the own place of the same vertex in `rings`, counted over all, and which of
     // the ring's samples it is.
     std::pmr::vector<uint32_t> coarse_places, coarse_samples;
-    std::pmr::vector<uint32_t> sample_count; // per patch
+    std::pmr::vector<uint32_t> sample_begin;     // per patch
+    std::pmr::vector<uint32_t> sample_positions; // in the border
     std::pmr::vector<uint32_t> coarse_rows; // per patch: its samples' first row in the tables of its siblings
     std::pmr::vector<uint32_t> coarse_positions_begin; // per inner patch
     std::pmr::vector<uint32_t> coarse_positions; // of these rows, in the parent's overlay, parent by parent
     std::pmr::vector<uint64_t> coarse_begin;     // per patch
     std::pmr::vector<uint16_t> coarse_tables;
 
-    // The label of a vertex: its distances to the samples of each patch that it lies in beyond the first one
+    // The label of a vertex: its distances to the borders of the patches that it lies in beyond the first one
     // (Index::entry()), from the outermost one inwards, without the whole mesh, in steps of the quantum of
     // that patch's parent: the nearest one's, its low half and its high one, then how much longer each is
-    // (StepsOf). Labels choose a way, and do not measure it.
+    // (StepsOf), to all of a border that has no more than so many vertices, in its order, or to the samples
+    // of its ring.
+    static constexpr uint32_t LABELLED_WHOLE = 400;
     static constexpr uint32_t LABEL_HEAD = 2;
-    std::pmr::vector<uint32_t> label_offset; // per patch: where its samples begin in the labels of what lies
+    std::pmr::vector<uint32_t> label_offset; // per patch: where its border begins in the labels of what lies
                                              // deeper; where the labels of what lies just inside end
     std::pmr::vector<uint64_t> label_begin;  // per patch: of what lies just inside
     std::pmr::vector<int16_t> labels;

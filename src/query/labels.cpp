@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <string>
 
@@ -28,7 +29,7 @@ void lay_out_labels(Index& index) {
         const uint32_t parent = index.parent[p];
         if (parent != 0)
             tables.label_offset[p] =
-                tables.label_offset[parent] + OverlayTables::LABEL_HEAD + tables.sample_count[parent];
+                tables.label_offset[parent] + OverlayTables::LABEL_HEAD + index.label_size(parent);
         tables.label_begin[p] = size;
         size += uint64_t{index.inner_size(p)} * tables.label_offset[p];
     }
@@ -39,8 +40,8 @@ void lay_out_labels(Index& index) {
     tables.labels.assign(size, SeenBorder::NOT_SEEN);
 }
 
-// Distances from the samples of a patch's ring to all that lies inside of its descendants, SOURCES samples at
-// a time.
+// Distances from the labelled vertices of a patch's border to all that lies inside of its descendants,
+// SOURCES of them at a time.
 class LabelSweep {
 public:
     explicit LabelSweep(Index& index)
@@ -50,10 +51,11 @@ public:
     void label(uint32_t patch) {
         descendants_.clear();
         add_descendants(patch);
-        const Rings& rings = tables_.coarse_rings;
-        positions_.clear();
-        for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
-            if (rings.is_own[k]) positions_.push_back(rings.position[k]);
+        positions_.resize(index_.label_size(patch));
+        if (positions_.size() == index_.border_size(patch))
+            std::iota(positions_.begin(), positions_.end(), 0u);
+        else
+            std::ranges::copy(tables_.samples_of(patch), positions_.begin());
         lay_out_distances();
         for (size_t first = 0; first < positions_.size(); first += SOURCES) {
             start(patch, std::span(positions_).subspan(first, std::min(SOURCES, positions_.size() - first)));
@@ -78,7 +80,7 @@ private:
             begin_[p] = inside * positions_.size();
             inside += index_.inner_size(p);
         }
-        of_samples_.resize(inside * positions_.size());
+        of_border_.resize(inside * positions_.size());
     }
 
     // To the overlay of the patch, from the samples at these positions of it; the last one is repeated.
@@ -94,7 +96,7 @@ private:
         }
     }
 
-    void descend(uint32_t patch, size_t first_sample) {
+    void descend(uint32_t patch, size_t first) {
         const uint32_t count = index_.inner_size(patch);
         if (count == 0) return;
         float* const inside = distances_.data() + size_t{index_.first_inner(patch)} * SOURCES;
@@ -102,16 +104,16 @@ private:
             fields_.cross(inside);
         else
             std::fill_n(inside, count * SOURCES, INFINITE);
-        float* of_samples = of_samples_.data() + begin_[patch] + first_sample;
-        for (uint32_t i = 0; i < count; ++i, of_samples += positions_.size())
-            std::copy_n(inside + i * SOURCES, count_, of_samples);
+        float* to_border = of_border_.data() + begin_[patch] + first;
+        for (uint32_t i = 0; i < count; ++i, to_border += positions_.size())
+            std::copy_n(inside + i * SOURCES, count_, to_border);
     }
 
     void encode(uint32_t patch, uint32_t labelled) {
         const uint32_t count = index_.inner_size(patch);
         if (count == 0) return;
         const float quantum = tables_.quantum[index_.parent[labelled]];
-        const float* distance = of_samples_.data() + begin_[patch];
+        const float* distance = of_border_.data() + begin_[patch];
         int16_t* label = tables_.labels.data() + tables_.label_begin[patch] + tables_.label_offset[labelled];
         for (uint32_t i = 0; i < count; ++i) {
             write_label({distance, positions_.size()}, quantum, label);
@@ -131,11 +133,11 @@ private:
     OverlayTables& tables_;
     BorderFields fields_;
     size_t count_ = 0;
-    std::vector<float> distances_;  // [number * SOURCES + sample], of the samples at hand
-    std::vector<float> of_samples_; // of all samples: rows of what lies inside of each descendant
-    std::vector<size_t> begin_;     // of these, per patch
+    std::vector<float> distances_; // [number * SOURCES + source], of those at hand
+    std::vector<float> of_border_; // of all: rows of what lies inside of each descendant
+    std::vector<size_t> begin_;    // of these, per patch
     std::vector<uint32_t> descendants_;
-    std::vector<uint32_t> positions_; // of the samples, in the border
+    std::vector<uint32_t> positions_; // of the labelled vertices, in the border
 };
 
 }

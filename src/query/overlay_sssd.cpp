@@ -44,8 +44,10 @@ uint32_t lowest_common_patch(const Index& index, uint32_t a, uint32_t b) {
 OverlaySssd::OverlaySssd(const Index& index, std::pmr::memory_resource* memory)
     : index_(index), tables_(index.overlay_tables), field_(index, memory), rows_(memory), from_(memory),
       to_(memory), code_(memory), traced_(memory), samples_of_first_(memory), code_of_first_(memory),
-      samples_(std::ranges::max(index.overlay_tables.sample_count), memory),
-      winners_(samples_.size(), memory), from_window_(index.overlay_tables.rings.largest_size(), memory) {
+      samples_(memory), winners_(memory), from_window_(index.overlay_tables.rings.largest_size(), memory) {
+    for (uint32_t p = 0; p < index.patch_count(); ++p)
+        samples_.resize(std::max(samples_.size(), tables_.samples_of(p).size()));
+    winners_.resize(samples_.size());
     rows_.reserve(from_window_.size());
     samples_of_first_.resize(samples_.size());
     code_of_first_.resize(samples_.size());
@@ -133,7 +135,7 @@ float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, 
 template <class From>
 float OverlaySssd::meet(const From& from, End& to) {
     const Border& border = to.borders.back();
-    const auto distance = std::span(samples_).first(tables_.sample_count[border.patch]);
+    const auto distance = std::span(samples_).first(tables_.samples_of(border.patch).size());
     from.samples(distance);
     const Rings& rings = tables_.coarse_rings;
     const auto sum = [&](uint32_t k) {
@@ -196,25 +198,26 @@ auto OverlaySssd::distances_from(uint32_t vertex) const {
 
 // ---- Over samples
 
-// The borders around a vertex below `top`, and its distances to the samples of the last one.
+// The borders around a vertex below `top`, and its distances to the samples of the last one. The first border
+// is the outermost one that all distances are known of.
 void OverlaySssd::climb(uint32_t vertex, uint32_t top, End& end) {
     end.vertex = vertex;
     end.crossed = 0;
     end.is_first_encoded = false;
     end.borders.clear();
-    for (uint32_t patch = index_.entry(vertex); patch != top; patch = index_.parent[patch])
+    const uint32_t entry = index_.entry(vertex);
+    for (uint32_t patch = entry; patch != top; patch = index_.parent[patch]) {
+        if (patch != entry && index_.label_size(patch) == index_.border_size(patch)) end.borders.clear();
         end.borders.push_back({patch, {0, 0}, {0, 0}});
+    }
     const uint32_t patch = end.borders.back().patch;
-    if (end.borders.size() == 1) {
+    if (patch == entry) {
         sample_distances(tables_, patch, distances_from(vertex), end.distance);
     } else {
         const Label label = label_of(vertex, patch);
-        for (size_t i = 0; i < label.codes.size(); ++i) {
-            const auto steps = static_cast<uint32_t>(label.codes[i] - SeenBorder::NEAREST);
-            end.distance[i] = label.codes[i] == SeenBorder::NOT_SEEN
-                                  ? INFINITE
-                                  : static_cast<float>(label.nearest + steps) * tables_.quantum[top];
-        }
+        const auto samples = tables_.samples_of(patch);
+        for (uint32_t i = 0; i < samples.size(); ++i)
+            end.distance[i] = label.distance(label.is_whole ? samples[i] : i);
     }
 }
 
@@ -224,9 +227,10 @@ OverlaySssd::Label OverlaySssd::label_of(uint32_t vertex, uint32_t patch) const 
     const int16_t* label = tables_.labels.data() + tables_.label_begin[entry] +
                            uint64_t{vertex - index_.first_inner(entry)} * tables_.label_offset[entry] +
                            tables_.label_offset[patch];
-    return {static_cast<uint32_t>(static_cast<uint16_t>(label[0])) +
-                0x10000u * static_cast<uint32_t>(static_cast<uint16_t>(label[1])),
-            {label + OverlayTables::LABEL_HEAD, tables_.sample_count[patch]}};
+    const uint32_t nearest = static_cast<uint32_t>(static_cast<uint16_t>(label[0])) +
+                             0x10000u * static_cast<uint32_t>(static_cast<uint16_t>(label[1]));
+    return {nearest, tables_.quantum[index_.parent[patch]], label + OverlayTables::LABEL_HEAD,
+            index_.label_size(patch) == index_.border_size(patch)};
 }
 
 // A row of the coarse table of a patch.
@@ -281,7 +285,7 @@ OverlaySssd::Samples OverlaySssd::samples_before(End& end, size_t b, Samples sam
     if (b == 1)
         encode_first(end);
     else
-        spread(label_of(end.vertex, before).codes, before, code_);
+        spread(label_of(end.vertex, before), before, code_);
     const uint32_t* sample = tables_.coarse_samples.data() + rings.begin[patch];
     rows_.clear();
     for (uint32_t k = samples.first - 1; k <= samples.last + 1; ++k)
@@ -294,25 +298,30 @@ OverlaySssd::Samples OverlaySssd::samples_before(End& end, size_t b, Samples sam
     return range_of(traced_);
 }
 
-// To the places of a coarse ring, from its samples.
-void OverlaySssd::spread(std::span<const int16_t> codes, uint32_t patch, std::span<int16_t> out) const {
+// To the places of a coarse ring, from a label.
+void OverlaySssd::spread(const Label& label, uint32_t patch, std::span<int16_t> out) const {
     const Rings& rings = tables_.coarse_rings;
     const uint32_t first = rings.begin[patch], places = rings.size(patch);
+    const uint32_t* code_at = (label.is_whole ? rings.position : tables_.coarse_samples).data() + first;
     for (uint32_t k = 0; k < places; ++k)
-        out[k] = rings.is_own[first + k] ? codes[tables_.coarse_samples[first + k]] : SeenBorder::NOT_SEEN;
+        out[k] = rings.is_own[first + k] ? label.codes[code_at[k]] : SeenBorder::NOT_SEEN;
     std::ranges::fill(out.subspan(places, SeenBorder::BLOCK), SeenBorder::NOT_SEEN);
 }
 
 // The samples of the first border, by the quantum of the second one's rows.
 void OverlaySssd::encode_first(End& end) {
     if (end.is_first_encoded) return;
+    end.is_first_encoded = true;
     const uint32_t patch = end.borders.front().patch;
-    const auto distances = std::span(samples_of_first_).first(tables_.sample_count[patch]);
+    if (patch != index_.entry(end.vertex)) {
+        spread(label_of(end.vertex, patch), patch, end.first_code);
+        return;
+    }
+    const auto distances = std::span(samples_of_first_).first(tables_.samples_of(patch).size());
     sample_distances(tables_, patch, distances_from(end.vertex), distances);
     const StepsOf steps(distances, tables_.quantum[index_.parent[patch]]);
     for (size_t i = 0; i < distances.size(); ++i) code_of_first_[i] = steps.code(distances[i]);
-    spread(std::span(code_of_first_).first(distances.size()), patch, end.first_code);
-    end.is_first_encoded = true;
+    spread({0, 0, code_of_first_.data(), false}, patch, end.first_code);
 }
 
 OverlaySssd::Samples OverlaySssd::range_of(std::span<const uint16_t> winners) const {
@@ -359,16 +368,24 @@ std::span<float> OverlaySssd::window_distances(End& end, size_t b) const {
 
 // The distances of an end from the windows of its borders, but those that are known from another way.
 void OverlaySssd::climb_windows(End& end) {
-    if (end.crossed == 0) {
-        const auto of_place = distances_from(end.vertex);
-        uint32_t place = end.borders.front().window.first;
-        for (float& d : window_distances(end, 0)) d = of_place(place++);
-    }
+    if (end.crossed == 0) read_first_window(end);
     for (size_t b = std::max<size_t>(end.crossed, 1); b < end.borders.size(); ++b)
         cross_window(
             end, b - 1, end.borders[b].window, [&](uint32_t place) { return position_at(place); },
             window_distances(end, b));
     end.crossed = end.borders.size();
+}
+
+void OverlaySssd::read_first_window(End& end) {
+    const auto& [patch, window, traced] = end.borders.front();
+    const auto out = window_distances(end, 0);
+    if (patch == index_.entry(end.vertex)) {
+        const auto of_place = distances_from(end.vertex);
+        for (uint32_t i = 0; i < out.size(); ++i) out[i] = of_place(window.first + i);
+    } else {
+        const Label label = label_of(end.vertex, patch);
+        for (uint32_t i = 0; i < out.size(); ++i) out[i] = label.distance(position_at(window.first + i));
+    }
 }
 
 // From a window to the places that stand at these positions of the overlay of the patch's parent.

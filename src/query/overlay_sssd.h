@@ -34,8 +34,7 @@ private:
         uint32_t first, last;
     };
 
-    // A border around a vertex, from that of the first patch that it lies inside of, to that of a child of
-    // the patch where both ends meet.
+    // A border around a vertex, up to that of a child of the patch where both ends meet.
     struct Border {
         uint32_t patch;
         Window window; // where the way at hand crosses it, and around
@@ -67,14 +66,22 @@ private:
     void climb(uint32_t vertex, uint32_t top, End& end);
     struct Label {
         uint32_t nearest;
-        std::span<const int16_t> codes; // per sample
+        float quantum;
+        const int16_t* codes; // per position in the border, or per sample
+        bool is_whole;
+
+        float distance(uint32_t i) const {
+            const auto steps = static_cast<uint32_t>(codes[i] - SeenBorder::NEAREST);
+            return codes[i] == SeenBorder::NOT_SEEN ? std::numeric_limits<float>::infinity()
+                                                    : static_cast<float>(nearest + steps) * quantum;
+        }
     };
     Label label_of(uint32_t vertex, uint32_t patch) const;
     void cross_samples(const End& end, uint32_t sibling, std::span<float> out);
     void trace(End& end, Samples samples);
     Samples samples_before(End& end, size_t b, Samples samples);
     void encode_first(End& end);
-    void spread(std::span<const int16_t> codes, uint32_t patch, std::span<int16_t> out) const;
+    void spread(const Label& label, uint32_t patch, std::span<int16_t> out) const;
     const uint16_t* coarse_row(uint32_t patch, uint32_t row) const;
     Samples range_of(std::span<const uint16_t> winners) const;
 
@@ -83,6 +90,7 @@ private:
     Window window_of(uint32_t patch, Samples samples) const;
     void prefetch_window(const End& end, size_t b) const;
     void climb_windows(End& end);
+    void read_first_window(End& end);
     template <class OverlayPosition>
     void cross_window(End& end, size_t b, Window to, const OverlayPosition& overlay_position,
                       std::span<float> out);
