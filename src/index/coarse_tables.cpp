@@ -1,6 +1,7 @@
 #include "src/index/coarse_tables.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "src/index/rings.h"
@@ -51,6 +52,8 @@ void place_samples(Index& index, uint32_t patch) {
     const Rings& rings = tables.coarse_rings;
     std::vector<uint32_t> sample(index.border_size(patch), 0); // per position
     uint32_t count = 0;
+    float length = 0;
+    uint32_t segments = 0;
     for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
         if (rings.is_own[k]) {
             sample[rings.position[k]] = count++;
@@ -60,7 +63,11 @@ void place_samples(Index& index, uint32_t patch) {
         tables.coarse_places.push_back(tables.rings.begin[patch] +
                                        tables.place_of_slot[index.border_begin[patch] + rings.position[k]]);
         tables.coarse_samples.push_back(sample[rings.position[k]]);
+        if (std::isnan(rings.segment_length[k])) continue;
+        length += rings.segment_length[k];
+        ++segments;
     }
+    tables.sample_spacing.push_back(segments ? length / static_cast<float>(segments) : 0);
     tables.sample_begin.push_back(static_cast<uint32_t>(tables.sample_positions.size()));
 }
 

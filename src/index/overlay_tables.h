@@ -58,8 +58,9 @@ struct OverlayTables {
         : quantum(memory), rings(memory), place_of_slot(memory), outer_begin(memory), inner_begin(memory),
           outer_tables(memory), inner_tables(memory), internal_tables(memory), coarse_rings(memory),
           coarse_places(memory), coarse_samples(memory), sample_begin(memory), sample_positions(memory),
-          coarse_rows(memory), coarse_positions_begin(memory), coarse_positions(memory), coarse_begin(memory),
-          coarse_tables(memory), label_offset(memory), label_begin(memory), labels(memory) {}
+          sample_spacing(memory), coarse_rows(memory), coarse_positions_begin(memory),
+          coarse_positions(memory), coarse_begin(memory), coarse_tables(memory), label_offset(memory),
+          label_begin(memory), labels(memory) {}
 
     float distance(uint16_t code, uint32_t patch) const {
         return code == UNREACHED ? std::numeric_limits<float>::infinity()
@@ -93,6 +94,7 @@ struct OverlayTables {
     std::pmr::vector<uint32_t> coarse_places, coarse_samples;
     std::pmr::vector<uint32_t> sample_begin;     // per patch
     std::pmr::vector<uint32_t> sample_positions; // in the border
+    std::pmr::vector<float> sample_spacing;      // per patch: from a sample to the next one, on average
     std::pmr::vector<uint32_t> coarse_rows; // per patch: its samples' first row in the tables of its siblings
     std::pmr::vector<uint32_t> coarse_positions_begin; // per inner patch
     std::pmr::vector<uint32_t> coarse_positions; // of these rows, in the parent's overlay, parent by parent

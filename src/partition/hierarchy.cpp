@@ -32,6 +32,11 @@ uint32_t levels_named(std::span<const uint32_t> given) {
 
 }
 
+SplitShape overlay_split(uint32_t vertex_count) {
+    constexpr double LARGE_MESH = 43000, FEWEST = 24, MOST = 60;
+    return {std::clamp(MOST * std::pow(LARGE_MESH / vertex_count, 0.25), FEWEST, MOST), 6};
+}
+
 std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_count,
                                       std::span<const uint32_t> given, const SplitShape& shape) {
     const double leaves = std::max(1.0, vertex_count / shape.leaf_vertices);

@@ -38,9 +38,11 @@ struct SplitShape {
     double largest_split;
 };
 
-// Measured on scans of 35,000 to 50,000 vertices (bench/). Graph: larger leaves answer faster and more
-// exactly, but the file grows. Overlay: the fewest table entries.
-inline constexpr SplitShape GRAPH_SPLIT{120, 40}, OVERLAY_SPLIT{60, 6};
+// Measured on scans of 35,000 to 390,000 vertices (bench/). Graph: larger leaves answer faster and more
+// exactly, but the file grows. Overlay: larger leaves answer faster, smaller ones need fewer table entries,
+// which the borders of a larger mesh need more of.
+inline constexpr SplitShape GRAPH_SPLIT{120, 40};
+SplitShape overlay_split(uint32_t vertex_count);
 
 // How many levels, and how many patches each patch is split into, for a mesh of this size; counts given by
 // the caller (not 0) are kept.

@@ -15,6 +15,8 @@ constexpr uint32_t REACH = Rings::REACH;
 
 constexpr size_t WAYS = 2;               // that are measured
 constexpr float WORTH_MEASURING = 1.05f; // how long over samples, compared to the shortest
+// Up to so many times the distance of two samples is near: too near for samples to tell the way.
+constexpr float NEAR = 8;
 
 // Asks for memory that is going to be read soon.
 template <class T>
@@ -76,6 +78,7 @@ struct OverlaySssd::FromEnd {
                                               search.winners_[sample[samples.first + 1]]};
         search.trace(end, search.range_of(winners));
     }
+    void trace_near(float reach) const { search.trace(end, search.samples_within(end, reach)); }
     void window(Window window, std::span<float> out) const {
         search.climb_windows(end);
         search.cross_window(
@@ -93,6 +96,7 @@ struct OverlaySssd::FromVertex {
 
     void samples(std::span<float> out) const { sample_distances(tables, patch, of_place, out); }
     void trace(Samples) const {}
+    void trace_near(float) const {}
     void window(Window window, std::span<float> out) const {
         for (uint32_t i = 0; i < window.size(); ++i) out[i] = of_place(window.first + i);
     }
@@ -152,18 +156,27 @@ float OverlaySssd::meet(const From& from, End& to) {
     float shortest = INFINITE;
     for (const auto& [length, place] : ways)
         if (length < INFINITE && length <= ways[0].first * WORTH_MEASURING)
-            shortest = std::min(shortest, measure(from, to, place));
-    return shortest;
+            shortest = std::min(shortest, measure_over(from, to, place - rings.begin[border.patch]));
+    const float spacing = tables_.sample_spacing[border.patch], near = NEAR * spacing;
+    if (shortest > near) return shortest;
+    const float reach = shortest + 2 * spacing;
+    from.trace_near(reach);
+    trace(to, samples_within(to, reach));
+    return std::min(shortest, measure(from, to));
 }
 
-// The way over one of these samples, by its place in all coarse rings.
+// The way over one of these samples, by its place in the coarse ring.
 template <class From>
-float OverlaySssd::measure(const From& from, End& to, uint32_t coarse_place) {
-    const Border& border = to.borders.back();
-    const uint32_t place = coarse_place - tables_.coarse_rings.begin[border.patch];
+float OverlaySssd::measure_over(const From& from, End& to, uint32_t place) {
     from.trace({place, place});
     trace(to, {place, place});
-    const Window window = border.window;
+    return measure(from, to);
+}
+
+// The way that is traced.
+template <class From>
+float OverlaySssd::measure(const From& from, End& to) {
+    const Window window = to.borders.back().window;
     const auto from_distance = std::span(from_window_).first(window.size());
     from.window(window, from_distance);
     climb_windows(to);
@@ -219,6 +232,21 @@ void OverlaySssd::climb(uint32_t vertex, uint32_t top, End& end) {
         for (uint32_t i = 0; i < samples.size(); ++i)
             end.distance[i] = label.distance(label.is_whole ? samples[i] : i);
     }
+}
+
+// From the first to the last one of the last border that is no farther.
+OverlaySssd::Samples OverlaySssd::samples_within(const End& end, float reach) const {
+    const uint32_t patch = end.borders.back().patch;
+    const uint32_t begin = tables_.coarse_rings.begin[patch], places = tables_.coarse_rings.size(patch);
+    Samples within{REACH, REACH};
+    bool any = false;
+    for (uint32_t k = REACH; k + REACH < places; ++k) {
+        if (!(end.distance[tables_.coarse_samples[begin + k]] <= reach)) continue;
+        if (!any) within.first = k;
+        within.last = k;
+        any = true;
+    }
+    return within;
 }
 
 // Of a patch that a vertex lies in beyond its first one.

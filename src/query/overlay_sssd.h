@@ -60,7 +60,9 @@ private:
     template <class From>
     float meet(const From& from, End& to);
     template <class From>
-    float measure(const From& from, End& to, uint32_t coarse_place);
+    float measure_over(const From& from, End& to, uint32_t place);
+    template <class From>
+    float measure(const From& from, End& to);
 
     // Over samples.
     void climb(uint32_t vertex, uint32_t top, End& end);
@@ -77,6 +79,7 @@ private:
         }
     };
     Label label_of(uint32_t vertex, uint32_t patch) const;
+    Samples samples_within(const End& end, float reach) const;
     void cross_samples(const End& end, uint32_t sibling, std::span<float> out);
     void trace(End& end, Samples samples);
     Samples samples_before(End& end, size_t b, Samples samples);

@@ -102,6 +102,35 @@ TEST_CASE("overlay: a vertex far from all borders finds its way as MSAD does") {
     }
 }
 
+// Samples of these borders are farther apart than these vertices.
+TEST_CASE("overlay: near vertices find their way across a large border") {
+    constexpr uint32_t SIDE = 120, COUNT = SIDE * SIDE;
+    const TestMesh mesh = grid(SIDE, SIDE, 0.25);
+    auto options = overlay_options(GEOIDX_METRIC_CALLBACK, 3, 1);
+    options.patches[0] = 2;
+    options.patches[1] = options.patches[2] = 8;
+    options.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
+    options.metric_user = const_cast<TestMesh*>(&mesh);
+    options.metric_callback = [](void* user, uint32_t source, const uint32_t* targets, uint32_t target_count,
+                                 double* distances) {
+        const auto* plane = static_cast<const TestMesh*>(user);
+        for (uint32_t i = 0; i < target_count; ++i) distances[i] = plane->straight(source, targets[i]);
+        return geoidx_status{GEOIDX_OK};
+    };
+    const auto index = build(mesh, options);
+    Differences errors;
+    for (uint32_t source = 0; source < COUNT; ++source)
+        for (uint32_t right = 0; right <= 3; ++right)
+            for (uint32_t up = right == 0; up <= 3; ++up) {
+                if (source % SIDE + right >= SIDE || source / SIDE + up >= SIDE) continue;
+                const uint32_t target = source + right + up * SIDE;
+                errors.add(double{sssd(index.get(), source, target)}, mesh.straight(source, target));
+            }
+    CHECK(errors.reached_wrongly == 0);
+    CHECK(errors.mean() < 1e-3);
+    CHECK(errors.largest < 0.2);
+}
+
 TEST_CASE("overlay: costs next to nothing") {
     const TestMesh mesh = hills(18, 17);
     std::vector<uint32_t> vertices;
