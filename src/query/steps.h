@@ -9,8 +9,8 @@
 
 namespace geodesic {
 
-// Distances to places of a border as codes that a kernel reads, which only choose a place: whole steps of a
-// quantum beyond the nearest one, which is that many whole steps away.
+// Distances to places of a border as codes that a kernel reads: steps of a quantum beyond the nearest one,
+// which is at least that many whole steps away.
 class StepsOf {
 public:
     StepsOf(std::span<const float> distances, float quantum)
@@ -24,7 +24,7 @@ public:
 
     int16_t code(float distance) const {
         if (distance == INFINITE) return SeenBorder::NOT_SEEN;
-        const float steps = std::clamp(distance * scale_ - static_cast<float>(nearest_), 0.f, MOST);
+        const float steps = std::clamp(distance * scale_ - static_cast<float>(nearest_) + 0.5f, 0.f, MOST);
         return static_cast<int16_t>(SeenBorder::NEAREST + static_cast<int32_t>(steps));
     }
 
