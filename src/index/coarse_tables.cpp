@@ -47,13 +47,23 @@ void sample_ring(Index& index, uint32_t patch, RingWriter& writer) {
     writer.end_ring();
 }
 
+// Of the segments of a ring; 0 if it has none.
+float average_length(const Rings& rings, uint32_t patch) {
+    float length = 0;
+    uint32_t segments = 0;
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
+        if (std::isnan(rings.segment_length[k])) continue;
+        length += rings.segment_length[k];
+        ++segments;
+    }
+    return segments ? length / static_cast<float>(segments) : 0;
+}
+
 void place_samples(Index& index, uint32_t patch) {
     OverlayTables& tables = index.overlay_tables;
     const Rings& rings = tables.coarse_rings;
     std::vector<uint32_t> sample(index.border_size(patch), 0); // per position
     uint32_t count = 0;
-    float length = 0;
-    uint32_t segments = 0;
     for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
         if (rings.is_own[k]) {
             sample[rings.position[k]] = count++;
@@ -63,11 +73,8 @@ void place_samples(Index& index, uint32_t patch) {
         tables.coarse_places.push_back(tables.rings.begin[patch] +
                                        tables.place_of_slot[index.border_begin[patch] + rings.position[k]]);
         tables.coarse_samples.push_back(sample[rings.position[k]]);
-        if (std::isnan(rings.segment_length[k])) continue;
-        length += rings.segment_length[k];
-        ++segments;
     }
-    tables.sample_spacing.push_back(segments ? length / static_cast<float>(segments) : 0);
+    tables.sample_spacing.push_back(average_length(rings, patch));
     tables.sample_begin.push_back(static_cast<uint32_t>(tables.sample_positions.size()));
 }
 

@@ -139,6 +139,7 @@ struct Index {
                    ? size
                    : static_cast<uint32_t>(overlay_tables.samples_of(patch).size());
     }
+    bool is_labelled_whole(uint32_t patch) const { return label_size(patch) == border_size(patch); }
     // The patch that a vertex lies inside of so: its owner or its leaf.
     uint32_t entry(uint32_t number) const { return is_border(number) ? owner[number] : leaf_of(number); }
 

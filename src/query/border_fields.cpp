@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "src/query/four_at_a_time.h"
+#include "src/query/lanes.h"
 
 namespace geodesic {
 
@@ -85,7 +86,7 @@ void BorderFields::copy_source(size_t from, size_t to) {
 void BorderFields::cross(float* inside) {
     const uint32_t count = index_.inner_size(patch_), places = rings_.size(patch_);
     const uint16_t* row = index_.overlay_tables.inner_tables.data() + index_.inner_row(patch_, 0);
-    for (uint32_t i = 0; i < count; ++i, row += places) rows_[i] = row;
+    four_at_a_time(count, [&](size_t i) { rows_[i] = row + i * places; });
     kernel_.cross_each(borders_, {rows_.data(), count}, inside);
     if (all_reached_) return;
     for (size_t r = 0; r < count; ++r)

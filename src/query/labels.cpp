@@ -17,7 +17,8 @@ namespace {
 constexpr size_t SOURCES = BorderFields::SOURCES;
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
-// Labels of a mesh are a fraction of its tables; a file that needs so many for each entry is none of a mesh.
+// Labels of a mesh are about as many as its table entries; a file that needs so many for each is none of a
+// mesh.
 constexpr uint64_t MOST_PER_ENTRY = 64;
 
 void lay_out_labels(Index& index) {
@@ -52,7 +53,7 @@ public:
         descendants_.clear();
         add_descendants(patch);
         positions_.resize(index_.label_size(patch));
-        if (positions_.size() == index_.border_size(patch))
+        if (index_.is_labelled_whole(patch))
             std::iota(positions_.begin(), positions_.end(), 0u);
         else
             std::ranges::copy(tables_.samples_of(patch), positions_.begin());
@@ -83,7 +84,7 @@ private:
         of_border_.resize(inside * positions_.size());
     }
 
-    // To the overlay of the patch, from the samples at these positions of it; the last one is repeated.
+    // To the overlay of the patch, from the border vertices at these positions; the last one is repeated.
     void start(uint32_t patch, std::span<const uint32_t> positions) {
         count_ = positions.size();
         for (uint32_t i = 0; i < index_.overlay_size(patch); ++i) {

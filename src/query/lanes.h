@@ -59,6 +59,19 @@ template <int I, class Four>
                                    __builtin_shufflevector(four[2], four[3], I, I + 4, I, I + 4), 0, 1, 4, 5);
 }
 
+// Rows become columns.
+template <class Four>
+[[gnu::always_inline]] inline void transpose(Four four[4]) {
+    const Four low_01 = __builtin_shufflevector(four[0], four[1], 0, 4, 1, 5);
+    const Four low_23 = __builtin_shufflevector(four[2], four[3], 0, 4, 1, 5);
+    const Four high_01 = __builtin_shufflevector(four[0], four[1], 2, 6, 3, 7);
+    const Four high_23 = __builtin_shufflevector(four[2], four[3], 2, 6, 3, 7);
+    four[0] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
+    four[1] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
+    four[2] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
+    four[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
+}
+
 // The lanes of a vector, four by four.
 template <class Wide, class Four>
 [[gnu::always_inline]] inline void split(const Wide& wide, Four* four) {

@@ -82,7 +82,6 @@ void OverlayMsad::ascend(uint32_t child, DistanceField distance) {
 // To what lies inside, of which some is known where a source is there, too.
 void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distance) {
     const auto inside = distance.subspan(index_.first_inner(patch), index_.inner_size(patch));
-    if (inside.empty()) return;
     const auto out = sources_below_[patch] == 0 ? inside : std::span(out_).first(inside.size());
     hop(patch, tables_.quantum[patch], tables_.inner_tables.data() + index_.inner_row(patch, 0),
         {distance.data()}, radius, out);

@@ -220,7 +220,7 @@ void OverlaySssd::climb(uint32_t vertex, uint32_t top, End& end) {
     end.borders.clear();
     const uint32_t entry = index_.entry(vertex);
     for (uint32_t patch = entry; patch != top; patch = index_.parent[patch]) {
-        if (patch != entry && index_.label_size(patch) == index_.border_size(patch)) end.borders.clear();
+        if (patch != entry && index_.is_labelled_whole(patch)) end.borders.clear();
         end.borders.push_back({patch, {0, 0}, {0, 0}});
     }
     const uint32_t patch = end.borders.back().patch;
@@ -238,15 +238,10 @@ void OverlaySssd::climb(uint32_t vertex, uint32_t top, End& end) {
 OverlaySssd::Samples OverlaySssd::samples_within(const End& end, float reach) const {
     const uint32_t patch = end.borders.back().patch;
     const uint32_t begin = tables_.coarse_rings.begin[patch], places = tables_.coarse_rings.size(patch);
-    Samples within{REACH, REACH};
-    bool any = false;
-    for (uint32_t k = REACH; k + REACH < places; ++k) {
-        if (!(end.distance[tables_.coarse_samples[begin + k]] <= reach)) continue;
-        if (!any) within.first = k;
-        within.last = k;
-        any = true;
-    }
-    return within;
+    Samples within;
+    for (uint32_t k = REACH; k + REACH < places; ++k)
+        if (end.distance[tables_.coarse_samples[begin + k]] <= reach) within.add(k);
+    return within.or_some_place();
 }
 
 // Of a patch that a vertex lies in beyond its first one.
@@ -258,7 +253,7 @@ OverlaySssd::Label OverlaySssd::label_of(uint32_t vertex, uint32_t patch) const 
     const uint32_t nearest = static_cast<uint32_t>(static_cast<uint16_t>(label[0])) +
                              0x10000u * static_cast<uint32_t>(static_cast<uint16_t>(label[1]));
     return {nearest, tables_.quantum[index_.parent[patch]], label + OverlayTables::LABEL_HEAD,
-            index_.label_size(patch) == index_.border_size(patch)};
+            index_.is_labelled_whole(patch)};
 }
 
 // A row of the coarse table of a patch.
@@ -353,14 +348,10 @@ void OverlaySssd::encode_first(End& end) {
 }
 
 OverlaySssd::Samples OverlaySssd::range_of(std::span<const uint16_t> winners) const {
-    Samples range{UINT16_MAX, 0};
-    for (const uint16_t winner : winners) {
-        if (winner == SeenBorder::NO_PLACE) continue;
-        range.first = std::min<uint32_t>(range.first, winner);
-        range.last = std::max<uint32_t>(range.last, winner);
-    }
-    if (range.first > range.last) return {REACH, REACH}; // some place of the ring
-    return range;
+    Samples range;
+    for (const uint16_t winner : winners)
+        if (winner != SeenBorder::NO_PLACE) range.add(winner);
+    return range.or_some_place();
 }
 
 // What climb_windows() is going to read.

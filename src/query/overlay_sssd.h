@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 
 #include "src/index/index.h"
@@ -29,9 +31,14 @@ private:
         bool covers(const Window& other) const { return first <= other.first && other.last <= last; }
     };
 
-    // Consecutive places of a coarse ring, counted in it.
+    // Consecutive places of a coarse ring, counted in it; none at first.
     struct Samples {
-        uint32_t first, last;
+        uint32_t first = std::numeric_limits<uint32_t>::max(), last = 0;
+        void add(uint32_t place) {
+            first = std::min(first, place);
+            last = std::max(last, place);
+        }
+        Samples or_some_place() const { return first <= last ? *this : Samples{Rings::REACH, Rings::REACH}; }
     };
 
     // A border around a vertex, up to that of a child of the patch where both ends meet.

@@ -8,6 +8,7 @@
 
 #include "format/error.h"
 #include "src/query/four_at_a_time.h"
+#include "src/query/lanes.h"
 
 namespace geodesic {
 
@@ -100,29 +101,25 @@ void Query::write_by_id(std::span<float> field) const {
 void Query::write_by_id(const SideBySide& fields) const {
     const uint32_t* const number_of_id = index_.number_of_id.data();
     const float* const by_number = distance_.data();
-    const auto four_fields = [&](size_t id, size_t first) {
-        return near_floats(by_number + size_t{number_of_id[id]} * fields.size() + first);
-    };
-    const auto write_one = [&](size_t id) {
-        const uint32_t number = number_of_id[id];
-        for (size_t i = 0; i < fields.size(); ++i)
-            fields[i][id] = number == NONE ? INFINITE : by_number[size_t{number} * fields.size() + i];
-    };
-    const auto is_unused = [&](size_t id) { return number_of_id[id] == NONE; };
+    NearFloats unreached{};
+    unreached += INFINITE;
     size_t id = 0;
-    for (; id + 4 <= index_.id_count; id += 4) {
-        if (is_unused(id) || is_unused(id + 1) || is_unused(id + 2) || is_unused(id + 3)) {
-            for (size_t j = 0; j < 4; ++j) write_one(id + j);
-            continue;
-        }
+    for (; id + 4 <= index_.id_count; id += 4)
         for (size_t i = 0; i < fields.size(); i += 4) {
-            NearFloats four[4] = {four_fields(id, i), four_fields(id + 1, i), four_fields(id + 2, i),
-                                  four_fields(id + 3, i)};
+            NearFloats four[4];
+            for (size_t j = 0; j < 4; ++j) {
+                const uint32_t number = number_of_id[id + j];
+                four[j] =
+                    number == NONE ? unreached : near_floats(by_number + size_t{number} * fields.size() + i);
+            }
             transpose(four);
             for (size_t j = 0; j < 4; ++j) std::memcpy(fields[i + j] + id, &four[j], sizeof four[j]);
         }
+    for (; id < index_.id_count; ++id) {
+        const uint32_t number = number_of_id[id];
+        for (size_t i = 0; i < fields.size(); ++i)
+            fields[i][id] = number == NONE ? INFINITE : by_number[size_t{number} * fields.size() + i];
     }
-    for (; id < index_.id_count; ++id) write_one(id);
 }
 
 void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<float> distances) {

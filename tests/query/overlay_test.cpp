@@ -105,12 +105,12 @@ TEST_CASE("overlay: a vertex far from all borders finds its way as MSAD does") {
 // Samples of these borders are farther apart than these vertices.
 TEST_CASE("overlay: near vertices find their way across a large border") {
     constexpr uint32_t SIDE = 120, COUNT = SIDE * SIDE;
-    const TestMesh mesh = grid(SIDE, SIDE, 0.25);
+    TestMesh mesh = grid(SIDE, SIDE, 0.25);
     auto options = overlay_options(GEOIDX_METRIC_CALLBACK, 3, 1);
     options.patches[0] = 2;
     options.patches[1] = options.patches[2] = 8;
     options.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
-    options.metric_user = const_cast<TestMesh*>(&mesh);
+    options.metric_user = &mesh;
     options.metric_callback = [](void* user, uint32_t source, const uint32_t* targets, uint32_t target_count,
                                  double* distances) {
         const auto* plane = static_cast<const TestMesh*>(user);
