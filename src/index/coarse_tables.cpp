@@ -14,6 +14,9 @@ namespace {
 // manieth vertex.
 constexpr uint32_t SMALL = 64, FEWEST = 32, LARGEST_STEP = 5;
 
+// Samples tell the way to what is farther than so many times the distance of two of them.
+constexpr float NEAR_SAMPLES = 8;
+
 // About every `step`-th vertex, evenly, and the ends of an open chain.
 std::vector<uint32_t> sample(const Chain& chain, uint32_t step) {
     const auto count = static_cast<uint32_t>(chain.positions.size());
@@ -48,15 +51,22 @@ void sample_ring(Index& index, uint32_t patch, RingWriter& writer) {
 }
 
 // Of the segments of a ring; 0 if it has none.
-float average_length(const Rings& rings, uint32_t patch) {
-    float length = 0;
+struct Lengths {
+    float average = 0, longest = 0;
+};
+
+Lengths segment_lengths(const Rings& rings, uint32_t patch) {
+    Lengths lengths;
+    float sum = 0;
     uint32_t segments = 0;
     for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
         if (std::isnan(rings.segment_length[k])) continue;
-        length += rings.segment_length[k];
+        sum += rings.segment_length[k];
+        lengths.longest = std::max(lengths.longest, rings.segment_length[k]);
         ++segments;
     }
-    return segments ? length / static_cast<float>(segments) : 0;
+    if (segments) lengths.average = sum / static_cast<float>(segments);
+    return lengths;
 }
 
 void place_samples(Index& index, uint32_t patch) {
@@ -74,7 +84,10 @@ void place_samples(Index& index, uint32_t patch) {
                                        tables.place_of_slot[index.border_begin[patch] + rings.position[k]]);
         tables.coarse_samples.push_back(sample[rings.position[k]]);
     }
-    tables.sample_spacing.push_back(average_length(rings, patch));
+    const float spacing = segment_lengths(rings, patch).average;
+    tables.sample_spacing.push_back(spacing);
+    tables.near.push_back(
+        std::max(NEAR_SAMPLES * spacing, OverlayTables::NEAR * segment_lengths(tables.rings, patch).longest));
     tables.sample_begin.push_back(static_cast<uint32_t>(tables.sample_positions.size()));
 }
 

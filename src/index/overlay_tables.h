@@ -52,13 +52,14 @@ struct Rings {
 struct OverlayTables {
     static constexpr uint16_t LARGEST = 0x7ffe;
     static constexpr uint16_t UNREACHED = 0x7fff;
+    static constexpr float NEAR = 5;      // up to so many times the longest segment of a ring is near
     static constexpr size_t PADDING = 32; // codes at the end: rows are read in blocks of up to this many
 
     explicit OverlayTables(std::pmr::memory_resource* memory)
         : quantum(memory), rings(memory), place_of_slot(memory), outer_begin(memory), inner_begin(memory),
           outer_tables(memory), inner_tables(memory), internal_tables(memory), coarse_rings(memory),
           coarse_places(memory), coarse_samples(memory), sample_begin(memory), sample_positions(memory),
-          sample_spacing(memory), coarse_rows(memory), coarse_positions_begin(memory),
+          sample_spacing(memory), near(memory), coarse_rows(memory), coarse_positions_begin(memory),
           coarse_positions(memory), coarse_begin(memory), coarse_tables(memory), label_offset(memory),
           label_begin(memory), labels(memory) {}
 
@@ -95,6 +96,7 @@ struct OverlayTables {
     std::pmr::vector<uint32_t> sample_begin;     // per patch
     std::pmr::vector<uint32_t> sample_positions; // in the border
     std::pmr::vector<float> sample_spacing;      // per patch: from a sample to the next one, on average
+    std::pmr::vector<float> near;                // per patch: up to which distance SSSD looks everywhere
     std::pmr::vector<uint32_t> coarse_rows; // per patch: its samples' first row in the tables of its siblings
     std::pmr::vector<uint32_t> coarse_positions_begin; // per inner patch
     std::pmr::vector<uint32_t> coarse_positions; // of these rows, in the parent's overlay, parent by parent

@@ -21,8 +21,8 @@ BorderField::BorderField(const Index& index, std::pmr::memory_resource* memory)
 
 bool BorderField::finish() {
     std::fill_n(distance_.data() + border_.places, BLOCK, INFINITE);
-    nearest_ = kernel_.see(border_, is_own_, code_.data(), foot_.data(), height_.data());
-    return nearest_ < INFINITE;
+    sight_ = kernel_.see(border_, is_own_, code_.data(), foot_.data(), height_.data());
+    return sight_.nearest < INFINITE;
 }
 
 }

@@ -31,18 +31,24 @@ public:
     // Returns whether the source reaches any.
     bool finish();
 
-    // As CrossingKernel, if finish() returned true.
+    // If finish() returned true: the least way over a place and each row, straightened.
+    void cross(Rows rows, float* distances) const {
+        kernel_.cross(border_, rows, distances, nullptr);
+        if (sight_.is_near()) kernel_.lower_near(border_, sight_, rows, distances);
+    }
+
+    // As CrossingKernel::cross(), if finish() returned true.
     void cross(Rows rows, float* distances, uint16_t* winners) const {
         kernel_.cross(border_, rows, distances, winners);
     }
 
-    float nearest() const { return nearest_; }
+    float nearest() const { return sight_.nearest; }
 
 private:
     const CrossingKernel& kernel_;
     SeenBorder border_{};
     const int32_t* is_own_ = nullptr;
-    float nearest_ = 0;
+    Sight sight_{};
     Array<float> distance_;
     Array<int16_t> code_;
     Array<float> foot_, height_;

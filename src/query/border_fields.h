@@ -26,6 +26,7 @@ public:
 
 private:
     void gather(const uint32_t* vertices, const float* distances);
+    void lower_near(size_t source, Rows rows, float* inside);
     void copy_source(size_t from, size_t to);
 
     const Index& index_;
@@ -33,11 +34,13 @@ private:
     const CrossingKernel& kernel_;
     uint32_t patch_ = 0;
     SeenBorders borders_{};
+    std::array<Sight, SOURCES> sights_{};
     std::array<bool, SOURCES> is_reached_{};
     bool all_reached_ = false;
     Array<float> distance_, foot_, height_; // of one source after the other
     Array<int16_t> code_;                   // of all sources, by place
     Array<int16_t> code_of_one_;
+    Array<float> of_one_; // per row
     Array<const uint16_t*> rows_;
 };
 

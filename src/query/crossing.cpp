@@ -16,22 +16,37 @@ constexpr size_t ROWS = 64;
 
 // ---- The border as seen from a source
 
+// Floats that the widest vector holds, so that results are of the same ones whatever the width.
+constexpr size_t PART = Lanes<64>::FLOATS;
+constexpr size_t whole_parts(size_t places) { return (places + PART - 1) / PART * PART; }
+
 template <size_t BYTES>
 [[gnu::always_inline]] inline void load(const float* first, Floats<BYTES>& floats) {
     std::memcpy(&floats, first, sizeof floats);
 }
 
 template <size_t BYTES>
-[[gnu::always_inline]] inline float nearest_distance(const SeenBorder& border) {
-    Floats<BYTES> nearest{}, distance;
+[[gnu::always_inline]] inline float least_of(const Floats<BYTES>& floats) {
+    NearFloats four;
+    fold(floats, four);
+    return std::min(std::min(four[0], four[1]), std::min(four[2], four[3]));
+}
+
+template <size_t BYTES>
+[[gnu::always_inline]] inline void look(const SeenBorder& border, Sight& sight) {
+    Floats<BYTES> nearest{}, shortest{}, distance, length;
     nearest += INFINITE;
     for (size_t k = 0; k < border.places; k += Lanes<BYTES>::FLOATS) {
         load<BYTES>(border.distance + k, distance);
+        load<BYTES>(border.length + k, length);
         lower(nearest, distance);
+        lower<Floats<BYTES>>(shortest, distance < INFINITE ? -length : shortest);
     }
-    NearFloats four;
-    fold(nearest, four);
-    return std::min(std::min(four[0], four[1]), std::min(four[2], four[3]));
+    sight = {least_of<BYTES>(nearest), -OverlayTables::NEAR * least_of<BYTES>(shortest), 1, 0};
+    if (sight.nearest > sight.reach) return;
+    const auto is_far = [&](size_t k) { return border.distance[k] > sight.reach; };
+    for (sight.first = 0; is_far(sight.first);) ++sight.first;
+    for (sight.last = border.places - 1; is_far(sight.last);) --sight.last;
 }
 
 template <size_t BYTES>
@@ -58,7 +73,7 @@ template <size_t BYTES>
 
 template <size_t BYTES>
 [[gnu::always_inline]] inline void unfold(const SeenBorder& border, float* feet, float* heights) {
-    for (size_t k = 0; k < border.places; k += Lanes<BYTES>::FLOATS) {
+    for (size_t k = 0; k < whole_parts(border.places); k += Lanes<BYTES>::FLOATS) {
         Segments<Floats<BYTES>> segments;
         load<BYTES>(border.length + k, segments.length);
         load<BYTES>(border.half_inverse + k, segments.half_inverse);
@@ -72,14 +87,12 @@ template <size_t BYTES>
 }
 
 template <size_t BYTES>
-[[gnu::always_inline]] inline float see(const SeenBorder& border, const int32_t* is_own, int16_t* code,
-                                        float* foot, float* height) {
-    const float nearest = nearest_distance<BYTES>(border);
-    if (nearest < INFINITE) {
-        encode<BYTES>(border, nearest, is_own, code);
-        unfold<BYTES>(border, foot, height);
-    }
-    return nearest;
+[[gnu::always_inline]] inline void see(const SeenBorder& border, const int32_t* is_own, int16_t* code,
+                                       float* foot, float* height, Sight& sight) {
+    look<BYTES>(border, sight);
+    if (!(sight.nearest < INFINITE)) return;
+    encode<BYTES>(border, sight.nearest, is_own, code);
+    unfold<BYTES>(border, foot, height);
 }
 
 // ---- The ways over the nearest places
@@ -191,6 +204,51 @@ template <size_t BYTES>
     }
 }
 
+// ---- The ways over all near segments
+
+// As many codes as fit, as distances; infinity where there is no way.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void decode(const uint16_t* codes, float quantum, Floats<BYTES>& distances) {
+    using Numbers = typename Lanes<BYTES>::Keys;
+    typename VectorOf<uint16_t, BYTES / 2>::Type narrow;
+    std::memcpy(&narrow, codes, sizeof narrow);
+    const Numbers numbers = __builtin_convertvector(narrow, Numbers);
+    const Floats<BYTES> none = Floats<BYTES>{} + INFINITE;
+    distances =
+        numbers < OverlayTables::UNREACHED ? __builtin_convertvector(numbers, Floats<BYTES>) * quantum : none;
+}
+
+// Over the segments from `begin` to `end`, whole parts.
+template <size_t BYTES>
+[[gnu::always_inline]] inline float straight_way(const SeenBorder& border, size_t begin, size_t end,
+                                                 const uint16_t* row) {
+    Floats<BYTES> least{};
+    least += INFINITE;
+    for (size_t k = begin; k < end; k += Lanes<BYTES>::FLOATS) {
+        SeenSegments<Floats<BYTES>> seen;
+        load<BYTES>(border.length + k, seen.segments.length);
+        load<BYTES>(border.half_inverse + k, seen.segments.half_inverse);
+        load<BYTES>(border.foot + k, seen.foot);
+        load<BYTES>(border.height + k, seen.height);
+        Floats<BYTES> from_first, from_second, square;
+        decode<BYTES>(row + k, border.quantum, from_first);
+        decode<BYTES>(row + k + 1, border.quantum, from_second);
+        seen.square_across(from_first, from_second, square);
+        lower(least, square);
+    }
+    return std::sqrt(least_of<BYTES>(least));
+}
+
+template <size_t BYTES>
+[[gnu::always_inline]] inline void lower_near(const SeenBorder& border, const Sight& sight, Rows rows,
+                                              float* distances) {
+    const size_t before = std::max(sight.first, size_t{1}) - 1; // the segment before the place
+    const size_t begin = before / PART * PART, end = whole_parts(sight.last + 1);
+    for (size_t r = 0; r < rows.size(); ++r)
+        if (distances[r] <= sight.reach)
+            distances[r] = std::min(distances[r], straight_way<BYTES>(border, begin, end, rows[r]));
+}
+
 template <size_t BYTES>
 [[gnu::always_inline]] inline void choose(const SeenBorder& border, Rows rows, uint16_t* winners) {
     int32_t places[ROWS];
@@ -248,12 +306,17 @@ template <size_t BYTES>
 
 // ---- For each kind of processor
 
-float see_baseline(const SeenBorder& border, const int32_t* is_own, int16_t* code, float* foot,
+Sight see_baseline(const SeenBorder& border, const int32_t* is_own, int16_t* code, float* foot,
                    float* height) {
-    return see<16>(border, is_own, code, foot, height);
+    Sight sight;
+    see<16>(border, is_own, code, foot, height, sight);
+    return sight;
 }
 void cross_baseline(const SeenBorder& border, Rows rows, float* distances, uint16_t* winners) {
     cross<16>(border, rows, distances, winners);
+}
+void lower_near_baseline(const SeenBorder& border, const Sight& sight, Rows rows, float* distances) {
+    lower_near<16>(border, sight, rows, distances);
 }
 void choose_baseline(const SeenBorder& border, Rows rows, uint16_t* winners) {
     choose<16>(border, rows, winners);
@@ -263,13 +326,19 @@ void cross_each_baseline(const SeenBorders& borders, Rows rows, float* distances
 }
 
 #ifdef __x86_64__
-[[gnu::target("avx2")]] float see_avx2(const SeenBorder& border, const int32_t* is_own, int16_t* code,
+[[gnu::target("avx2")]] Sight see_avx2(const SeenBorder& border, const int32_t* is_own, int16_t* code,
                                        float* foot, float* height) {
-    return see<32>(border, is_own, code, foot, height);
+    Sight sight;
+    see<32>(border, is_own, code, foot, height, sight);
+    return sight;
 }
 [[gnu::target("avx2")]] void cross_avx2(const SeenBorder& border, Rows rows, float* distances,
                                         uint16_t* winners) {
     cross<32>(border, rows, distances, winners);
+}
+[[gnu::target("avx2")]] void lower_near_avx2(const SeenBorder& border, const Sight& sight, Rows rows,
+                                             float* distances) {
+    lower_near<32>(border, sight, rows, distances);
 }
 [[gnu::target("avx2")]] void choose_avx2(const SeenBorder& border, Rows rows, uint16_t* winners) {
     choose<32>(border, rows, winners);
@@ -278,13 +347,19 @@ void cross_each_baseline(const SeenBorders& borders, Rows rows, float* distances
     cross_each<32>(borders, rows, distances);
 }
 
-[[gnu::target("avx512bw,avx512vl")]] float see_avx512(const SeenBorder& border, const int32_t* is_own,
+[[gnu::target("avx512bw,avx512vl")]] Sight see_avx512(const SeenBorder& border, const int32_t* is_own,
                                                       int16_t* code, float* foot, float* height) {
-    return see<64>(border, is_own, code, foot, height);
+    Sight sight;
+    see<64>(border, is_own, code, foot, height, sight);
+    return sight;
 }
 [[gnu::target("avx512bw,avx512vl")]] void cross_avx512(const SeenBorder& border, Rows rows, float* distances,
                                                        uint16_t* winners) {
     cross<64>(border, rows, distances, winners);
+}
+[[gnu::target("avx512bw,avx512vl")]] void lower_near_avx512(const SeenBorder& border, const Sight& sight,
+                                                            Rows rows, float* distances) {
+    lower_near<64>(border, sight, rows, distances);
 }
 [[gnu::target("avx512bw,avx512vl")]] void choose_avx512(const SeenBorder& border, Rows rows,
                                                         uint16_t* winners) {
@@ -297,10 +372,10 @@ void cross_each_baseline(const SeenBorders& borders, Rows rows, float* distances
 #endif
 
 constexpr CrossingKernel KERNELS[] = {
-    {"baseline", see_baseline, cross_baseline, choose_baseline, cross_each_baseline},
+    {"baseline", see_baseline, cross_baseline, lower_near_baseline, choose_baseline, cross_each_baseline},
 #ifdef __x86_64__
-    {"AVX2", see_avx2, cross_avx2, choose_avx2, cross_each_avx2},
-    {"AVX-512", see_avx512, cross_avx512, choose_avx512, cross_each_avx512},
+    {"AVX2", see_avx2, cross_avx2, lower_near_avx2, choose_avx2, cross_each_avx2},
+    {"AVX-512", see_avx512, cross_avx512, lower_near_avx512, choose_avx512, cross_each_avx512},
 #endif
 };
 

@@ -33,6 +33,14 @@ struct SeenBorders {
     const int16_t* code; // [place * SOURCES + source]
 };
 
+// How a border is seen.
+struct Sight {
+    float nearest;      // the distance of the nearest place
+    float reach;        // up to which a distance is near
+    size_t first, last; // near places, and those between them; none if first > last
+    bool is_near() const { return first <= last; }
+};
+
 // Rows of a table, each one code a place.
 using Rows = std::span<const uint16_t* const>;
 
@@ -41,12 +49,17 @@ struct CrossingKernel {
     const char* name;
 
     // Fills code, foot and height, which are the border's own, from the rest of it; codes only where is_own
-    // is -1, not 0. Returns the distance of the nearest place; if it is infinity, it fills nothing.
-    float (*see)(const SeenBorder& border, const int32_t* is_own, int16_t* code, float* foot, float* height);
+    // is -1, not 0. If the nearest place is at infinity, it fills nothing.
+    Sight (*see)(const SeenBorder& border, const int32_t* is_own, int16_t* code, float* foot, float* height);
 
     // distances[r]: the least way over a place and row r, straightened over the segments near the place where
     // that is shorter, or infinity; winners[r], if not NULL: that place, or NO_PLACE.
     void (*cross)(const SeenBorder& border, Rows rows, float* distances, uint16_t* winners);
+
+    // Lowers distances[r], where it is near, to the least way over row r straightened over any segment that
+    // is near: where a border is jagged, the straight way does not always pass near the place with the least
+    // sum.
+    void (*lower_near)(const SeenBorder& border, const Sight& sight, Rows rows, float* distances);
 
     // winners[r]: the place with the least sum of codes, or NO_PLACE; reads no more of the border than these.
     void (*choose)(const SeenBorder& border, Rows rows, uint16_t* winners);

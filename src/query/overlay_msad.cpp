@@ -103,7 +103,7 @@ void OverlayMsad::hop(uint32_t patch, float quantum, const uint16_t* first_row, 
         return;
     }
     four_at_a_time(out.size(), [&](size_t i) { rows_[i] = first_row + i * places; });
-    field_.cross({rows_.data(), out.size()}, out.data(), nullptr);
+    field_.cross({rows_.data(), out.size()}, out.data());
 }
 
 }

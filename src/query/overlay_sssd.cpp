@@ -15,8 +15,6 @@ constexpr uint32_t REACH = Rings::REACH;
 
 constexpr size_t WAYS = 2;               // that are measured
 constexpr float WORTH_MEASURING = 1.05f; // how long over samples, compared to the shortest
-// Up to so many times the distance of two samples is near: too near for samples to tell the way.
-constexpr float NEAR = 8;
 
 // Asks for memory that is going to be read soon.
 template <class T>
@@ -78,7 +76,7 @@ struct OverlaySssd::FromEnd {
                                               search.winners_[sample[samples.first + 1]]};
         search.trace(end, search.range_of(winners));
     }
-    void trace_near(float reach) const { search.trace(end, search.samples_within(end, reach)); }
+    void trace_near(float reach) const { search.trace_near(end, reach); }
     void window(Window window, std::span<float> out) const {
         search.climb_windows(end);
         search.cross_window(
@@ -157,11 +155,10 @@ float OverlaySssd::meet(const From& from, End& to) {
     for (const auto& [length, place] : ways)
         if (length < INFINITE && length <= ways[0].first * WORTH_MEASURING)
             shortest = std::min(shortest, measure_over(from, to, place - rings.begin[border.patch]));
-    const float spacing = tables_.sample_spacing[border.patch], near = NEAR * spacing;
-    if (shortest > near) return shortest;
-    const float reach = shortest + 2 * spacing;
+    if (shortest > tables_.near[border.patch]) return shortest;
+    const float reach = shortest + 2 * tables_.sample_spacing[border.patch];
     from.trace_near(reach);
-    trace(to, samples_within(to, reach));
+    trace_near(to, reach);
     return std::min(shortest, measure(from, to));
 }
 
@@ -173,7 +170,7 @@ float OverlaySssd::measure_over(const From& from, End& to, uint32_t place) {
     return measure(from, to);
 }
 
-// The way that is traced.
+// The way that is traced, straightened near the place with the least sum, or anywhere if the ends are near.
 template <class From>
 float OverlaySssd::measure(const From& from, End& to) {
     const Window window = to.borders.back().window;
@@ -195,8 +192,14 @@ float OverlaySssd::measure(const From& from, End& to) {
         shortest = sum;
         nearest = k;
     }
-    return shortest < INFINITE ? straightened(tables_.rings, nearest, at(from_distance), at(to_distance))
-                               : INFINITE;
+    if (!(shortest < INFINITE)) return INFINITE;
+    const auto straightened_near = [&](size_t place) {
+        return straightened(tables_.rings, place, at(from_distance), at(to_distance));
+    };
+    if (!to.is_near) return straightened_near(nearest);
+    for (size_t k = window.first; k <= window.last; k += 2 * REACH)
+        shortest = std::min(shortest, straightened_near(k + REACH));
+    return shortest;
 }
 
 // Of places of the first border around a vertex, counted over all rings.
@@ -216,6 +219,7 @@ auto OverlaySssd::distances_from(uint32_t vertex) const {
 void OverlaySssd::climb(uint32_t vertex, uint32_t top, End& end) {
     end.vertex = vertex;
     end.crossed = 0;
+    end.is_near = false;
     end.is_first_encoded = false;
     end.borders.clear();
     const uint32_t entry = index_.entry(vertex);
@@ -299,6 +303,13 @@ void OverlaySssd::trace(End& end, Samples samples) {
     end.crossed = kept;
     for (size_t b = kept; b < end.borders.size(); ++b) end.borders[b].window = end.borders[b].traced;
     for (size_t b = 0; b < end.borders.size(); ++b) prefetch_window(end, b);
+}
+
+// Lets all ways over the samples up to a distance be at hand, for another end that is near.
+void OverlaySssd::trace_near(End& end, float reach) {
+    end.is_near = true;
+    end.crossed = 0;
+    trace(end, samples_within(end, reach));
 }
 
 // Those of the border before that the ways to these samples and to their neighbours come over.
@@ -431,7 +442,10 @@ void OverlaySssd::cross_window(End& end, size_t b, Window to, const OverlayPosit
     rows_.resize(to.size());
     for (uint32_t i = 0; i < to.size(); ++i)
         rows_[i] = rows + size_t{overlay_position(to.first + i)} * index_.ring_size(border.patch);
-    field_.cross(rows_, out.data(), nullptr);
+    if (end.is_near)
+        field_.cross(rows_, out.data());
+    else
+        field_.cross(rows_, out.data(), nullptr);
 }
 
 }

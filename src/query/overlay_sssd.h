@@ -57,6 +57,7 @@ private:
         bool is_first_encoded = false;
         Array<float> window_distance; // of each border's window; those of the first `crossed` are known
         size_t crossed = 0;
+        bool is_near = false; // to the other end: borders are straightened over any segment
     };
 
     // How the other end is seen from the border where `to` waits: one that climbed, too, or a vertex whose
@@ -89,6 +90,7 @@ private:
     Samples samples_within(const End& end, float reach) const;
     void cross_samples(const End& end, uint32_t sibling, std::span<float> out);
     void trace(End& end, Samples samples);
+    void trace_near(End& end, float reach);
     Samples samples_before(End& end, size_t b, Samples samples);
     void encode_first(End& end);
     void spread(const Label& label, uint32_t patch, std::span<int16_t> out) const;

@@ -23,12 +23,21 @@ struct Point {
 
 double distance(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-// A border along a straight line in the plane, as seen from a source below it, and rows for points above.
+// Along a straight line.
+std::vector<Point> line_of(size_t places, std::mt19937& random) {
+    std::uniform_real_distribution<double> gap(0.3, 1.7);
+    std::vector<Point> border(places);
+    for (size_t k = 1; k < places; ++k) border[k].x = border[k - 1].x + gap(random);
+    return border;
+}
+
+// A border in the plane, as seen from a source below it, and rows for points above.
 struct FlatBorder {
-    FlatBorder(size_t places, Point source, const std::vector<Point>& targets, std::mt19937& random) {
-        std::uniform_real_distribution<double> gap(0.3, 1.7);
-        std::vector<Point> border(places);
-        for (size_t k = 1; k < places; ++k) border[k].x = border[k - 1].x + gap(random);
+    FlatBorder(size_t places, Point source, const std::vector<Point>& targets, std::mt19937& random)
+        : FlatBorder(line_of(places, random), source, targets) {}
+
+    FlatBorder(const std::vector<Point>& border, Point source, const std::vector<Point>& targets) {
+        const size_t places = border.size();
         double longest = 0;
         for (const Point& target : targets)
             for (const Point& at : border) longest = std::max(longest, geodesic_distance(target, at));
@@ -43,11 +52,13 @@ struct FlatBorder {
             code[k] = static_cast<int16_t>(
                 SeenBorder::NEAREST +
                 std::lround(std::min((double{to_source[k]} - nearest) / double{quantum}, 32766.0)));
-            const bool last = k + 1 == places;
-            length[k] = last ? NAN : static_cast<float>(border[k + 1].x - border[k].x);
+            const Point next = border[std::min(k + 1, places - 1)];
+            const Point along{next.x - border[k].x, next.y - border[k].y};
+            const Point seen{source.x - border[k].x, source.y - border[k].y};
+            length[k] = k + 1 == places ? NAN : static_cast<float>(std::hypot(along.x, along.y));
             half_inverse[k] = 0.5f / length[k];
-            foot[k] = static_cast<float>(source.x - border[k].x);
-            height[k] = static_cast<float>(-source.y);
+            foot[k] = static_cast<float>((seen.x * along.x + seen.y * along.y) / double{length[k]});
+            height[k] = static_cast<float>(std::abs(seen.x * along.y - seen.y * along.x) / double{length[k]});
         }
         // The ends are there to be neighbours only.
         for (size_t k : {size_t{0}, size_t{1}, places - 2, places - 1}) code[k] = SeenBorder::NOT_SEEN;
@@ -121,6 +132,72 @@ TEST_CASE("crossing: straight lines in the plane, by every kernel") {
                 CHECK(wrong == 0);
             }
         }
+}
+
+// A hook: where straight lines cross a long segment, both of its ends are farther off than the tip.
+TEST_CASE("crossing: near segments of a jagged border, by every kernel") {
+    const std::vector<Point> hook{{-34, 0}, {-24, 0}, {-14, 0}, {-4, 0},  {4, 0}, {5, 3},
+                                  {4, 5},   {2, 5},   {1, 3.2}, {1.2, 4}, {2, 4}};
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> along(-1, 1), off(0.5, 1.5);
+    uint64_t missed = 0;
+    for (int repetition = 0; repetition < 20; ++repetition) {
+        std::vector<Point> points;
+        for (int i = 0; i < 70; ++i) points.push_back({along(random), off(random)});
+        const Point source{along(random), -off(random)};
+        const FlatBorder border(hook, source, points);
+        const SeenBorder seen = border.seen();
+        const std::vector<int32_t> is_own(border.code.size(), -1);
+        std::vector<float> first;
+        for (const CrossingKernel& kernel : crossing_kernels()) {
+            CAPTURE(kernel.name);
+            std::vector<int16_t> code(border.code.size());
+            std::vector<float> foot(code.size()), height(code.size());
+            auto distance = border.to_source;
+            std::fill(distance.begin() + static_cast<std::ptrdiff_t>(hook.size()), distance.end(), INFINITE);
+            SeenBorder near = seen;
+            near.distance = distance.data();
+            near.code = code.data();
+            near.foot = foot.data();
+            near.height = height.data();
+            const Sight sight = kernel.see(near, is_own.data(), code.data(), foot.data(), height.data());
+            REQUIRE(sight.is_near());
+            CHECK(double{sight.reach} == doctest::Approx(double{OverlayTables::NEAR} * 10));
+            auto distances = cross(kernel, near, border.rows).distances;
+            const auto before = distances;
+            kernel.lower_near(near, sight, border.rows, distances.data());
+            uint64_t wrong = 0;
+            for (size_t i = 0; i < points.size(); ++i) {
+                const double line = ::distance(source, points[i]);
+                wrong += std::abs(double{distances[i]} - line) > 4 * double{border.quantum};
+                missed += double{before[i]} > 1.5 * line;
+            }
+            CHECK(wrong == 0);
+            if (first.empty()) first = distances;
+            CHECK(std::memcmp(first.data(), distances.data(), first.size() * sizeof(float)) == 0);
+        }
+    }
+    CHECK(missed > 1000); // without lower_near()
+}
+
+TEST_CASE("crossing: what is far stays as it is") {
+    std::mt19937 random(8);
+    const std::vector<Point> points{{9, 2}, {9, 90}};
+    for (const Point source : {Point{9, -2}, Point{9, -90}}) {
+        const FlatBorder border(30, source, points, random);
+        const SeenBorder seen = border.seen();
+        for (const CrossingKernel& kernel : crossing_kernels()) {
+            CAPTURE(kernel.name);
+            const float longest = *std::max_element(border.length.begin(), border.length.begin() + 29);
+            const float reach = OverlayTables::NEAR * longest;
+            const bool is_near = -source.y < double{reach};
+            const Sight sight{0, reach, is_near ? size_t{0} : size_t{1}, is_near ? size_t{29} : size_t{0}};
+            std::vector<float> distances{reach, reach * 2};
+            if (sight.is_near()) kernel.lower_near(seen, sight, border.rows, distances.data());
+            CHECK(double{distances[0]} == doctest::Approx(is_near ? 4 : double{reach}).epsilon(1e-3));
+            CHECK(distances[1] == reach * 2);
+        }
+    }
 }
 
 TEST_CASE("crossing: the first place with the least sum wins, by every kernel, and all give the same bits") {
@@ -199,7 +276,8 @@ TEST_CASE("crossing: what is seen of a border, by every kernel") {
                                   foot.data(),
                                   height.data(),
                                   border.quantum};
-            CHECK(kernel.see(seen, is_own.data(), code.data(), foot.data(), height.data()) == nearest);
+            CHECK(kernel.see(seen, is_own.data(), code.data(), foot.data(), height.data()).nearest ==
+                  nearest);
             uint64_t wrong = 0;
             for (size_t k = 0; k < (places + SeenBorder::BLOCK - 1) / SeenBorder::BLOCK * SeenBorder::BLOCK;
                  ++k) {
@@ -217,7 +295,8 @@ TEST_CASE("crossing: what is seen of a border, by every kernel") {
             const std::vector<float> nothing(room, INFINITE);
             SeenBorder unseen = seen;
             unseen.distance = nothing.data();
-            CHECK(kernel.see(unseen, is_own.data(), code.data(), foot.data(), height.data()) == INFINITE);
+            CHECK(kernel.see(unseen, is_own.data(), code.data(), foot.data(), height.data()).nearest ==
+                  INFINITE);
         }
     }
 }

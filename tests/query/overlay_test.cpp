@@ -131,6 +131,31 @@ TEST_CASE("overlay: near vertices find their way across a large border") {
     CHECK(errors.largest < 0.2);
 }
 
+// A path between near vertices may pass a jagged border far from the border vertex that is the least detour.
+TEST_CASE("overlay: near vertices in different leaves are nearly as far apart as the metric says") {
+    const TestMesh mesh = torus(60, 30);
+    const uint32_t count = mesh.vertex_count();
+    auto options = overlay_options(GEOIDX_METRIC_EXACT, 3, 400);
+    options.patches[0] = options.patches[1] = options.patches[2] = 4;
+    const auto index = build(mesh, options);
+    const auto exact = solver(mesh, options);
+    const double near = info_of(index.get()).bounding_box_diagonal / 10;
+    Differences field_errors, pair_errors;
+    for (uint32_t source = 0; source < count; source += 19) {
+        const auto expected = metric_distances(exact.get(), source, count);
+        const auto field = msad(index.get(), source, count);
+        for (uint32_t target = 0; target < count; ++target) {
+            if (expected[target] > near) continue;
+            field_errors.add(double{field[target]}, expected[target]);
+            pair_errors.add(double{sssd(index.get(), source, target)}, expected[target]);
+        }
+    }
+    CHECK(field_errors.count > 3000);
+    CHECK(field_errors.reached_wrongly + pair_errors.reached_wrongly == 0);
+    CHECK(field_errors.largest < 0.01);
+    CHECK(pair_errors.largest < 0.01);
+}
+
 TEST_CASE("overlay: costs next to nothing") {
     const TestMesh mesh = hills(18, 17);
     std::vector<uint32_t> vertices;
