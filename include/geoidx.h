@@ -248,6 +248,9 @@ typedef struct geoidx_info {
         metric_fingerprint; /* of what decides the metric besides the mesh (costs, lengths); 0: nothing */
     uint32_t metric_flags;  /* GEOIDX_METRIC_UNFOLDABLE */
     uint32_t engine;        /* GEOIDX_ENGINE_* */
+    /* The mean error if paths crossed borders at vertices only: what unfolding is worth on this mesh;
+     * error_mean where they do. */
+    double error_mean_at_vertices;
 } geoidx_info;
 
 /* ---- Building, saving, opening

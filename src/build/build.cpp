@@ -18,6 +18,8 @@ namespace geodesic {
 
 namespace {
 
+constexpr double TABLES_END = 0.97; // of the work
+
 [[noreturn]] void invalid(const std::string& detail) { throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail); }
 
 void check_options(const geoidx_build_options& options) {
@@ -65,7 +67,7 @@ void fill_tables(const Mesh& mesh, std::span<const uint32_t> vertex_of_number,
                  const geoidx_build_options& options, Workers& workers, Index& index) {
     if (options.engine == GEOIDX_ENGINE_GRAPH) return fill_graph_tables(index, vertex_of_number, workers);
     const bool unfold = (index.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
-    fill_overlay_tables(mesh, vertex_of_number, {options.exact_vertices, unfold}, workers, index);
+    fill_overlay_tables(mesh, vertex_of_number, {options.exact_vertices, unfold, TABLES_END}, workers, index);
 }
 
 ProgressFunction progress_function(const geoidx_build_options& options) {
@@ -93,9 +95,9 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     const auto is_border = merge_border_vertices(intake.mesh, leaves_at_vertex,
                                                  options.delta / 100 * intake.bounding_box_diagonal, workers);
     const auto vertex_of_number = lay_out(intake, hierarchy, leaves_at_vertex, is_border, workers, index);
-    workers.begin_stage("tables", 0.98);
+    workers.begin_stage("tables", options.engine == GEOIDX_ENGINE_OVERLAY ? 0.88 : TABLES_END);
     fill_tables(intake.mesh, vertex_of_number, options, workers, index);
-    workers.begin_stage("labels", 0.985);
+    workers.begin_stage("labels", 0.98);
     workers.run(1, [&](FieldSolver&, size_t) { make_labels(index, [&] { workers.check_cancelled(); }); });
     workers.begin_stage("accuracy", 1);
     index.error = measure_error(index, vertex_of_number, intake.id_of_vertex, workers);

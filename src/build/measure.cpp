@@ -13,52 +13,79 @@ namespace {
 
 constexpr uint32_t SOURCES = 20;
 
-std::vector<double> relative_errors(const Index& index, std::span<const uint32_t> vertex_of_number,
-                                    std::span<const uint32_t> id_of_vertex, uint32_t source,
-                                    FieldSolver& solver) {
-    Query query(index, std::pmr::get_default_resource());
-    std::vector<float> answered(index.id_count);
-    query.msad({&id_of_vertex[source], 1}, std::numeric_limits<float>::infinity(), answered);
-    solver.solve({&source, 1}, {});
-    std::vector<double> errors;
-    for (uint32_t vertex : vertex_of_number) {
-        const double exact = solver.distance(vertex);
-        const double d = double{answered[id_of_vertex[vertex]]};
-        if (exact > 0 && exact < UNREACHABLE) errors.push_back((d - exact) / exact);
-    }
-    return errors;
-}
+// Distances under the metric from random sources, by number.
+struct ExactFields {
+    std::vector<uint32_t> sources; // mesh vertices
+    std::vector<std::vector<double>> distances;
+};
 
-}
-
-MeasuredError measure_error(const Index& index, std::span<const uint32_t> vertex_of_number,
-                            std::span<const uint32_t> id_of_vertex, Workers& workers) {
+ExactFields exact_fields(const Index& index, std::span<const uint32_t> vertex_of_number, Workers& workers) {
     Random random(index.seed ^ 0x6572726F72u);
-    std::vector<uint32_t> sources(SOURCES);
-    for (uint32_t& source : sources) source = random.below(index.vertex_count());
-    std::vector<std::vector<double>> errors(SOURCES);
+    ExactFields fields{std::vector<uint32_t>(SOURCES), std::vector<std::vector<double>>(SOURCES)};
+    for (uint32_t& source : fields.sources) source = random.below(index.vertex_count());
     workers.run(SOURCES, [&](FieldSolver& solver, size_t i) {
-        errors[i] = relative_errors(index, vertex_of_number, id_of_vertex, sources[i], solver);
+        solver.solve({&fields.sources[i], 1}, {});
+        for (uint32_t vertex : vertex_of_number) fields.distances[i].push_back(solver.distance(vertex));
     });
+    return fields;
+}
 
+// Of MSAD, relative to the metric.
+std::vector<double> relative_errors(const Index& index, std::span<const uint32_t> vertex_of_number,
+                                    std::span<const uint32_t> id_of_vertex, const ExactFields& exact,
+                                    Workers& workers) {
+    std::vector<std::vector<double>> errors(SOURCES);
+    workers.run(SOURCES, [&](FieldSolver&, size_t i) {
+        Query query(index, std::pmr::get_default_resource());
+        std::vector<float> answered(index.id_count);
+        query.msad({&id_of_vertex[exact.sources[i]], 1}, std::numeric_limits<float>::infinity(), answered);
+        for (uint32_t number = 0; number < index.vertex_count(); ++number) {
+            const double distance = exact.distances[i][number];
+            const double answer = double{answered[id_of_vertex[vertex_of_number[number]]]};
+            if (distance > 0 && distance < UNREACHABLE) errors[i].push_back((answer - distance) / distance);
+        }
+    });
     std::vector<double> all;
+    for (const auto& of_source : errors) all.insert(all.end(), of_source.begin(), of_source.end());
+    return all;
+}
+
+MeasuredError summary(std::vector<double> errors) {
     MeasuredError result;
     result.sources = SOURCES;
-    for (const auto& of_source : errors)
-        for (double error : of_source) {
-            result.signed_mean += error;
-            all.push_back(std::abs(error));
-        }
-    if (all.empty()) return result;
-    std::sort(all.begin(), all.end());
-    const auto count = static_cast<double>(all.size());
-    const auto quantile = [&](double q) { return all[static_cast<size_t>(q * (count - 1))]; };
-    for (double error : all) result.mean += error;
-    result.mean /= count;
-    result.signed_mean /= count;
+    if (errors.empty()) return result;
+    const auto count = static_cast<double>(errors.size());
+    for (double& error : errors) {
+        result.signed_mean += error / count;
+        error = std::abs(error);
+        result.mean += error / count;
+    }
+    std::sort(errors.begin(), errors.end());
+    const auto quantile = [&](double q) { return errors[static_cast<size_t>(q * (count - 1))]; };
     result.p99 = quantile(0.99);
     result.p999 = quantile(0.999);
-    result.max = all.back();
+    result.max = errors.back();
+    return result;
+}
+
+}
+
+MeasuredError measure_error(Index& index, std::span<const uint32_t> vertex_of_number,
+                            std::span<const uint32_t> id_of_vertex, Workers& workers) {
+    const ExactFields exact = exact_fields(index, vertex_of_number, workers);
+    const auto measured = [&] {
+        return summary(relative_errors(index, vertex_of_number, id_of_vertex, exact, workers));
+    };
+    MeasuredError result = measured();
+    result.mean_at_vertices = result.mean;
+    auto& half_inverse = index.overlay_tables.rings.half_inverse;
+    if (!half_inverse.empty()) {
+        std::pmr::vector<float> gaps(half_inverse.size(), std::numeric_limits<float>::quiet_NaN(),
+                                     half_inverse.get_allocator());
+        half_inverse.swap(gaps);
+        result.mean_at_vertices = measured().mean;
+        half_inverse.swap(gaps);
+    }
     return result;
 }
 

@@ -8,8 +8,9 @@
 namespace geodesic {
 
 // Compares MSAD with the metric for some seeded random sources and all vertices. vertex_of_number: the mesh
-// vertex of each number; id_of_vertex: an id of each mesh vertex.
-MeasuredError measure_error(const Index& index, std::span<const uint32_t> vertex_of_number,
+// vertex of each number; id_of_vertex: an id of each mesh vertex. The index is as it was afterwards; for a
+// moment its paths cross borders at vertices only.
+MeasuredError measure_error(Index& index, std::span<const uint32_t> vertex_of_number,
                             std::span<const uint32_t> id_of_vertex, Workers& workers);
 
 }

@@ -115,6 +115,7 @@ void fill_info(const Index& index, geoidx_info& info) {
     info.error_p99 = index.error.p99;
     info.error_p999 = index.error.p999;
     info.error_max = index.error.max;
+    info.error_mean_at_vertices = index.error.mean_at_vertices;
 }
 
 }

@@ -25,11 +25,12 @@ Workers::Workers(const Metric& metric, uint32_t thread_count, ProgressFunction p
     }
 }
 
-void Workers::begin_stage(const char* name, double end_fraction) {
+void Workers::begin_stage(const char* name, double end_fraction, size_t task_count) {
     stage_ = name;
     stage_begin_ = stage_end_;
     stage_end_ = end_fraction;
-    count_ = 0;
+    count_ = stage_count_ = task_count;
+    done_ = 0;
     report();
     check_cancelled();
 }
@@ -66,8 +67,11 @@ void Workers::work(uint32_t thread, size_t count, const std::function<void(Field
 
 void Workers::run(size_t count, const std::function<void(FieldSolver&, size_t)>& task) {
     Failure failure;
-    next_ = done_ = 0;
-    count_ = count;
+    next_ = 0;
+    if (stage_count_ == 0) {
+        done_ = 0;
+        count_ = count;
+    }
     const auto used = static_cast<uint32_t>(std::min<size_t>(solvers_.size(), count));
     {
         std::vector<std::jthread> threads;

@@ -18,8 +18,9 @@ class Workers {
 public:
     Workers(const Metric& metric, uint32_t thread_count, ProgressFunction progress);
 
-    // Names the stage that follows and the share of the whole work it ends at.
-    void begin_stage(const char* name, double end_fraction);
+    // Names the stage that follows and the share of the whole work it ends at. A stage of several run() calls
+    // says how many tasks they have together.
+    void begin_stage(const char* name, double end_fraction, size_t task_count = 0);
 
     // Calls task(solver, i) for i in 0 .. count - 1 on all threads, in no particular order. Meanwhile the
     // calling thread reports progress. Rethrows the error of the task with the smallest number that failed;
@@ -40,7 +41,8 @@ private:
     const char* stage_ = "";
     double stage_begin_ = 0, stage_end_ = 0, reported_ = 0;
     std::atomic<size_t> next_ = 0, done_ = 0;
-    size_t count_ = 0;
+    size_t count_ = 0;       // of the tasks that done_ counts
+    size_t stage_count_ = 0; // of the whole stage; 0: of each run() by itself
     std::atomic<bool> cancelled_ = false;
 };
 

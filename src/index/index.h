@@ -19,6 +19,7 @@ using Array = std::pmr::vector<T>;
 struct MeasuredError {
     uint32_t sources = 0;
     double mean = 0, signed_mean = 0, p99 = 0, p999 = 0, max = 0;
+    double mean_at_vertices = 0; // where paths cross borders at vertices only
 };
 
 // A border vertex's place in a patch's border.

@@ -16,7 +16,7 @@ namespace geodesic {
 namespace {
 
 constexpr uint64_t MAX_BYTES = uint64_t{1} << 40; // of one section of numbers
-constexpr uint64_t META_BYTES = 108;
+constexpr uint64_t META_BYTES = 116;
 
 [[noreturn]] void corrupt(const std::string& detail) { throw Error(GEOIDX_ERROR_CORRUPT, detail); }
 
@@ -38,6 +38,7 @@ void read_meta(const format::Container& container, Index& index) {
     index.metric_fingerprint = reader.u64();
     index.metric_flags = reader.u32();
     index.engine = reader.u32();
+    index.error.mean_at_vertices = reader.f64();
     reader.expect_end();
     if (index.engine > GEOIDX_ENGINE_OVERLAY)
         corrupt("section META: engine " + std::to_string(index.engine) + " is not known");
@@ -49,8 +50,8 @@ void read_meta(const format::Container& container, Index& index) {
         corrupt("section META: delta is " + std::to_string(index.delta) + ", not in 0 .. 100");
     if (!(index.bounding_box_diagonal >= 0) || !std::isfinite(index.bounding_box_diagonal))
         corrupt("section META: the diagonal is " + std::to_string(index.bounding_box_diagonal));
-    for (double error :
-         {index.error.mean, index.error.signed_mean, index.error.p99, index.error.p999, index.error.max})
+    for (double error : {index.error.mean, index.error.signed_mean, index.error.p99, index.error.p999,
+                         index.error.max, index.error.mean_at_vertices})
         if (std::isnan(error)) corrupt("section META: a measured error is NaN");
 }
 

@@ -27,6 +27,7 @@ std::vector<std::byte> meta_bytes(const Index& index) {
     writer.u64(index.metric_fingerprint);
     writer.u32(index.metric_flags);
     writer.u32(index.engine);
+    writer.f64(index.error.mean_at_vertices);
     return writer.take();
 }
 

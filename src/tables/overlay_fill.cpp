@@ -32,6 +32,14 @@ std::vector<uint8_t> exact_patches(const Index& index, uint32_t exact_vertices) 
     return exact;
 }
 
+// Rows of the tables that are put together, from below and from above.
+size_t closure_rows(const Index& index, const std::vector<uint8_t>& exact) {
+    size_t rows = 0;
+    for (uint32_t p = 0; p < index.first_leaf(); ++p)
+        if (!exact[p]) rows += (p > 0 ? 2 : 1) * size_t{index.overlay_size(p)};
+    return rows;
+}
+
 // Each pair of vertices is measured once, from the smaller number, and written to all of its places.
 class ExactTables {
 public:
@@ -94,6 +102,7 @@ void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> vertex_of_n
                                  : BorderSegments(index.border.size()),
                   index);
     allocate_overlay_tables(index);
+    workers.begin_stage("closure", options.stage_end, closure_rows(index, exact));
     for (uint32_t p = index.first_leaf(); p-- > 0;)
         if (!exact[p]) close_from_below(p, index, workers, tables);
     for (uint32_t p = 1; p < index.first_leaf(); ++p)

@@ -10,6 +10,7 @@ namespace geodesic {
 struct OverlayOptions {
     uint32_t exact_vertices; // patches of up to this many have overlay tables of the metric's own distances
     bool unfold;             // the metric is locally Euclidean: paths may cross borders between vertices
+    double stage_end;        // of the stage of putting together, as Workers::begin_stage()
 };
 
 // Fills the overlay tables of a laid out index with distances on the whole surface: those of small patches

@@ -183,3 +183,19 @@ TEST_CASE("workers: progress stays in its stage and never falls") {
     CHECK(fractions.back() == 1);
     for (size_t i = 1; i < fractions.size(); ++i) CHECK(fractions[i - 1] <= fractions[i]);
 }
+
+TEST_CASE("workers: runs of a stage that says how many tasks it has follow each other") {
+    std::vector<double> fractions;
+    Workers workers(no_metric, 2, [&](double fraction, const char*) {
+        fractions.push_back(fraction);
+        return true;
+    });
+    workers.begin_stage("several", 0.5, 20);
+    for (const auto& [tasks, fraction] : {std::pair{5, 0.125}, {0, 0.125}, {10, 0.375}, {5, 0.5}}) {
+        workers.run(static_cast<size_t>(tasks), [](FieldSolver&, size_t) {});
+        CHECK(fractions.back() == fraction);
+    }
+    workers.begin_stage("one", 1);
+    workers.run(4, [](FieldSolver&, size_t) {});
+    CHECK(fractions.back() == 1);
+}

@@ -90,6 +90,7 @@ TEST_CASE("crafted META") {
         check_corrupt("diagonal", set(&Meta::diagonal, diagonal));
     for (size_t i = 0; i < 5; ++i)
         check_corrupt("error", [i](TakenApart& parts) { parts.meta.errors[i] = double{NOT_A_NUMBER}; });
+    check_corrupt("error", [](TakenApart& parts) { parts.meta.error_at_vertices = double{NOT_A_NUMBER}; });
     for (uint32_t engine : {1u, 2u, UINT32_MAX}) check_corrupt("engine", set(&Meta::engine, engine));
     check_corrupt("bytes too many",
                   [](TakenApart& parts) { parts.extra_bytes[TAG_META] = Bytes(1, std::byte{0}); });

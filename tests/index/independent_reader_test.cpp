@@ -230,6 +230,7 @@ struct IndependentIndex {
         metric_fingerprint = meta.u64();
         metric_flags = meta.u32();
         CHECK(meta.u32() == GEOIDX_ENGINE_GRAPH);
+        CHECK(!std::isnan(meta.f64()));
         CHECK(meta.remaining() == 0);
     }
 

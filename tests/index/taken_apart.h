@@ -22,6 +22,7 @@ struct TakenApart {
         double errors[5];
         uint64_t metric_fingerprint;
         uint32_t metric_flags, engine;
+        double error_at_vertices;
     } meta;
     uint32_t level_count;
     uint64_t inner_count;
@@ -55,6 +56,7 @@ inline TakenApart take_apart(std::span<const std::byte> file) {
     parts.meta.metric_fingerprint = meta.u64();
     parts.meta.metric_flags = meta.u32();
     parts.meta.engine = meta.u32();
+    parts.meta.error_at_vertices = meta.f64();
 
     const auto hierarchy_bytes = bytes(TAG_HIERARCHY);
     format::ByteReader hierarchy(hierarchy_bytes);
@@ -143,6 +145,7 @@ inline Bytes put_together(const TakenApart& parts, const TakenApart& shapes, uin
     bytes.u64(parts.meta.metric_fingerprint);
     bytes.u32(parts.meta.metric_flags);
     bytes.u32(parts.meta.engine);
+    bytes.f64(parts.meta.error_at_vertices);
     add(TAG_META, bytes);
     bytes.take();
     bytes.u32(parts.level_count);

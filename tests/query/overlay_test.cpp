@@ -245,9 +245,15 @@ TEST_CASE("overlay: only a metric that unfolds crosses borders between vertices"
     };
     Differences errors[2];
     uint64_t too_short = 0;
+    double at_vertices = 0; // as the builder measured it
     for (uint32_t flags : {0u, uint32_t{GEOIDX_METRIC_UNFOLDABLE}}) {
         options.metric_flags = flags;
         const auto index = build(mesh, options);
+        const geoidx_info info = info_of(index.get());
+        if (flags)
+            at_vertices = info.error_mean_at_vertices;
+        else
+            CHECK(info.error_mean_at_vertices == info.error_mean);
         for (uint32_t source : {0u, count / 3, count / 2, count - 1}) {
             const auto expected = metric_distances(exact.get(), source, count);
             const auto field = msad(index.get(), source, count);
@@ -260,6 +266,7 @@ TEST_CASE("overlay: only a metric that unfolds crosses borders between vertices"
     }
     CHECK(too_short == 0);
     CHECK(errors[0].mean() > 5 * errors[GEOIDX_METRIC_UNFOLDABLE].mean());
+    CHECK(at_vertices == doctest::Approx(errors[0].mean()).epsilon(0.3));
 }
 
 TEST_CASE("overlay: SSSD is symmetric bit for bit, MSAD is 0 at its sources") {

@@ -77,7 +77,9 @@ std::vector<Row> error_rows(const geoidx_info& info) {
         {"error_signed_mean", "relative error, signed mean", printed(info.error_signed_mean)},
         {"error_p99", "relative error, p99", printed(info.error_p99)},
         {"error_p999", "relative error, p99.9", printed(info.error_p999)},
-        {"error_max", "relative error, max", printed(info.error_max)}};
+        {"error_max", "relative error, max", printed(info.error_max)},
+        {"error_mean_at_vertices", "mean, crossing borders at vertices",
+         printed(info.error_mean_at_vertices)}};
     return rows;
 }
 
