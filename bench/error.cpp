@@ -1,3 +1,5 @@
+#include <cmath>
+#include <limits>
 #include <memory>
 
 #include "bench/commands.h"
@@ -50,6 +52,33 @@ Table error_table(const IndexErrors& errors, double diagonal) {
     return table;
 }
 
+double average_edge(const tools::TriangleMesh& mesh) {
+    double sum = 0;
+    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const double* a = mesh.positions.data() + size_t{3} * mesh.triangles[i];
+        const double* b = mesh.positions.data() + size_t{3} * mesh.triangles[i % 3 == 2 ? i - 2 : i + 1];
+        sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    }
+    return sum / static_cast<double>(mesh.triangles.size());
+}
+
+// Of MSAD: relative errors are largest a few edges from a source.
+Table near_table(const ErrorSample& msad, double edge) {
+    Table table{"errors_by_distance", "Errors of MSAD by distance", {}};
+    double from = 0;
+    for (double to : {2., 4., 8., 16., 32., 64., std::numeric_limits<double>::infinity()}) {
+        const ErrorSummary error = msad.relative_between(from * edge, to * edge);
+        table.rows.push_back({{"edges", "up to average edges", to},
+                              {"count", "distances", error.count},
+                              {"mean_percent", "mean %", 100 * error.mean},
+                              {"signed_mean_percent", "signed mean %", 100 * error.signed_mean},
+                              {"p999_percent", "p99.9 %", 100 * error.p999},
+                              {"max_percent", "max %", 100 * error.max}});
+        from = to;
+    }
+    return table;
+}
+
 // What the builder measured itself, to compare with.
 Table stored_table(const geoidx_info& info) {
     const ErrorSummary stored{
@@ -89,6 +118,7 @@ void error(const ErrorArguments& arguments) {
     const Workload workload = make_workload(*solver, model, arguments.error_sources);
     const IndexErrors errors = measure_errors(*index, model, workload);
     report.add(error_table(errors, info.bounding_box_diagonal));
+    report.add(near_table(errors.msad, average_edge(model.mesh)));
     report.add(stored_table(info));
     const std::string note = mismatch_note(model.name, errors);
     if (!note.empty()) report.note(note);

@@ -22,7 +22,8 @@ struct QueryTimes {
     Duration sssd;
     Duration prepared; // SSSD when the source has been prepared
     Duration msad;
-    Duration batch; // of BATCH sources
+    Duration msad_threads; // on MSAD_THREADS threads
+    Duration batch;        // of BATCH sources
 };
 QueryTimes time_queries(const geoidx& index, const Model& model, const Workload& workload);
 

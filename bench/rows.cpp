@@ -31,6 +31,8 @@ void add_query_times(Row& row, const Measurement& measurement) {
     row.push_back({"msad_ms", "MSAD ms", 1e3 * times.msad.wall});
     row.push_back({"msad_cpu_ms", "", 1e3 * times.msad.cpu});
     row.push_back({"msad_ns_per_vertex", "ns/vertex", per_vertex(1e9 * times.msad.wall, measurement.info)});
+    row.push_back({"msad_threads_ns_per_vertex", std::to_string(MSAD_THREADS) + " threads",
+                   per_vertex(1e9 * times.msad_threads.wall, measurement.info)});
     row.push_back({"batch_ns_per_vertex_and_source", "ns of 16",
                    per_vertex(1e9 * times.batch.wall, measurement.info) / BATCH});
 }

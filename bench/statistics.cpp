@@ -59,8 +59,13 @@ void ErrorSample::add(double answer, double expected, double exact) {
 }
 
 ErrorSummary ErrorSample::relative() const {
-    std::vector<double> errors(differences_.size());
-    for (size_t i = 0; i < errors.size(); ++i) errors[i] = differences_[i] / exact_[i];
+    return relative_between(0, std::numeric_limits<double>::infinity());
+}
+
+ErrorSummary ErrorSample::relative_between(double from, double to) const {
+    std::vector<double> errors;
+    for (size_t i = 0; i < differences_.size(); ++i)
+        if (exact_[i] > from && exact_[i] <= to) errors.push_back(differences_[i] / exact_[i]);
     return summary(std::move(errors));
 }
 

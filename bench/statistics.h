@@ -33,6 +33,8 @@ public:
 
     ErrorSummary relative() const;             // to the exact distance
     ErrorSummary scaled_by(double unit) const; // differences / unit
+    // Of distances over `from`, up to `to`, relative to the exact ones.
+    ErrorSummary relative_between(double from, double to) const;
     uint64_t mismatches() const { return mismatches_; }
 
 private:

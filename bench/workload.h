@@ -11,6 +11,7 @@ namespace geodesic::bench {
 inline constexpr uint64_t SEED = 20150929;       // of random sources and pairs
 inline constexpr uint32_t TIMED_QUERIES = 1000;  // medians are of so many
 inline constexpr uint32_t BATCH = 16;            // sources at once
+inline constexpr uint32_t MSAD_THREADS = 2;      // of MSAD on several threads
 inline constexpr uint32_t PAIRS_PER_FIELD = 500; // SSSD errors are of so many a reference source
 
 // Sources that a triangle uses and that reach a neighbour.

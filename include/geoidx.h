@@ -339,6 +339,11 @@ GEOIDX_API geoidx_status geoidx_query_msad_within(geoidx_query* query, const uin
                                                   uint32_t source_count, float radius, float* distances,
                                                   uint32_t distance_count);
 
+/* From then on geoidx_query_msad and geoidx_query_msad_within of this query use so many threads, which begin
+ * and end within each call, for the same bits: 1 at first, 0 means one per processor, at most 1024.
+ * GEOIDX_ENGINE_GRAPH uses one. */
+GEOIDX_API geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t threads);
+
 /* Keeps the half of SSSD that depends on the source, for geoidx_query_prepared, until the next call.
  * GEOIDX_ENGINE_OVERLAY: 4 bytes of scratch a vertex. */
 GEOIDX_API geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t source);

@@ -303,6 +303,13 @@ geoidx_status geoidx_query_msad_within(geoidx_query* query, const uint32_t* sour
     });
 }
 
+geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t threads) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        query->query.set_threads(threads);
+    });
+}
+
 geoidx_status geoidx_query_ssad_batch(geoidx_query* query, const uint32_t* sources, uint32_t source_count,
                                       float* distances, uint64_t distance_count) {
     return guarded([&] {

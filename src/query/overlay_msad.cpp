@@ -1,7 +1,11 @@
 #include "src/query/overlay_msad.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 #include "src/query/four_at_a_time.h"
 
@@ -23,22 +27,26 @@ uint32_t most_rows(const Index& index) {
 }
 
 OverlayMsad::OverlayMsad(const Index& index, std::pmr::memory_resource* memory)
-    : index_(index), tables_(index.overlay_tables), field_(index, memory), rows_(memory),
-      out_(most_rows(index), memory), sources_below_(index.patch_count(), memory) {
-    rows_.resize(out_.size());
+    : index_(index), tables_(index.overlay_tables), most_rows_(most_rows(index)), hops_(memory),
+      sources_below_(index.patch_count(), memory) {
+    set_threads(1);
+}
+
+void OverlayMsad::set_threads(uint32_t count) {
+    while (hops_.size() > count) hops_.pop_back();
+    while (hops_.size() < count) hops_.push_back({index_, most_rows_, hops_.get_allocator().resource()});
 }
 
 void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
     const DistanceField field{distance.data()};
     std::ranges::fill(distance, INFINITE);
     climb(sources, field);
-    // A patch that all sources lie in has its distances already.
-    for (uint32_t p = 1; p < index_.patch_count(); ++p)
-        if (sources_below_[p] < sources.size()) descend(p, radius, distance);
+    descend_everywhere(radius, distance);
 }
 
 void OverlayMsad::climb(std::span<const uint32_t> sources, DistanceField distance) {
     std::ranges::fill(sources_below_, 0u);
+    source_count_ = static_cast<uint32_t>(sources.size());
     for (uint32_t source : sources) start_from(source, distance);
     for (uint32_t p = index_.patch_count() - 1; p > 0; --p)
         if (sources_below_[p]) {
@@ -70,40 +78,78 @@ void OverlayMsad::start_from(uint32_t source, DistanceField distance) {
 
 // To the overlay of the parent. The child's border keeps its own distances.
 void OverlayMsad::ascend(uint32_t child, DistanceField distance) {
+    Hop& hop = hops_.front();
     const uint32_t parent = index_.parent[child];
-    const auto out = std::span(out_).first(index_.overlay_size(parent));
-    hop(child, tables_.quantum[parent], tables_.outer_tables.data() + index_.outer_row(child, 0), distance,
-        INFINITE, out);
+    const auto out = std::span(hop.out).first(index_.overlay_size(parent));
+    cross(child, tables_.quantum[parent], tables_.outer_tables.data() + index_.outer_row(child, 0), distance,
+          INFINITE, out, hop);
     for (uint32_t slot = index_.border_begin[child]; slot < index_.border_begin[child + 1]; ++slot)
-        out_[index_.overlay_position[slot]] = INFINITE;
+        out[index_.overlay_position[slot]] = INFINITE;
     for (uint32_t i = 0; i < out.size(); ++i) lower(distance[index_.overlay_number(parent, i)], out[i]);
 }
 
-// To what lies inside, of which some is known where a source is there, too.
-void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distance) {
+// Parents before their children: the patches of a level that is fine enough are shared out to the threads,
+// each with all that lies inside.
+void OverlayMsad::descend_everywhere(float radius, std::span<float> distance) {
+    constexpr size_t PATCHES_PER_THREAD = 3;
+    uint32_t level = 1;
+    if (hops_.size() > 1)
+        while (level < index_.level_count() &&
+               index_.level_begin[level + 1] - index_.level_begin[level] < PATCHES_PER_THREAD * hops_.size())
+            ++level;
+    for (uint32_t p = 1; p < index_.level_begin[level]; ++p) descend(p, radius, distance, hops_.front());
+    std::atomic<uint32_t> next = index_.level_begin[level];
+    const auto work = [&](Hop& hop) {
+        for (uint32_t p; (p = next++) < index_.level_begin[level + 1];)
+            descend_into(p, radius, distance, hop);
+    };
+    std::vector<std::jthread> threads;
+    try {
+        for (size_t t = 1; t < hops_.size(); ++t)
+            threads.emplace_back([&work, &hop = hops_[t]] { work(hop); });
+    } catch (const std::system_error&) { // no more threads: those that there are do all
+    }
+    work(hops_.front());
+}
+
+// To all that lies inside of a patch and of its descendants.
+void OverlayMsad::descend_into(uint32_t patch, float radius, std::span<float> distance, Hop& hop) const {
+    uint32_t first = patch, end = patch + 1;
+    for (;;) {
+        for (uint32_t p = first; p < end; ++p) descend(p, radius, distance, hop);
+        if (first >= index_.first_leaf()) return;
+        first = index_.child_begin[first];
+        end = index_.child_begin[end];
+    }
+}
+
+// To what lies inside, of which some is known where a source is there, too. A patch that all sources lie in
+// has its distances already.
+void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distance, Hop& hop) const {
+    if (sources_below_[patch] == source_count_) return;
     const auto inside = distance.subspan(index_.first_inner(patch), index_.inner_size(patch));
-    const auto out = sources_below_[patch] == 0 ? inside : std::span(out_).first(inside.size());
-    hop(patch, tables_.quantum[patch], tables_.inner_tables.data() + index_.inner_row(patch, 0),
-        {distance.data()}, radius, out);
+    const auto out = sources_below_[patch] == 0 ? inside : std::span(hop.out).first(inside.size());
+    cross(patch, tables_.quantum[patch], tables_.inner_tables.data() + index_.inner_row(patch, 0),
+          {distance.data()}, radius, out, hop);
     if (sources_below_[patch] > 0)
         for (size_t i = 0; i < inside.size(); ++i) lower(inside[i], out[i]);
 }
 
 // From the border of a patch over rows of its tables, unless all of it is beyond the radius.
-void OverlayMsad::hop(uint32_t patch, float quantum, const uint16_t* first_row, DistanceField distance,
-                      float radius, std::span<float> out) {
+void OverlayMsad::cross(uint32_t patch, float quantum, const uint16_t* first_row, DistanceField distance,
+                        float radius, std::span<float> out, Hop& hop) const {
     if (out.empty()) return;
     const Rings& rings = tables_.rings;
     const uint32_t places = rings.size(patch);
-    const auto border = field_.begin(rings, rings.begin[patch], places, quantum);
+    const auto border = hop.field.begin(rings, rings.begin[patch], places, quantum);
     const uint32_t* vertex = rings.vertex.data() + rings.begin[patch];
     four_at_a_time(border.size(), [&](size_t k) { border[k] = distance[vertex[k]]; });
-    if (!field_.finish() || field_.nearest() > radius) {
+    if (!hop.field.finish() || hop.field.nearest() > radius) {
         std::ranges::fill(out, INFINITE);
         return;
     }
-    four_at_a_time(out.size(), [&](size_t i) { rows_[i] = first_row + i * places; });
-    field_.cross({rows_.data(), out.size()}, out.data());
+    four_at_a_time(out.size(), [&](size_t i) { hop.rows[i] = first_row + i * places; });
+    hop.field.cross({hop.rows.data(), out.size()}, out.data());
 }
 
 }

@@ -21,6 +21,9 @@ class OverlayMsad {
 public:
     OverlayMsad(const Index& index, std::pmr::memory_resource* memory);
 
+    // Of sweep(); at least 1, which it is at first.
+    void set_threads(uint32_t count);
+
     // distance[number], of every vertex; patches beyond `radius` are left out, and their vertices at
     // infinity.
     void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance);
@@ -30,17 +33,28 @@ public:
     void climb(std::span<const uint32_t> sources, DistanceField distance);
 
 private:
+    // What one thread needs.
+    struct Hop {
+        Hop(const Index& index, size_t most_rows, std::pmr::memory_resource* memory)
+            : field(index, memory), rows(most_rows, memory), out(most_rows, memory) {}
+        BorderField field;
+        Array<const uint16_t*> rows;
+        Array<float> out; // per row
+    };
+
     void start_from(uint32_t source, DistanceField distance);
     void ascend(uint32_t child, DistanceField distance);
-    void descend(uint32_t patch, float radius, std::span<float> distance);
-    void hop(uint32_t patch, float quantum, const uint16_t* first_row, DistanceField distance, float radius,
-             std::span<float> out);
+    void descend_everywhere(float radius, std::span<float> distance);
+    void descend_into(uint32_t patch, float radius, std::span<float> distance, Hop& hop) const;
+    void descend(uint32_t patch, float radius, std::span<float> distance, Hop& hop) const;
+    void cross(uint32_t patch, float quantum, const uint16_t* first_row, DistanceField distance, float radius,
+               std::span<float> out, Hop& hop) const;
 
     const Index& index_;
     const OverlayTables& tables_;
-    BorderField field_; // of the hop at hand
-    Array<const uint16_t*> rows_;
-    Array<float> out_;              // per row
+    size_t most_rows_;
+    Array<Hop> hops_; // one a thread
+    uint32_t source_count_ = 0;
     Array<uint32_t> sources_below_; // per patch
 };
 

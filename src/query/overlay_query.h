@@ -29,6 +29,9 @@ public:
         return pairs_.distance_from(prepared_, prepared_distance_, target);
     }
 
+    // Of msad().
+    void set_threads(uint32_t count) { sweeps_.set_threads(count); }
+
     // distance[number], of every vertex; those of patches beyond the radius may be infinite.
     void msad(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
         sweeps_.sweep(sources, radius, distance);

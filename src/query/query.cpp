@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <thread>
 
 #include "format/error.h"
 #include "src/query/four_at_a_time.h"
@@ -136,6 +137,15 @@ void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<f
         for (float& d : distances)
             if (d > radius) d = INFINITE;
     for (uint32_t id : source_ids) distances[id] = 0; // also a source that no triangle uses
+}
+
+void Query::set_threads(uint32_t count) {
+    constexpr uint32_t MOST = 1024;
+    if (count > MOST)
+        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
+                    "threads is " + std::to_string(count) + ", more than " + std::to_string(MOST));
+    if (count == 0) count = std::max(1u, std::thread::hardware_concurrency());
+    if (auto* const overlay = std::get_if<OverlayQuery>(&engine_)) overlay->set_threads(count);
 }
 
 void Query::ssad_each(std::span<const uint32_t> source_ids, std::span<float> distances) {

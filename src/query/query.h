@@ -28,6 +28,9 @@ public:
     // Multiple sources, all destinations: distances[id] to the nearest source, infinite beyond the radius.
     void msad(std::span<const uint32_t> source_ids, float radius, std::span<float> distances);
 
+    // Threads of msad(), 0: one per processor; the graph engine uses one.
+    void set_threads(uint32_t count);
+
     // Of each source by itself: distances[i * id_count + id].
     void ssad_each(std::span<const uint32_t> source_ids, std::span<float> distances);
 

@@ -42,6 +42,7 @@ static geoidx_status (*const query_msad)(geoidx_query*, const uint32_t*, uint32_
                                          uint32_t) = geoidx_query_msad;
 static geoidx_status (*const query_msad_within)(geoidx_query*, const uint32_t*, uint32_t, float, float*,
                                                 uint32_t) = geoidx_query_msad_within;
+static geoidx_status (*const query_set_threads)(geoidx_query*, uint32_t) = geoidx_query_set_threads;
 static geoidx_status (*const query_ssad_batch)(geoidx_query*, const uint32_t*, uint32_t, float*,
                                                uint64_t) = geoidx_query_ssad_batch;
 static geoidx_status (*const ssad_batch)(const geoidx*, const uint32_t*, uint32_t, float*,
@@ -109,6 +110,8 @@ static int check_queries(const geoidx* index) {
     EXPECT(query_msad(query, sources, 2, same, COUNT) == GEOIDX_OK && memcmp(all, same, sizeof all) == 0);
     EXPECT(query_msad_within(query, sources, 2, 1e30f, same, COUNT) == GEOIDX_OK &&
            memcmp(all, same, sizeof all) == 0);
+    EXPECT(query_set_threads(query, 2) == GEOIDX_OK);
+    EXPECT(query_msad(query, sources, 2, same, COUNT) == GEOIDX_OK && memcmp(all, same, sizeof all) == 0);
     EXPECT(ssad_batch(index, sources, 1, all, COUNT) == GEOIDX_OK);
     EXPECT(query_ssad_batch(query, sources, 1, same, COUNT) == GEOIDX_OK &&
            memcmp(all, same, sizeof all) == 0);

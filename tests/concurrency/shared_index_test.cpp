@@ -42,6 +42,7 @@ uint64_t differences(const geoidx* index, uint32_t thread, uint32_t count, const
     uint64_t wrong = 0;
     geoidx_query* query = nullptr;
     wrong += geoidx_query_create(index, &query) != GEOIDX_OK;
+    wrong += geoidx_query_set_threads(query, 1 + thread % 3) != GEOIDX_OK;
     std::vector<float> distances(count), batch(ROUNDS);
     for (uint32_t step = 0; step < ROUNDS; ++step) {
         const uint32_t i = (step + thread) % ROUNDS; // each in another order

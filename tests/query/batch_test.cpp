@@ -79,6 +79,26 @@ TEST_CASE("batch: within a radius distances are the same, beyond it there are no
     }
 }
 
+TEST_CASE("batch: threads change no bit") {
+    for (const QueryCase& test : cases_of_both_engines()) {
+        CAPTURE(test.name);
+        const geoidx* index = index_of(test);
+        const uint32_t count = test.mesh.vertex_count();
+        const QueryHandle query = query_of(index);
+        std::vector<float> field(count);
+        for (const std::vector<uint32_t>& sources :
+             {std::vector<uint32_t>{count / 2}, {0, count - 1, count / 3, 0}}) {
+            const auto alone = msad(index, sources, count);
+            for (uint32_t threads : {2u, 7u, 0u, 3u, 1u}) {
+                require_success(geoidx_query_set_threads(query.get(), threads));
+                require_success(geoidx_query_msad(
+                    query.get(), sources.data(), static_cast<uint32_t>(sources.size()), field.data(), count));
+                CHECK(field == alone);
+            }
+        }
+    }
+}
+
 TEST_CASE("batch: from a prepared source") {
     for (const QueryCase& test : cases_of_both_engines()) {
         CAPTURE(test.name);
@@ -144,6 +164,8 @@ TEST_CASE("batch: what is wrong is refused") {
         refused(geoidx_ssad_batch(index.get(), ids, 2, distances.data(), 2 * count), "out of range");
         refused(geoidx_ssad_batch(index.get(), ids, 0, distances.data(), 0), "no source");
         refused(geoidx_query_ssad_batch(nullptr, ids, 1, distances.data(), count), "query");
+        refused(geoidx_query_set_threads(nullptr, 1), "query");
+        refused(geoidx_query_set_threads(query.get(), 1025), "threads");
         refused(geoidx_query_msad_within(nullptr, ids, 1, 1, distances.data(), count), "query");
     }
 }
