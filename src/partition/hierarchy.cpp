@@ -33,10 +33,8 @@ uint32_t levels_named(std::span<const uint32_t> given) {
 }
 
 SplitShape overlay_split(uint32_t vertex_count) {
-    constexpr double LARGE_MESH = 43000;
-    const double share = LARGE_MESH / vertex_count;
-    return {std::clamp(60 * std::pow(share, 0.25), 24.0, 60.0),
-            std::clamp(6 * std::pow(share, 0.15), 4.0, 6.0)};
+    constexpr double LARGE_MESH = 43000, FEWEST = 24, MOST = 60;
+    return {std::clamp(MOST * std::pow(LARGE_MESH / vertex_count, 0.25), FEWEST, MOST), 6};
 }
 
 std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_count,
@@ -57,15 +55,12 @@ std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_coun
         else
             remaining /= split[l];
     }
+    const double each = open ? std::pow(std::max(1.0, remaining), 1.0 / open) : 0;
     // Who asks for more levels than the vertices call for gets smaller leaves; only a mesh that is a leaf by
     // itself is left whole.
     const uint32_t fewest = level_count > 1 ? 2 : 1;
-    for (uint32_t& count : split) {
-        if (count != 0) continue;
-        const double each = std::pow(std::max(1.0, remaining), 1.0 / open--);
-        count = std::max(fewest, static_cast<uint32_t>(std::lround(each)));
-        remaining /= count; // the next ones make up for rounding
-    }
+    for (uint32_t& count : split)
+        if (count == 0) count = std::max(fewest, static_cast<uint32_t>(std::lround(each)));
     return split;
 }
 

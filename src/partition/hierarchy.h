@@ -39,8 +39,8 @@ struct SplitShape {
 };
 
 // Measured on scans of 35,000 to 390,000 vertices (bench/). Graph: larger leaves answer faster and more
-// exactly, but the file grows. Overlay: larger leaves answer faster; smaller ones, and splits into fewer
-// patches, need fewer table entries, which the borders of a larger mesh need more of.
+// exactly, but the file grows. Overlay: larger leaves answer faster, smaller ones need fewer table entries,
+// which the borders of a larger mesh need more of.
 inline constexpr SplitShape GRAPH_SPLIT{120, 40};
 SplitShape overlay_split(uint32_t vertex_count);
 

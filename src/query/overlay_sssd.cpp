@@ -13,7 +13,7 @@ namespace {
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 constexpr uint32_t REACH = Rings::REACH;
 
-constexpr size_t WAYS = 2;               // that are measured
+constexpr size_t WAYS = 3;               // that are measured
 constexpr float WORTH_MEASURING = 1.05f; // how long over samples, compared to the shortest
 
 // Asks for memory that is going to be read soon.
