@@ -44,6 +44,12 @@ void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::sp
     descend_everywhere(radius, distance);
 }
 
+void OverlayMsad::sweep_borders(uint32_t source, uint32_t level, std::span<float> distance) {
+    std::ranges::fill(distance, INFINITE);
+    climb({&source, 1}, {distance.data()});
+    for (uint32_t p = 1; p < index_.level_begin[level]; ++p) descend(p, INFINITE, distance, hops_.front());
+}
+
 void OverlayMsad::climb(std::span<const uint32_t> sources, DistanceField distance) {
     std::ranges::fill(sources_below_, 0u);
     source_count_ = static_cast<uint32_t>(sources.size());

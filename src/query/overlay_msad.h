@@ -28,6 +28,10 @@ public:
     // infinity.
     void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance);
 
+    // Distances to the borders of all patches on levels 1 to `level`, and to what lies just inside of the
+    // patches that the source lies in; the others are infinite.
+    void sweep_borders(uint32_t source, uint32_t level, std::span<float> distance);
+
     // The first half, into a field of infinity: distances to the overlays of all patches that a source lies
     // in.
     void climb(std::span<const uint32_t> sources, DistanceField distance);

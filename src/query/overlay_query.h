@@ -22,8 +22,8 @@ public:
     // From then on prepared_sssd() is from this source.
     void prepare(uint32_t source) {
         prepared_ = source;
-        prepared_distance_.assign(vertex_count_, std::numeric_limits<float>::infinity());
-        sweeps_.climb({&source, 1}, {prepared_distance_.data()});
+        prepared_distance_.resize(vertex_count_);
+        sweeps_.sweep_borders(source, pairs_.prepared_level(), prepared_distance_);
     }
     float prepared_sssd(uint32_t target) {
         return pairs_.distance_from(prepared_, prepared_distance_, target);
@@ -50,7 +50,7 @@ private:
     OverlayBatch batch_;
     size_t vertex_count_;
     uint32_t prepared_ = NONE;
-    Array<float> prepared_distance_; // by number: of climb()
+    Array<float> prepared_distance_; // by number: of sweep_borders()
 };
 
 }

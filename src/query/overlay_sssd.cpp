@@ -33,6 +33,19 @@ void sample_distances(const OverlayTables& tables, uint32_t patch, const OfPlace
         out[tables.coarse_samples[k]] = of_place(tables.coarse_places[k]);
 }
 
+// The first level whose borders have few places on average, and labels all of their vertices.
+uint32_t first_level_of_short_borders(const Index& index) {
+    constexpr uint32_t FEW = 128;
+    const auto& begin = index.overlay_tables.rings.begin;
+    for (uint32_t level = 1; level < index.level_count(); ++level) {
+        const uint32_t first = index.level_begin[level], end = index.level_begin[level + 1];
+        bool whole = begin[end] - begin[first] <= FEW * (end - first);
+        for (uint32_t p = first; p < end; ++p) whole = whole && index.is_labelled_whole(p);
+        if (whole) return level;
+    }
+    return index.level_count();
+}
+
 // A parent has a smaller number than its children.
 uint32_t lowest_common_patch(const Index& index, uint32_t a, uint32_t b) {
     while (a != b) (a > b ? a : b) = index.parent[std::max(a, b)];
@@ -42,9 +55,10 @@ uint32_t lowest_common_patch(const Index& index, uint32_t a, uint32_t b) {
 }
 
 OverlaySssd::OverlaySssd(const Index& index, std::pmr::memory_resource* memory)
-    : index_(index), tables_(index.overlay_tables), field_(index, memory), rows_(memory), from_(memory),
-      to_(memory), code_(memory), traced_(memory), samples_of_first_(memory), code_of_first_(memory),
-      samples_(memory), winners_(memory), from_window_(index.overlay_tables.rings.largest_size(), memory) {
+    : index_(index), tables_(index.overlay_tables), prepared_level_(first_level_of_short_borders(index)),
+      field_(index, memory), rows_(memory), from_(memory), to_(memory), code_(memory), traced_(memory),
+      samples_of_first_(memory), code_of_first_(memory), samples_(memory), winners_(memory),
+      from_window_(index.overlay_tables.rings.largest_size(), memory) {
     for (uint32_t p = 0; p < index.patch_count(); ++p)
         samples_.resize(std::max(samples_.size(), tables_.samples_of(p).size()));
     winners_.resize(samples_.size());
@@ -100,6 +114,16 @@ struct OverlaySssd::FromVertex {
     }
 };
 
+// Of places of the first border around a vertex, counted over all rings.
+auto OverlaySssd::distances_from(uint32_t vertex) const {
+    const uint32_t patch = index_.entry(vertex);
+    const uint16_t* row =
+        tables_.inner_tables.data() + index_.inner_row(patch, vertex - index_.first_inner(patch));
+    return [this, row, patch, first = tables_.rings.begin[patch]](size_t place) {
+        return tables_.distance(row[place - first], patch);
+    };
+}
+
 float OverlaySssd::distance(uint32_t low, uint32_t high) {
     const uint32_t top = lowest_common_patch(index_, index_.entry(low), index_.entry(high));
     if (top >= index_.first_leaf()) {
@@ -126,11 +150,41 @@ float OverlaySssd::distance(uint32_t low, uint32_t high) {
 }
 
 float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, uint32_t target) {
+    const uint32_t entry = index_.entry(target);
+    if (entry < index_.level_begin[prepared_level_]) return known[target];
+    uint32_t patch = entry, around = index_.entry(source);
+    while (patch >= index_.level_begin[prepared_level_ + 1]) patch = index_.parent[patch];
+    while (around > patch) around = index_.parent[around];
+    if (around != patch) return distance_over(patch, known, target);
     const uint32_t top = lowest_common_patch(index_, index_.entry(source), index_.entry(target));
     if (top >= index_.first_leaf() || index_.entry(target) == top) return known[target];
     climb(target, top, to_);
     const auto of_place = [&](uint32_t k) { return known[tables_.rings.vertex[k]]; };
     return meet(FromVertex<decltype(of_place)>{tables_, to_.borders.back().patch, of_place}, to_);
+}
+
+// Into a patch with all vertices of its border labelled, from a source outside.
+float OverlaySssd::distance_over(uint32_t patch, std::span<const float> known, uint32_t target) const {
+    const Rings& rings = tables_.rings;
+    const auto from = [&](size_t k) { return known[rings.vertex[k]]; };
+    const auto least_way = [&](const auto& to) {
+        float shortest = INFINITE;
+        size_t nearest = 0;
+        for (size_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
+            const float sum = from(k) + to(k);
+            if (!rings.is_own[k] || !(sum < shortest)) continue;
+            shortest = sum;
+            nearest = k;
+        }
+        if (!(shortest < INFINITE)) return INFINITE;
+        if (shortest > tables_.near[patch]) return straightened(rings, nearest, from, to);
+        for (size_t k = rings.begin[patch] + REACH; k + REACH < rings.begin[patch + 1]; ++k)
+            shortest = std::min(shortest, straightened(rings, k, from, to));
+        return shortest;
+    };
+    if (patch == index_.entry(target)) return least_way(distances_from(target));
+    const Label label = label_of(target, patch);
+    return least_way([&](size_t k) { return label.distance(rings.position[k]); });
 }
 
 // Over the best samples of the border where `to` waits.
@@ -200,16 +254,6 @@ float OverlaySssd::measure(const From& from, End& to) {
     for (size_t k = window.first; k <= window.last; k += 2 * REACH)
         shortest = std::min(shortest, straightened_near(k + REACH));
     return shortest;
-}
-
-// Of places of the first border around a vertex, counted over all rings.
-auto OverlaySssd::distances_from(uint32_t vertex) const {
-    const uint32_t patch = index_.entry(vertex);
-    const uint16_t* row =
-        tables_.inner_tables.data() + index_.inner_row(patch, vertex - index_.first_inner(patch));
-    return [this, row, patch, first = tables_.rings.begin[patch]](uint32_t place) {
-        return tables_.distance(row[place - first], patch);
-    };
 }
 
 // ---- Over samples

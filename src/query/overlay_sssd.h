@@ -20,8 +20,10 @@ public:
     // Symmetric bit for bit if low < high.
     float distance(uint32_t low, uint32_t high);
 
-    // From a source whose distances to the overlays of all patches that it lies in are known, by number.
+    // From a source whose distances to the borders of all patches down to prepared_level() are known, by
+    // number, as OverlayMsad::sweep_borders() gives them.
     float distance_from(uint32_t source, std::span<const float> known, uint32_t target);
+    uint32_t prepared_level() const { return prepared_level_; }
 
 private:
     // The places that a way may cross a border at, from `first` to `last`, repetitions of vertices too.
@@ -59,6 +61,8 @@ private:
         size_t crossed = 0;
         bool is_near = false; // to the other end: borders are straightened over any segment
     };
+
+    float distance_over(uint32_t patch, std::span<const float> known, uint32_t target) const;
 
     // How the other end is seen from the border where `to` waits: one that climbed, too, or a vertex whose
     // distances are known there.
@@ -115,6 +119,7 @@ private:
 
     const Index& index_;
     const OverlayTables& tables_;
+    const uint32_t prepared_level_;
     BorderField field_;
     Array<const uint16_t*> rows_; // of the hop at hand
     End from_, to_;

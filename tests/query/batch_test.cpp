@@ -108,14 +108,16 @@ TEST_CASE("batch: from a prepared source") {
         std::vector<uint32_t> targets;
         for (uint32_t v = 0; v < count; v += 3) targets.push_back(v);
         uint64_t wrong = 0, pairs = 0;
-        double difference = 0;
+        double difference = 0, from_field = 0;
         for (uint32_t source : {0u, count / 2, count - 1}) {
             const auto distances = prepared(query.get(), source, targets);
+            const auto alone = msad(index, source, count);
             for (size_t i = 0; i < targets.size(); ++i) {
                 const double pair = double{sssd(index, source, targets[i])}, d = double{distances[i]};
                 wrong += std::isfinite(pair) != std::isfinite(d) || (targets[i] == source && d != 0);
                 if (!std::isfinite(pair) || pair == 0) continue;
                 difference += std::abs(d - pair) / pair;
+                from_field += std::abs(d - double{alone[targets[i]]}) / pair;
                 ++pairs;
                 wrong += std::abs(d - pair) > 0.1 * pair;
             }
@@ -129,6 +131,7 @@ TEST_CASE("batch: from a prepared source") {
         }
         CHECK(wrong == 0);
         CHECK(difference <= 2e-3 * static_cast<double>(pairs));
+        CHECK(from_field <= 1e-3 * static_cast<double>(pairs));
     }
 }
 
