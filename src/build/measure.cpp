@@ -78,8 +78,9 @@ MeasuredError measure_error(Index& index, std::span<const uint32_t> vertex_of_nu
     };
     MeasuredError result = measured();
     result.mean_at_vertices = result.mean;
-    auto& half_inverse = index.overlay_tables.rings.half_inverse;
-    if (!half_inverse.empty()) {
+    const bool unfolds = (index.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
+    if (unfolds && index.engine == GEOIDX_ENGINE_OVERLAY) {
+        auto& half_inverse = index.overlay_tables.rings.half_inverse;
         std::pmr::vector<float> gaps(half_inverse.size(), std::numeric_limits<float>::quiet_NaN(),
                                      half_inverse.get_allocator());
         half_inverse.swap(gaps);
