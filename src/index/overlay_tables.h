@@ -57,11 +57,11 @@ struct OverlayTables {
 
     explicit OverlayTables(std::pmr::memory_resource* memory)
         : quantum(memory), rings(memory), place_of_slot(memory), outer_begin(memory), inner_begin(memory),
-          outer_tables(memory), inner_tables(memory), internal_tables(memory), coarse_rings(memory),
-          coarse_places(memory), coarse_samples(memory), sample_begin(memory), sample_positions(memory),
-          sample_spacing(memory), near(memory), coarse_rows(memory), coarse_positions_begin(memory),
-          coarse_positions(memory), coarse_begin(memory), coarse_tables(memory), label_offset(memory),
-          label_begin(memory), labels(memory) {}
+          outer_tables(memory), inner_tables(memory), inner_middles(memory), internal_tables(memory),
+          coarse_rings(memory), coarse_places(memory), coarse_samples(memory), sample_begin(memory),
+          sample_positions(memory), sample_spacing(memory), near(memory), coarse_rows(memory),
+          coarse_positions_begin(memory), coarse_positions(memory), coarse_begin(memory),
+          coarse_tables(memory), label_offset(memory), label_begin(memory), labels(memory) {}
 
     float distance(uint16_t code, uint32_t patch) const {
         return code == UNREACHED ? std::numeric_limits<float>::infinity()
@@ -81,9 +81,9 @@ struct OverlayTables {
     // The tables of a patch have a row of codes, one a place of its ring, for everything that is one hop away
     // from its border: in the outer table the overlay of its parent, by the parent's quantum, in the inner
     // one, by its own, the vertices that it owns or those inside of a leaf. A sweep down reads all inner
-    // tables.
+    // tables, and beside them the codes of the middle of the segment that begins at a place.
     std::pmr::vector<uint64_t> outer_begin, inner_begin; // per patch
-    std::pmr::vector<uint16_t> outer_tables, inner_tables;
+    std::pmr::vector<uint16_t> outer_tables, inner_tables, inner_middles;
     std::pmr::vector<uint16_t> internal_tables; // placed as those of Index
 
     // A sample of each ring, and of the outer tables, which SSSD looks for a way in first. The coarse table

@@ -8,6 +8,7 @@
 #include "src/index/folded_triangle.h"
 #include "src/index/index_file.h"
 #include "src/index/index_sections.h"
+#include "src/index/middle_tables.h"
 #include "src/index/rings.h"
 #include "src/index/table_rows.h"
 
@@ -307,6 +308,7 @@ void read_overlay_tables(const format::Container& container, Index& index) {
     place_overlay_codes(overlay_values, index);
     place_crossing_codes(crossing_values, index);
     make_coarse_tables(index);
+    make_middle_tables(index);
     for_each_internal_pair(index, [&](uint64_t place, size_t k) {
         index.overlay_tables.internal_tables[place] = code_of(internal_values[k]);
     });

@@ -26,6 +26,14 @@ template <class V>
     for (size_t i = 0; i < sizeof v / sizeof(float); ++i) v[i] = std::sqrt(v[i]);
 }
 
+// The square of the distance from the middle of a segment to a point that is at these distances from its
+// ends; NaN if the length is, negative if there is no such point.
+template <class V>
+[[gnu::always_inline]] inline void middle_square(const V& from_first, const V& from_second, const V& length,
+                                                 V& square) {
+    square = 0.5f * (from_first * from_first + from_second * from_second) - 0.25f * (length * length);
+}
+
 // Border segments. Each lies in a plane of its own, first end at 0, second at (length, 0).
 template <class V>
 struct Segments {
@@ -53,9 +61,13 @@ struct SeenSegments {
         V to_foot, to_height;
         segments.place_point(from_first, from_second, to_foot, to_height);
         const V off = height + to_height, along = foot - to_foot;
-        const V crossing = foot * to_height + to_foot * height; // the place of the crossing, times `off`
         const V none = V{} + std::numeric_limits<float>::infinity();
-        square = crossing > 0 && crossing < segments.length * off ? along * along + off * off : none;
+        // The place of the crossing, from the nearer end, times `off`. (Two comparisons joined by && are no
+        // vector instructions to GCC 12 where vectors have 64 bytes.)
+        V crossing = foot * to_height + to_foot * height;
+        const V to_second = segments.length * off - crossing;
+        crossing = to_second < crossing ? to_second : crossing;
+        square = crossing > 0 ? along * along + off * off : none;
     }
 };
 

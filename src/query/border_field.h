@@ -31,18 +31,14 @@ public:
     // Returns whether the source reaches any.
     bool finish();
 
-    // If finish() returned true: the least way over a place and each row, straightened.
-    void cross(Rows rows, float* distances) const {
-        kernel_.cross(border_, rows, distances, nullptr);
-        if (sight_.is_near()) kernel_.lower_near(border_, sight_, rows, distances);
-    }
-
-    // As CrossingKernel::cross(), if finish() returned true.
-    void cross(Rows rows, float* distances, uint16_t* winners) const {
+    // If finish() returned true, as CrossingKernel has them.
+    bool is_near() const { return sight_.is_near(); }
+    void cross(Rows rows, float* distances, uint16_t* winners = nullptr) const {
         kernel_.cross(border_, rows, distances, winners);
     }
-
-    float nearest() const { return sight_.nearest; }
+    void cross_near(Rows rows, float* distances) const {
+        if (is_near()) kernel_.cross_near(border_, sight_, rows, distances);
+    }
 
 private:
     const CrossingKernel& kernel_;

@@ -5,6 +5,7 @@
 
 #include "src/query/lanes.h"
 #include "src/query/nearest_places.h"
+#include "src/query/processor.h"
 
 namespace geodesic {
 
@@ -97,21 +98,16 @@ template <size_t BYTES>
 
 // ---- The ways over the nearest places
 
-// Ways to be measured: over these places of a border. From one way to the next, rows are `row_step` pointers
-// apart, what is seen of the border `source_step` floats; known when this is compiled.
+// Ways to be measured: over these places of a border, and these rows.
 struct Ways {
     const int32_t* places;
     const uint16_t* const* rows;
-    size_t row_step, source_step;
 
     [[gnu::always_inline]] const uint16_t* codes_near(size_t way) const {
-        return rows[way * row_step] + places[way] - Rings::REACH;
+        return rows[way] + places[way] - Rings::REACH;
     }
-    [[gnu::always_inline]] NearFloats of_ring(const float* values, size_t way) const {
+    [[gnu::always_inline]] NearFloats near(const float* values, size_t way) const {
         return near_floats(values + places[way] - Rings::REACH);
-    }
-    [[gnu::always_inline]] NearFloats of_source(const float* values, size_t way) const {
-        return near_floats(values + places[way] - Rings::REACH + way * source_step);
     }
 };
 
@@ -137,22 +133,19 @@ template <size_t BYTES>
     constexpr size_t SIDE_BY_SIDE = BYTES / sizeof(NearFloats);
     NearFloats squares[4], sums[4];
     for (size_t r = 0; r < 4; r += SIDE_BY_SIDE) {
-        const auto of_ring = [&](const float* values, Floats<BYTES>& out) {
-            join([&](size_t i) { return ways.of_ring(values, r + i); }, out);
-        };
-        const auto of_source = [&](const float* values, Floats<BYTES>& out) {
-            join([&](size_t i) { return ways.of_source(values, r + i); }, out);
+        const auto near = [&](const float* values, Floats<BYTES>& out) {
+            join([&](size_t i) { return ways.near(values, r + i); }, out);
         };
         SeenSegments<Floats<BYTES>> seen;
-        of_ring(border.length, seen.segments.length);
-        of_ring(border.half_inverse, seen.segments.half_inverse);
-        of_source(border.foot, seen.foot);
-        of_source(border.height, seen.height);
+        near(border.length, seen.segments.length);
+        near(border.half_inverse, seen.segments.half_inverse);
+        near(border.foot, seen.foot);
+        near(border.height, seen.height);
         Floats<BYTES> first, second, sum, square;
         codes_near<BYTES>(ways, r, first, second);
         first *= border.quantum;
         second *= border.quantum;
-        of_source(border.distance, sum);
+        near(border.distance, sum);
         sum += first;
         seen.square_across(first, second, square);
         split(sum, sums + r);
@@ -174,7 +167,7 @@ template <size_t BYTES>
     NearFloats measured;
     size_t r = 0;
     for (; r + 4 <= count; r += 4) {
-        measure_four<BYTES>(border, {places + r, rows.data() + r, 1, 0}, measured);
+        measure_four<BYTES>(border, {places + r, rows.data() + r}, measured);
         std::memcpy(distances + r, &measured, sizeof measured);
     }
     if (r == count) return;
@@ -185,7 +178,7 @@ template <size_t BYTES>
         last_places[i] = places[way];
         last_rows[i] = rows[way];
     }
-    measure_four<BYTES>(border, {last_places, last_rows, 1, 0}, measured);
+    measure_four<BYTES>(border, {last_places, last_rows}, measured);
     for (size_t i = 0; r + i < count; ++i) distances[r + i] = measured[i];
 }
 
@@ -218,35 +211,41 @@ template <size_t BYTES>
         numbers < OverlayTables::UNREACHED ? __builtin_convertvector(numbers, Floats<BYTES>) * quantum : none;
 }
 
-// Over the segments from `begin` to `end`, whole parts.
+// Over the places from `begin` to `end`, whole parts, and the segments that begin at them.
 template <size_t BYTES>
-[[gnu::always_inline]] inline float straight_way(const SeenBorder& border, size_t begin, size_t end,
-                                                 const uint16_t* row) {
-    Floats<BYTES> least{};
+[[gnu::always_inline]] inline float way_within(const SeenBorder& border, size_t begin, size_t end,
+                                               const uint16_t* row) {
+    Floats<BYTES> least{}, least_square;
     least += INFINITE;
+    least_square = least;
     for (size_t k = begin; k < end; k += Lanes<BYTES>::FLOATS) {
         SeenSegments<Floats<BYTES>> seen;
         load<BYTES>(border.length + k, seen.segments.length);
         load<BYTES>(border.half_inverse + k, seen.segments.half_inverse);
         load<BYTES>(border.foot + k, seen.foot);
         load<BYTES>(border.height + k, seen.height);
-        Floats<BYTES> from_first, from_second, square;
+        Floats<BYTES> distance, from_first, from_second, square;
+        load<BYTES>(border.distance + k, distance);
         decode<BYTES>(row + k, border.quantum, from_first);
         decode<BYTES>(row + k + 1, border.quantum, from_second);
         seen.square_across(from_first, from_second, square);
-        lower(least, square);
+        lower(least_square, square);
+        lower<Floats<BYTES>>(least, distance + from_first);
     }
-    return std::sqrt(least_of<BYTES>(least));
+    return std::min(std::sqrt(least_of<BYTES>(least_square)), least_of<BYTES>(least));
 }
 
 template <size_t BYTES>
-[[gnu::always_inline]] inline void lower_near(const SeenBorder& border, const Sight& sight, Rows rows,
+[[gnu::always_inline]] inline void cross_near(const SeenBorder& border, const Sight& sight, Rows rows,
                                               float* distances) {
-    const size_t before = std::max(sight.first, size_t{1}) - 1; // the segment before the place
-    const size_t begin = before / PART * PART, end = whole_parts(sight.last + 1);
-    for (size_t r = 0; r < rows.size(); ++r)
-        if (distances[r] <= sight.reach)
-            distances[r] = std::min(distances[r], straight_way<BYTES>(border, begin, end, rows[r]));
+    const size_t before = std::max(sight.first, size_t{Rings::REACH}) - Rings::REACH;
+    const size_t begin = before / PART * PART,
+                 end = whole_parts(std::min(sight.last + Rings::REACH, border.places));
+    for (size_t r = 0; r < rows.size(); ++r) {
+        if (distances[r] > sight.reach) continue;
+        const float way = way_within<BYTES>(border, begin, end, rows[r]);
+        if (way < INFINITE) distances[r] = way;
+    }
 }
 
 template <size_t BYTES>
@@ -262,48 +261,6 @@ template <size_t BYTES>
     }
 }
 
-// ---- From several sources
-
-// From each source over one row.
-template <size_t BYTES>
-[[gnu::always_inline]] inline void measure_each(const SeenBorders& borders, const int32_t* places,
-                                                const uint16_t* row, float* distances) {
-    SeenBorder border = borders.first;
-    const size_t stride = borders.stride;
-    NearFloats measured;
-    for (size_t i = 0; i < SeenBorders::SOURCES; i += 4) {
-        measure_four<BYTES>(border, {places + i, &row, 0, stride}, measured);
-        std::memcpy(distances + i, &measured, sizeof measured);
-        for (const float** of_source : {&border.distance, &border.foot, &border.height})
-            *of_source += 4 * stride;
-    }
-}
-
-// Over four rows.
-template <size_t BYTES>
-[[gnu::always_inline]] inline void cross_four(const SeenBorders& borders, const uint16_t* const* rows,
-                                              float* distances) {
-    constexpr size_t SOURCES = SeenBorders::SOURCES;
-    int32_t places[4 * SOURCES];
-    const Missing missing = find_nearest_places_of_each<BYTES>(borders, rows, places);
-    for (size_t r = 0; r < 4; ++r)
-        measure_each<BYTES>(borders, places + r * SOURCES, rows[r], distances + r * SOURCES);
-    missing.for_each([&](size_t way) { distances[way] = INFINITE; });
-}
-
-template <size_t BYTES>
-[[gnu::always_inline]] inline void cross_each(const SeenBorders& borders, Rows rows, float* distances) {
-    constexpr size_t SOURCES = SeenBorders::SOURCES;
-    size_t r = 0;
-    for (; r + 4 <= rows.size(); r += 4) cross_four<BYTES>(borders, rows.data() + r, distances + r * SOURCES);
-    if (r == rows.size()) return;
-    const uint16_t* last[4];
-    float last_distances[4 * SOURCES];
-    for (size_t i = 0; i < 4; ++i) last[i] = rows[r + i < rows.size() ? r + i : r];
-    cross_four<BYTES>(borders, last, last_distances);
-    std::copy_n(last_distances, (rows.size() - r) * SOURCES, distances + r * SOURCES);
-}
-
 // ---- For each kind of processor
 
 Sight see_baseline(const SeenBorder& border, const int32_t* is_own, int16_t* code, float* foot,
@@ -315,14 +272,11 @@ Sight see_baseline(const SeenBorder& border, const int32_t* is_own, int16_t* cod
 void cross_baseline(const SeenBorder& border, Rows rows, float* distances, uint16_t* winners) {
     cross<16>(border, rows, distances, winners);
 }
-void lower_near_baseline(const SeenBorder& border, const Sight& sight, Rows rows, float* distances) {
-    lower_near<16>(border, sight, rows, distances);
+void cross_near_baseline(const SeenBorder& border, const Sight& sight, Rows rows, float* distances) {
+    cross_near<16>(border, sight, rows, distances);
 }
 void choose_baseline(const SeenBorder& border, Rows rows, uint16_t* winners) {
     choose<16>(border, rows, winners);
-}
-void cross_each_baseline(const SeenBorders& borders, Rows rows, float* distances) {
-    cross_each<16>(borders, rows, distances);
 }
 
 #ifdef __x86_64__
@@ -336,15 +290,12 @@ void cross_each_baseline(const SeenBorders& borders, Rows rows, float* distances
                                         uint16_t* winners) {
     cross<32>(border, rows, distances, winners);
 }
-[[gnu::target("avx2")]] void lower_near_avx2(const SeenBorder& border, const Sight& sight, Rows rows,
+[[gnu::target("avx2")]] void cross_near_avx2(const SeenBorder& border, const Sight& sight, Rows rows,
                                              float* distances) {
-    lower_near<32>(border, sight, rows, distances);
+    cross_near<32>(border, sight, rows, distances);
 }
 [[gnu::target("avx2")]] void choose_avx2(const SeenBorder& border, Rows rows, uint16_t* winners) {
     choose<32>(border, rows, winners);
-}
-[[gnu::target("avx2")]] void cross_each_avx2(const SeenBorders& borders, Rows rows, float* distances) {
-    cross_each<32>(borders, rows, distances);
 }
 
 [[gnu::target("avx512bw,avx512vl")]] Sight see_avx512(const SeenBorder& border, const int32_t* is_own,
@@ -357,42 +308,26 @@ void cross_each_baseline(const SeenBorders& borders, Rows rows, float* distances
                                                        uint16_t* winners) {
     cross<64>(border, rows, distances, winners);
 }
-[[gnu::target("avx512bw,avx512vl")]] void lower_near_avx512(const SeenBorder& border, const Sight& sight,
+[[gnu::target("avx512bw,avx512vl")]] void cross_near_avx512(const SeenBorder& border, const Sight& sight,
                                                             Rows rows, float* distances) {
-    lower_near<64>(border, sight, rows, distances);
+    cross_near<64>(border, sight, rows, distances);
 }
 [[gnu::target("avx512bw,avx512vl")]] void choose_avx512(const SeenBorder& border, Rows rows,
                                                         uint16_t* winners) {
     choose<64>(border, rows, winners);
 }
-[[gnu::target("avx512bw,avx512vl")]] void cross_each_avx512(const SeenBorders& borders, Rows rows,
-                                                            float* distances) {
-    cross_each<64>(borders, rows, distances);
-}
 #endif
 
 constexpr CrossingKernel KERNELS[] = {
-    {"baseline", see_baseline, cross_baseline, lower_near_baseline, choose_baseline, cross_each_baseline},
+    {"baseline", see_baseline, cross_baseline, cross_near_baseline, choose_baseline},
 #ifdef __x86_64__
-    {"AVX2", see_avx2, cross_avx2, lower_near_avx2, choose_avx2, cross_each_avx2},
-    {"AVX-512", see_avx512, cross_avx512, lower_near_avx512, choose_avx512, cross_each_avx512},
+    {"AVX2", see_avx2, cross_avx2, cross_near_avx2, choose_avx2},
+    {"AVX-512", see_avx512, cross_avx512, cross_near_avx512, choose_avx512},
 #endif
 };
 
-size_t count_kernels() {
-#ifdef __x86_64__
-    if (!__builtin_cpu_supports("avx2")) return 1;
-    return __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") ? 3 : 2;
-#else
-    return 1;
-#endif
 }
 
-}
-
-std::span<const CrossingKernel> crossing_kernels() {
-    static const size_t count = count_kernels();
-    return std::span(KERNELS).first(count);
-}
+std::span<const CrossingKernel> crossing_kernels() { return std::span(KERNELS).first(runnable_kernels()); }
 
 }

@@ -24,15 +24,6 @@ struct SeenBorder {
     float quantum;                      // of the rows
 };
 
-// The same border as seen from several sources at once.
-struct SeenBorders {
-    static constexpr size_t SOURCES = 16;
-
-    SeenBorder first;    // from the first source
-    size_t stride;       // from one source's distances, feet and heights to the next one's
-    const int16_t* code; // [place * SOURCES + source]
-};
-
 // How a border is seen.
 struct Sight {
     float nearest;      // the distance of the nearest place
@@ -56,16 +47,13 @@ struct CrossingKernel {
     // that is shorter, or infinity; winners[r], if not NULL: that place, or NO_PLACE.
     void (*cross)(const SeenBorder& border, Rows rows, float* distances, uint16_t* winners);
 
-    // Lowers distances[r], where it is near, to the least way over row r straightened over any segment that
-    // is near: where a border is jagged, the straight way does not always pass near the place with the least
-    // sum.
-    void (*lower_near)(const SeenBorder& border, const Sight& sight, Rows rows, float* distances);
+    // distances[r], where it is near: the least way over row r and a near place, or straightened over any
+    // segment that is near. Where a border is jagged, the straight way does not always pass near the place
+    // with the least sum.
+    void (*cross_near)(const SeenBorder& border, const Sight& sight, Rows rows, float* distances);
 
     // winners[r]: the place with the least sum of codes, or NO_PLACE; reads no more of the border than these.
     void (*choose)(const SeenBorder& border, Rows rows, uint16_t* winners);
-
-    // As cross() from each source: distances[r * SOURCES + source].
-    void (*cross_each)(const SeenBorders& borders, Rows rows, float* distances);
 };
 
 // Those that this processor can run, the fastest last. All give the same bits.

@@ -7,14 +7,14 @@
 #include <string>
 
 #include "format/error.h"
-#include "src/query/border_fields.h"
+#include "src/query/inner_sweep.h"
 #include "src/query/steps.h"
 
 namespace geodesic {
 
 namespace {
 
-constexpr size_t SOURCES = BorderFields::SOURCES;
+constexpr size_t SOURCES = InnerSweep::MOST_SOURCES;
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
 // Labels of a mesh are about as many as its table entries; a file that needs so many for each is none of a
@@ -46,7 +46,8 @@ void lay_out_labels(Index& index) {
 class LabelSweep {
 public:
     explicit LabelSweep(Index& index)
-        : index_(index), tables_(index.overlay_tables), fields_(index, std::pmr::get_default_resource()),
+        : index_(index), tables_(index.overlay_tables),
+          sweep_(index, SOURCES, std::pmr::get_default_resource()),
           distances_(SOURCES * index.vertex_count()) {}
 
     void label(uint32_t patch) {
@@ -101,8 +102,8 @@ private:
         const uint32_t count = index_.inner_size(patch);
         if (count == 0) return;
         float* const inside = distances_.data() + size_t{index_.first_inner(patch)} * SOURCES;
-        if (fields_.see(patch, distances_.data()))
-            fields_.cross(inside);
+        if (sweep_.see(patch, distances_.data()) < INFINITE)
+            sweep_.cross(inside);
         else
             std::fill_n(inside, count * SOURCES, INFINITE);
         float* to_border = of_border_.data() + begin_[patch] + first;
@@ -132,7 +133,7 @@ private:
 
     Index& index_;
     OverlayTables& tables_;
-    BorderFields fields_;
+    InnerSweep sweep_;
     size_t count_ = 0;
     std::vector<float> distances_; // [number * SOURCES + source], of those at hand
     std::vector<float> of_border_; // of all: rows of what lies inside of each descendant

@@ -72,19 +72,25 @@ template <class Four>
     four[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
 }
 
-// The lanes of a vector, four by four.
-template <class Wide, class Four>
-[[gnu::always_inline]] inline void split(const Wide& wide, Four* four) {
-    if constexpr (sizeof wide == sizeof(Four)) {
-        four[0] = wide;
-    } else if constexpr (sizeof wide == 2 * sizeof(Four)) {
-        four[0] = __builtin_shufflevector(wide, wide, 0, 1, 2, 3);
-        four[1] = __builtin_shufflevector(wide, wide, 4, 5, 6, 7);
+template <size_t FIRST, class Wide, class Part, size_t... I>
+[[gnu::always_inline]] inline void take_part(const Wide& wide, Part& part, std::index_sequence<I...>) {
+    part = __builtin_shufflevector(wide, wide, static_cast<int>(FIRST + I)...);
+}
+
+// The lanes of a vector, 16 bytes by 16.
+template <class Wide, class Part>
+[[gnu::always_inline]] inline void split(const Wide& wide, Part* parts) {
+    constexpr size_t LANES = sizeof(Part) / sizeof(wide[0]);
+    constexpr std::make_index_sequence<LANES> ALL;
+    if constexpr (sizeof wide == sizeof(Part)) {
+        parts[0] = wide;
     } else {
-        four[0] = __builtin_shufflevector(wide, wide, 0, 1, 2, 3);
-        four[1] = __builtin_shufflevector(wide, wide, 4, 5, 6, 7);
-        four[2] = __builtin_shufflevector(wide, wide, 8, 9, 10, 11);
-        four[3] = __builtin_shufflevector(wide, wide, 12, 13, 14, 15);
+        take_part<0>(wide, parts[0], ALL);
+        take_part<LANES>(wide, parts[1], ALL);
+        if constexpr (sizeof wide == 4 * sizeof(Part)) {
+            take_part<2 * LANES>(wide, parts[2], ALL);
+            take_part<3 * LANES>(wide, parts[3], ALL);
+        }
     }
 }
 
@@ -120,11 +126,11 @@ template <size_t STEP, class Codes, class Numbers, size_t... I>
         codes, Codes{}, static_cast<int>(I % 2 ? ZERO : I / 8 * 8 + STEP + I % 8 / 2)...));
 }
 
-// The least lanes of a wide vector, in four.
-template <class Wide, class Four>
-[[gnu::always_inline]] inline void fold(const Wide& wide, Four& least) {
+// The least lanes of a wide vector, in 16 bytes.
+template <class Wide, class Part>
+[[gnu::always_inline]] inline void fold(const Wide& wide, Part& least) {
     constexpr size_t PARTS = sizeof wide / sizeof least;
-    Four parts[PARTS];
+    Part parts[PARTS];
     split(wide, parts);
     least = parts[0];
     for (size_t i = 1; i < PARTS; ++i) lower(least, parts[i]);

@@ -124,15 +124,13 @@ template <size_t BYTES>
 }
 
 // One place after the other, for what the sums of codes do not tell apart: ways of which one end is out of
-// reach. Codes of the border are `stride` apart; sum_of(k) is the way over place k. Returns NO_PLACE if there
-// is no way.
+// reach. sum_of(k) is the way over place k. Returns NO_PLACE if there is no way.
 template <class SumOf>
-int32_t find_place(size_t places, const int16_t* code, size_t stride, const uint16_t* row,
-                   const SumOf& sum_of) {
+int32_t find_place(const SeenBorder& border, const uint16_t* row, const SumOf& sum_of) {
     float least = INFINITE;
     int32_t nearest = SeenBorder::NO_PLACE;
-    for (size_t k = 0; k < places; ++k) {
-        if (code[k * stride] == SeenBorder::NOT_SEEN || row[k] == OverlayTables::UNREACHED) continue;
+    for (size_t k = 0; k < border.places; ++k) {
+        if (border.code[k] == SeenBorder::NOT_SEEN || row[k] == OverlayTables::UNREACHED) continue;
         const float sum = sum_of(k);
         if (sum >= least) continue;
         least = sum;
@@ -142,16 +140,15 @@ int32_t find_place(size_t places, const int16_t* code, size_t stride, const uint
 }
 
 // By distances, of which codes are rounded.
-inline int32_t find_nearest_place(const SeenBorder& border, const int16_t* code, size_t stride,
-                                  const float* distance, const uint16_t* row) {
-    return find_place(border.places, code, stride, row,
-                      [&](size_t k) { return distance[k] + static_cast<float>(row[k]) * border.quantum; });
+inline int32_t find_nearest_place(const SeenBorder& border, const uint16_t* row) {
+    return find_place(border, row, [&](size_t k) {
+        return border.distance[k] + static_cast<float>(row[k]) * border.quantum;
+    });
 }
 
 // By codes alone.
 inline int32_t choose_place(const SeenBorder& border, const uint16_t* row) {
-    return find_place(border.places, border.code, 1, row,
-                      [&](size_t k) { return static_cast<float>(border.code[k] + row[k]); });
+    return find_place(border, row, [&](size_t k) { return static_cast<float>(border.code[k] + row[k]); });
 }
 
 // Where there is no way, the place is some one.
@@ -177,57 +174,7 @@ template <size_t BYTES>
 [[gnu::always_inline]] inline Missing find_nearest_places(const SeenBorder& border, Rows rows,
                                                           int32_t* places) {
     find_keys<BYTES>(border, rows, places);
-    return take_places(places, rows.size(), [&](size_t r) {
-        return find_nearest_place(border, border.code, 1, border.distance, rows[r]);
-    });
-}
-
-// Of four rows, for each source: keys[row * SOURCES + source]. Four rows at a time share what they read of
-// the border.
-template <size_t BYTES>
-[[gnu::always_inline]] inline void find_keys_of_each(const SeenBorders& borders, const uint16_t* const* rows,
-                                                     int32_t* keys) {
-    constexpr size_t SOURCES = SeenBorders::SOURCES;
-    using Codes = typename Lanes<BYTES>::Codes;
-    constexpr size_t LANES = Lanes<BYTES>::CODES;
-    const size_t places = borders.first.places;
-    int16_t sums[4 * SOURCES], where[4 * SOURCES];
-    for (size_t s = 0; s < SOURCES; s += LANES) {
-        Codes least[4], place[4], here{};
-        for (size_t i = 0; i < 4; ++i) {
-            least[i] = Codes{} + std::numeric_limits<int16_t>::max();
-            place[i] = here;
-        }
-        const int16_t* codes = borders.code + s;
-        for (size_t k = 0; k < places; ++k) {
-            const Codes code =
-                *reinterpret_cast<const typename Lanes<BYTES>::CodesAnywhere*>(codes + k * SOURCES);
-            for (size_t i = 0; i < 4; ++i) {
-                const Codes sum = code + static_cast<int16_t>(rows[i][k]);
-                place[i] = sum < least[i] ? here : place[i];
-                lower(least[i], sum);
-            }
-            here += static_cast<int16_t>(1);
-        }
-        for (size_t i = 0; i < 4; ++i) {
-            std::memcpy(sums + i * SOURCES + s, &least[i], sizeof least[i]);
-            std::memcpy(where + i * SOURCES + s, &place[i], sizeof place[i]);
-        }
-    }
-    for (size_t way = 0; way < 4 * SOURCES; ++way) keys[way] = sums[way] * (1 << PLACE_BITS) + where[way];
-}
-
-// As find_nearest_places(), of four rows for each source.
-template <size_t BYTES>
-[[gnu::always_inline]] inline Missing
-find_nearest_places_of_each(const SeenBorders& borders, const uint16_t* const* rows, int32_t* places) {
-    constexpr size_t SOURCES = SeenBorders::SOURCES;
-    find_keys_of_each<std::min(BYTES, SOURCES * sizeof(int16_t))>(borders, rows, places);
-    return take_places(places, 4 * SOURCES, [&](size_t way) {
-        const size_t i = way % SOURCES;
-        return find_nearest_place(borders.first, borders.code + i, SOURCES,
-                                  borders.first.distance + i * borders.stride, rows[way / SOURCES]);
-    });
+    return take_places(places, rows.size(), [&](size_t r) { return find_nearest_place(border, rows[r]); });
 }
 
 }

@@ -19,7 +19,7 @@ uint32_t next_inwards(const Index& index, uint32_t patch, uint32_t inside) {
 }
 
 OverlayBatch::OverlayBatch(const Index& index, std::pmr::memory_resource* memory)
-    : index_(index), fields_(index, memory), out_(memory) {
+    : index_(index), sweep_(index, SOURCES, memory), out_(memory) {
     uint32_t most = 0;
     for (uint32_t p = 0; p < index.patch_count(); ++p) most = std::max(most, index.inner_size(p));
     out_.resize(most * SOURCES);
@@ -50,13 +50,13 @@ void OverlayBatch::enter(uint32_t patch) {
 // To what lies inside.
 void OverlayBatch::descend(uint32_t patch, std::span<float> distances) {
     const uint32_t count = index_.inner_size(patch);
-    if (count == 0 || !fields_.see(patch, distances.data())) return;
+    if (count == 0 || !(sweep_.see(patch, distances.data()) < INFINITE)) return;
     float* const inside = distances.data() + size_t{index_.first_inner(patch)} * SOURCES;
     if (std::ranges::find(is_outside_, false) == is_outside_.end()) {
-        fields_.cross(inside);
+        sweep_.cross(inside);
         return;
     }
-    fields_.cross(out_.data());
+    sweep_.cross(out_.data());
     for (size_t r = 0; r < count; ++r)
         for (size_t i = 0; i < SOURCES; ++i)
             if (is_outside_[i]) inside[r * SOURCES + i] = out_[r * SOURCES + i];

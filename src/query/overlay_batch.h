@@ -4,7 +4,7 @@
 #include <span>
 
 #include "src/index/index.h"
-#include "src/query/border_fields.h"
+#include "src/query/inner_sweep.h"
 #include "src/query/overlay_msad.h"
 
 namespace geodesic {
@@ -13,7 +13,7 @@ namespace geodesic {
 // given by their numbers.
 class OverlayBatch {
 public:
-    static constexpr size_t SOURCES = BorderFields::SOURCES;
+    static constexpr size_t SOURCES = InnerSweep::MOST_SOURCES;
 
     OverlayBatch(const Index& index, std::pmr::memory_resource* memory);
 
@@ -26,7 +26,7 @@ private:
     void enter(uint32_t patch);
 
     const Index& index_;
-    BorderFields fields_;                         // of the patch at hand
+    InnerSweep sweep_;                            // of the patch at hand
     Array<float> out_;                            // per row, SOURCES each
     std::array<uint32_t, SOURCES> source_{};      // the last one repeated
     std::array<uint32_t, SOURCES> next_around_{}; // the next patch that each lies in

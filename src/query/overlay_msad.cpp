@@ -17,9 +17,8 @@ constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
 void lower(float& distance, float candidate) { distance = std::min(distance, candidate); }
 
-uint32_t most_rows(const Index& index) {
+uint32_t most_inside(const Index& index) {
     uint32_t most = 0;
-    for (uint32_t p = 0; p < index.first_leaf(); ++p) most = std::max(most, index.overlay_size(p));
     for (uint32_t p = 0; p < index.patch_count(); ++p) most = std::max(most, index.inner_size(p));
     return most;
 }
@@ -27,14 +26,19 @@ uint32_t most_rows(const Index& index) {
 }
 
 OverlayMsad::OverlayMsad(const Index& index, std::pmr::memory_resource* memory)
-    : index_(index), tables_(index.overlay_tables), most_rows_(most_rows(index)), hops_(memory),
-      sources_below_(index.patch_count(), memory) {
+    : index_(index), tables_(index.overlay_tables), ascent_(index, memory), rows_(memory), outside_(memory),
+      descents_(memory), sources_below_(index.patch_count(), memory) {
+    uint32_t most = 0;
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) most = std::max(most, index.overlay_size(p));
+    rows_.resize(most);
+    outside_.resize(most);
     set_threads(1);
 }
 
 void OverlayMsad::set_threads(uint32_t count) {
-    while (hops_.size() > count) hops_.pop_back();
-    while (hops_.size() < count) hops_.push_back({index_, most_rows_, hops_.get_allocator().resource()});
+    while (descents_.size() > count) descents_.pop_back();
+    while (descents_.size() < count)
+        descents_.push_back({index_, most_inside(index_), descents_.get_allocator().resource()});
 }
 
 void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
@@ -47,7 +51,8 @@ void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::sp
 void OverlayMsad::sweep_borders(uint32_t source, uint32_t level, std::span<float> distance) {
     std::ranges::fill(distance, INFINITE);
     climb({&source, 1}, {distance.data()});
-    for (uint32_t p = 1; p < index_.level_begin[level]; ++p) descend(p, INFINITE, distance, hops_.front());
+    for (uint32_t p = 1; p < index_.level_begin[level]; ++p)
+        descend(p, INFINITE, distance, descents_.front());
 }
 
 void OverlayMsad::climb(std::span<const uint32_t> sources, DistanceField distance) {
@@ -84,14 +89,21 @@ void OverlayMsad::start_from(uint32_t source, DistanceField distance) {
 
 // To the overlay of the parent. The child's border keeps its own distances.
 void OverlayMsad::ascend(uint32_t child, DistanceField distance) {
-    Hop& hop = hops_.front();
-    const uint32_t parent = index_.parent[child];
-    const auto out = std::span(hop.out).first(index_.overlay_size(parent));
-    cross(child, tables_.quantum[parent], tables_.outer_tables.data() + index_.outer_row(child, 0), distance,
-          INFINITE, out, hop);
+    const Rings& rings = tables_.rings;
+    const uint32_t parent = index_.parent[child], places = rings.size(child);
+    const auto border = ascent_.begin(rings, rings.begin[child], places, tables_.quantum[parent]);
+    const uint32_t* vertex = rings.vertex.data() + rings.begin[child];
+    for (uint32_t k = 0; k < places; ++k) border[k] = distance[vertex[k]];
+    if (!ascent_.finish()) return;
+    const auto outside = std::span(outside_).first(index_.overlay_size(parent));
+    const uint16_t* first_row = tables_.outer_tables.data() + index_.outer_row(child, 0);
+    for (size_t i = 0; i < outside.size(); ++i) rows_[i] = first_row + i * places;
+    ascent_.cross({rows_.data(), outside.size()}, outside.data());
+    ascent_.cross_near({rows_.data(), outside.size()}, outside.data());
     for (uint32_t slot = index_.border_begin[child]; slot < index_.border_begin[child + 1]; ++slot)
-        out[index_.overlay_position[slot]] = INFINITE;
-    for (uint32_t i = 0; i < out.size(); ++i) lower(distance[index_.overlay_number(parent, i)], out[i]);
+        outside[index_.overlay_position[slot]] = INFINITE;
+    for (uint32_t i = 0; i < outside.size(); ++i)
+        lower(distance[index_.overlay_number(parent, i)], outside[i]);
 }
 
 // Parents before their children: the patches of a level that is fine enough are shared out to the threads,
@@ -99,30 +111,31 @@ void OverlayMsad::ascend(uint32_t child, DistanceField distance) {
 void OverlayMsad::descend_everywhere(float radius, std::span<float> distance) {
     constexpr size_t PATCHES_PER_THREAD = 3;
     uint32_t level = 1;
-    if (hops_.size() > 1)
-        while (level < index_.level_count() &&
-               index_.level_begin[level + 1] - index_.level_begin[level] < PATCHES_PER_THREAD * hops_.size())
+    if (descents_.size() > 1)
+        while (level < index_.level_count() && index_.level_begin[level + 1] - index_.level_begin[level] <
+                                                   PATCHES_PER_THREAD * descents_.size())
             ++level;
-    for (uint32_t p = 1; p < index_.level_begin[level]; ++p) descend(p, radius, distance, hops_.front());
+    for (uint32_t p = 1; p < index_.level_begin[level]; ++p) descend(p, radius, distance, descents_.front());
     std::atomic<uint32_t> next = index_.level_begin[level];
-    const auto work = [&](Hop& hop) {
+    const auto work = [&](Descent& descent) {
         for (uint32_t p; (p = next++) < index_.level_begin[level + 1];)
-            descend_into(p, radius, distance, hop);
+            descend_into(p, radius, distance, descent);
     };
     std::vector<std::jthread> threads;
     try {
-        for (size_t t = 1; t < hops_.size(); ++t)
-            threads.emplace_back([&work, &hop = hops_[t]] { work(hop); });
+        for (size_t t = 1; t < descents_.size(); ++t)
+            threads.emplace_back([&work, &descent = descents_[t]] { work(descent); });
     } catch (const std::system_error&) { // no more threads: those that there are do all
     }
-    work(hops_.front());
+    work(descents_.front());
 }
 
 // To all that lies inside of a patch and of its descendants.
-void OverlayMsad::descend_into(uint32_t patch, float radius, std::span<float> distance, Hop& hop) const {
+void OverlayMsad::descend_into(uint32_t patch, float radius, std::span<float> distance,
+                               Descent& descent) const {
     uint32_t first = patch, end = patch + 1;
     for (;;) {
-        for (uint32_t p = first; p < end; ++p) descend(p, radius, distance, hop);
+        for (uint32_t p = first; p < end; ++p) descend(p, radius, distance, descent);
         if (first >= index_.first_leaf()) return;
         first = index_.child_begin[first];
         end = index_.child_begin[end];
@@ -130,32 +143,15 @@ void OverlayMsad::descend_into(uint32_t patch, float radius, std::span<float> di
 }
 
 // To what lies inside, of which some is known where a source is there, too. A patch that all sources lie in
-// has its distances already.
-void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distance, Hop& hop) const {
-    if (sources_below_[patch] == source_count_) return;
+// has its distances already; one that is all beyond the radius keeps its infinite ones.
+void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distance, Descent& descent) const {
+    if (sources_below_[patch] == source_count_ || index_.inner_size(patch) == 0) return;
+    const float nearest = descent.sweep.see(patch, distance.data());
+    if (!(nearest < INFINITE) || nearest > radius) return;
     const auto inside = distance.subspan(index_.first_inner(patch), index_.inner_size(patch));
-    const auto out = sources_below_[patch] == 0 ? inside : std::span(hop.out).first(inside.size());
-    cross(patch, tables_.quantum[patch], tables_.inner_tables.data() + index_.inner_row(patch, 0),
-          {distance.data()}, radius, out, hop);
-    if (sources_below_[patch] > 0)
-        for (size_t i = 0; i < inside.size(); ++i) lower(inside[i], out[i]);
-}
-
-// From the border of a patch over rows of its tables, unless all of it is beyond the radius.
-void OverlayMsad::cross(uint32_t patch, float quantum, const uint16_t* first_row, DistanceField distance,
-                        float radius, std::span<float> out, Hop& hop) const {
-    if (out.empty()) return;
-    const Rings& rings = tables_.rings;
-    const uint32_t places = rings.size(patch);
-    const auto border = hop.field.begin(rings, rings.begin[patch], places, quantum);
-    const uint32_t* vertex = rings.vertex.data() + rings.begin[patch];
-    four_at_a_time(border.size(), [&](size_t k) { border[k] = distance[vertex[k]]; });
-    if (!hop.field.finish() || hop.field.nearest() > radius) {
-        std::ranges::fill(out, INFINITE);
-        return;
-    }
-    four_at_a_time(out.size(), [&](size_t i) { hop.rows[i] = first_row + i * places; });
-    hop.field.cross({hop.rows.data(), out.size()}, out.data());
+    if (sources_below_[patch] == 0) return descent.sweep.cross(inside.data());
+    descent.sweep.cross(descent.inside.data());
+    for (size_t i = 0; i < inside.size(); ++i) lower(inside[i], descent.inside[i]);
 }
 
 }

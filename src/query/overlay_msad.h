@@ -4,6 +4,7 @@
 
 #include "src/index/index.h"
 #include "src/query/border_field.h"
+#include "src/query/inner_sweep.h"
 
 namespace geodesic {
 
@@ -37,27 +38,26 @@ public:
     void climb(std::span<const uint32_t> sources, DistanceField distance);
 
 private:
-    // What one thread needs.
-    struct Hop {
-        Hop(const Index& index, size_t most_rows, std::pmr::memory_resource* memory)
-            : field(index, memory), rows(most_rows, memory), out(most_rows, memory) {}
-        BorderField field;
-        Array<const uint16_t*> rows;
-        Array<float> out; // per row
+    // What one thread needs on the way down.
+    struct Descent {
+        Descent(const Index& index, size_t most_rows, std::pmr::memory_resource* memory)
+            : sweep(index, 1, memory), inside(most_rows, memory) {}
+        InnerSweep sweep;
+        Array<float> inside;
     };
 
     void start_from(uint32_t source, DistanceField distance);
     void ascend(uint32_t child, DistanceField distance);
     void descend_everywhere(float radius, std::span<float> distance);
-    void descend_into(uint32_t patch, float radius, std::span<float> distance, Hop& hop) const;
-    void descend(uint32_t patch, float radius, std::span<float> distance, Hop& hop) const;
-    void cross(uint32_t patch, float quantum, const uint16_t* first_row, DistanceField distance, float radius,
-               std::span<float> out, Hop& hop) const;
+    void descend_into(uint32_t patch, float radius, std::span<float> distance, Descent& descent) const;
+    void descend(uint32_t patch, float radius, std::span<float> distance, Descent& descent) const;
 
     const Index& index_;
     const OverlayTables& tables_;
-    size_t most_rows_;
-    Array<Hop> hops_; // one a thread
+    BorderField ascent_;
+    Array<const uint16_t*> rows_; // of the ascent
+    Array<float> outside_;        // per row
+    Array<Descent> descents_;     // one a thread
     uint32_t source_count_ = 0;
     Array<uint32_t> sources_below_; // per patch
 };

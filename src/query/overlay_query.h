@@ -39,7 +39,7 @@ public:
 
     // distances[number * FIELDS_AT_ONCE + i], of each source by itself, of which there are 1 to so many. With
     // fewer than FEWEST_AT_ONCE it is faster to ask for each.
-    static constexpr size_t FIELDS_AT_ONCE = OverlayBatch::SOURCES, FEWEST_AT_ONCE = 6;
+    static constexpr size_t FIELDS_AT_ONCE = OverlayBatch::SOURCES, FEWEST_AT_ONCE = 8;
     void ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
         batch_.sweep(sources, sweeps_, distances);
     }

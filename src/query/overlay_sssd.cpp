@@ -486,10 +486,8 @@ void OverlaySssd::cross_window(End& end, size_t b, Window to, const OverlayPosit
     rows_.resize(to.size());
     for (uint32_t i = 0; i < to.size(); ++i)
         rows_[i] = rows + size_t{overlay_position(to.first + i)} * index_.ring_size(border.patch);
-    if (end.is_near)
-        field_.cross(rows_, out.data());
-    else
-        field_.cross(rows_, out.data(), nullptr);
+    field_.cross(rows_, out.data());
+    if (end.is_near) field_.cross_near(rows_, out.data());
 }
 
 }

@@ -105,7 +105,12 @@ void Query::write_by_id(const SideBySide& fields) const {
     NearFloats unreached{};
     unreached += INFINITE;
     size_t id = 0;
-    for (; id + 4 <= index_.id_count; id += 4)
+    constexpr size_t AHEAD = 32;
+    for (; id + 4 <= index_.id_count; id += 4) {
+        if (id + AHEAD + 4 <= index_.id_count)
+            for (size_t j = 0; j < 4; ++j)
+                if (const uint32_t number = number_of_id[id + AHEAD + j]; number != NONE)
+                    __builtin_prefetch(by_number + size_t{number} * fields.size());
         for (size_t i = 0; i < fields.size(); i += 4) {
             NearFloats four[4];
             for (size_t j = 0; j < 4; ++j) {
@@ -116,6 +121,7 @@ void Query::write_by_id(const SideBySide& fields) const {
             transpose(four);
             for (size_t j = 0; j < 4; ++j) std::memcpy(fields[i + j] + id, &four[j], sizeof four[j]);
         }
+    }
     for (; id < index_.id_count; ++id) {
         const uint32_t number = number_of_id[id];
         for (size_t i = 0; i < fields.size(); ++i)

@@ -4,93 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <random>
-#include <vector>
 
 #include <doctest/doctest.h>
 
-#include "src/index/overlay_tables.h"
+#include "tests/query/flat_border.h"
 
 using namespace geodesic;
+using namespace geodesic::test;
 
 namespace {
-
-constexpr float INFINITE = std::numeric_limits<float>::infinity();
-
-struct Point {
-    double x, y;
-};
-
-double distance(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
-// Along a straight line.
-std::vector<Point> line_of(size_t places, std::mt19937& random) {
-    std::uniform_real_distribution<double> gap(0.3, 1.7);
-    std::vector<Point> border(places);
-    for (size_t k = 1; k < places; ++k) border[k].x = border[k - 1].x + gap(random);
-    return border;
-}
-
-// A border in the plane, as seen from a source below it, and rows for points above.
-struct FlatBorder {
-    FlatBorder(size_t places, Point source, const std::vector<Point>& targets, std::mt19937& random)
-        : FlatBorder(line_of(places, random), source, targets) {}
-
-    FlatBorder(const std::vector<Point>& border, Point source, const std::vector<Point>& targets) {
-        const size_t places = border.size();
-        double longest = 0;
-        for (const Point& target : targets)
-            for (const Point& at : border) longest = std::max(longest, geodesic_distance(target, at));
-        quantum = static_cast<float>(longest / OverlayTables::LARGEST);
-        const size_t room = (places / SeenBorder::BLOCK + 2) * SeenBorder::BLOCK;
-        code.assign(room, SeenBorder::NOT_SEEN);
-        for (auto* values : {&to_source, &length, &half_inverse, &foot, &height}) values->assign(room, 0);
-        double nearest = longest;
-        for (const Point& at : border) nearest = std::min(nearest, geodesic_distance(source, at));
-        for (size_t k = 0; k < places; ++k) {
-            to_source[k] = static_cast<float>(geodesic_distance(source, border[k]));
-            code[k] = static_cast<int16_t>(
-                SeenBorder::NEAREST +
-                std::lround(std::min((double{to_source[k]} - nearest) / double{quantum}, 32766.0)));
-            const Point next = border[std::min(k + 1, places - 1)];
-            const Point along{next.x - border[k].x, next.y - border[k].y};
-            const Point seen{source.x - border[k].x, source.y - border[k].y};
-            length[k] = k + 1 == places ? NAN : static_cast<float>(std::hypot(along.x, along.y));
-            half_inverse[k] = 0.5f / length[k];
-            foot[k] = static_cast<float>((seen.x * along.x + seen.y * along.y) / double{length[k]});
-            height[k] = static_cast<float>(std::abs(seen.x * along.y - seen.y * along.x) / double{length[k]});
-        }
-        // The ends are there to be neighbours only.
-        for (size_t k : {size_t{0}, size_t{1}, places - 2, places - 1}) code[k] = SeenBorder::NOT_SEEN;
-        codes.assign(targets.size() * places + SeenBorder::BLOCK, 0);
-        for (size_t r = 0; r < targets.size(); ++r)
-            for (size_t k = 0; k < places; ++k)
-                codes[r * places + k] = static_cast<uint16_t>(
-                    std::lround(geodesic_distance(targets[r], border[k]) / double{quantum}));
-        for (size_t r = 0; r < targets.size(); ++r) rows.push_back(codes.data() + r * places);
-        first_x = border[2].x;
-        last_x = border[places - 3].x;
-    }
-    static double geodesic_distance(Point a, Point b) { return ::distance(a, b); }
-
-    SeenBorder seen() const {
-        return {rows.size() > 1 ? static_cast<size_t>(rows[1] - rows[0]) : codes.size() - SeenBorder::BLOCK,
-                code.data(),
-                to_source.data(),
-                length.data(),
-                half_inverse.data(),
-                foot.data(),
-                height.data(),
-                quantum};
-    }
-
-    float quantum;
-    std::vector<int16_t> code;
-    std::vector<float> to_source, length, half_inverse, foot, height;
-    std::vector<uint16_t> codes;
-    std::vector<const uint16_t*> rows;
-    double first_x, last_x; // of what may be crossed
-};
 
 struct Crossed {
     std::vector<float> distances;
@@ -165,10 +87,10 @@ TEST_CASE("crossing: near segments of a jagged border, by every kernel") {
             CHECK(double{sight.reach} == doctest::Approx(double{OverlayTables::NEAR} * 10));
             auto distances = cross(kernel, near, border.rows).distances;
             const auto before = distances;
-            kernel.lower_near(near, sight, border.rows, distances.data());
+            kernel.cross_near(near, sight, border.rows, distances.data());
             uint64_t wrong = 0;
             for (size_t i = 0; i < points.size(); ++i) {
-                const double line = ::distance(source, points[i]);
+                const double line = test::distance(source, points[i]);
                 wrong += std::abs(double{distances[i]} - line) > 4 * double{border.quantum};
                 missed += double{before[i]} > 1.5 * line;
             }
@@ -177,7 +99,7 @@ TEST_CASE("crossing: near segments of a jagged border, by every kernel") {
             CHECK(std::memcmp(first.data(), distances.data(), first.size() * sizeof(float)) == 0);
         }
     }
-    CHECK(missed > 1000); // without lower_near()
+    CHECK(missed > 1000); // without cross_near()
 }
 
 TEST_CASE("crossing: what is far stays as it is") {
@@ -193,7 +115,7 @@ TEST_CASE("crossing: what is far stays as it is") {
             const bool is_near = -source.y < double{reach};
             const Sight sight{0, reach, is_near ? size_t{0} : size_t{1}, is_near ? size_t{29} : size_t{0}};
             std::vector<float> distances{reach, reach * 2};
-            if (sight.is_near()) kernel.lower_near(seen, sight, border.rows, distances.data());
+            if (sight.is_near()) kernel.cross_near(seen, sight, border.rows, distances.data());
             CHECK(double{distances[0]} == doctest::Approx(is_near ? 4 : double{reach}).epsilon(1e-3));
             CHECK(distances[1] == reach * 2);
         }
@@ -299,54 +221,4 @@ TEST_CASE("crossing: what is seen of a border, by every kernel") {
                   INFINITE);
         }
     }
-}
-
-TEST_CASE("crossing: from each of several sources as from each alone, by every kernel") {
-    constexpr size_t SOURCES = SeenBorders::SOURCES;
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> along(-5, 60), off(0.5, 30);
-    for (size_t places : {5u, 17u, 48u, 130u})
-        for (size_t targets : {1u, 4u, 7u, 70u}) {
-            std::vector<Point> points;
-            for (size_t i = 0; i < targets; ++i) points.push_back({along(random), off(random)});
-            std::vector<FlatBorder> borders;
-            for (size_t i = 0; i < SOURCES; ++i) {
-                auto same = std::mt19937(6); // the same border from another source
-                borders.emplace_back(places, Point{along(random), -off(random)}, points, same);
-            }
-            if (places > 40) // a row that nothing is seen over, but from one source
-                for (size_t k = 0; k < places; ++k)
-                    if (k != 30) borders[0].codes[k] = OverlayTables::UNREACHED;
-            borders[3].code[30 % places] = SeenBorder::NOT_SEEN;
-            const size_t stride = borders[0].foot.size();
-            std::vector<float> distance, foot, height;
-            std::vector<int16_t> code(stride * SOURCES);
-            for (size_t i = 0; i < SOURCES; ++i) {
-                borders[i].quantum = borders[0].quantum;
-                distance.insert(distance.end(), borders[i].to_source.begin(), borders[i].to_source.end());
-                foot.insert(foot.end(), borders[i].foot.begin(), borders[i].foot.end());
-                height.insert(height.end(), borders[i].height.begin(), borders[i].height.end());
-                for (size_t k = 0; k < places; ++k) code[k * SOURCES + i] = borders[i].code[k];
-            }
-            SeenBorder first = borders[0].seen();
-            first.distance = distance.data();
-            first.foot = foot.data();
-            first.height = height.data();
-            first.places = places;
-            for (const CrossingKernel& kernel : crossing_kernels()) {
-                CAPTURE(kernel.name);
-                std::vector<float> each(targets * SOURCES);
-                kernel.cross_each({first, stride, code.data()}, borders[0].rows, each.data());
-                uint64_t wrong = 0;
-                for (size_t i = 0; i < SOURCES; ++i) {
-                    SeenBorder alone = borders[i].seen();
-                    alone.places = places;
-                    const Crossed crossed = cross(kernel, alone, borders[0].rows);
-                    for (size_t r = 0; r < targets; ++r)
-                        wrong +=
-                            std::memcmp(&crossed.distances[r], &each[r * SOURCES + i], sizeof(float)) != 0;
-                }
-                CHECK(wrong == 0);
-            }
-        }
 }

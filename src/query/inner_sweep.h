@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory_resource>
+#include <span>
+
+#include "src/index/index.h"
+#include "src/query/border_field.h"
+#include "src/query/sweep.h"
+
+namespace geodesic {
+
+// From the border of one patch after the other to what lies one hop inside of it, for one source or for
+// several at once: distances of a vertex lie side by side, `sources` of them.
+class InnerSweep {
+public:
+    static constexpr size_t MOST_SOURCES = SweepKernel::SOURCES;
+
+    // sources: 1 or MOST_SOURCES.
+    InnerSweep(const Index& index, size_t sources, std::pmr::memory_resource* memory);
+
+    // From the border of a patch, with distances[number * sources + i] from the i-th source. Returns the
+    // least of them, infinity where no source reaches any vertex of the border.
+    float see(uint32_t patch, const float* distances);
+
+    // To what lies inside of that patch, if see() returned less than infinity: inside[i * sources + source].
+    void cross(float* inside);
+
+private:
+    void cross_near(size_t source, float* inside);
+
+    const Index& index_;
+    const Rings& rings_;
+    const SweepKernel& kernel_;
+    size_t sources_;
+    uint32_t patch_ = 0;
+    SweptBorder border_{};
+    SweptCodes codes_{};
+    Array<float> distance_, middle_distance_; // [place * sources + source], as are codes
+    Array<int16_t> code_, middle_;
+    std::array<float, MOST_SOURCES> nearest_{};
+    BorderField near_field_; // of one source
+    Array<const uint16_t*> near_rows_;
+    Array<float> near_inside_;
+};
+
+}

@@ -1,0 +1,49 @@
+// What a sweep reads beside the tables of the file.
+#include "src/index/middle_tables.h"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "src/build/build.h"
+#include "tests/capi/calls.h"
+
+using namespace geodesic;
+using namespace geodesic::test;
+
+TEST_CASE("middle tables: in the plane, straight lines to the middles of segments") {
+    const TestMesh mesh = grid(30, 30);
+    geoidx_build_options options = build_options(GEOIDX_METRIC_EXACT, 2);
+    options.engine = GEOIDX_ENGINE_OVERLAY;
+    Index index(std::pmr::get_default_resource());
+    build_index(mesh.view(), options, index);
+
+    const OverlayTables& tables = index.overlay_tables;
+    uint64_t wrong = 0, middles = 0;
+    for (uint32_t p = 1; p < index.patch_count(); ++p)
+        for (uint32_t i = 0; i < index.inner_size(p); ++i)
+            for (uint32_t k = 0; k < index.ring_size(p); ++k) {
+                const uint32_t place = tables.rings.begin[p] + k;
+                const uint16_t code = tables.inner_middles[index.inner_row(p, i) + k];
+                if (std::isnan(tables.rings.segment_length[place])) {
+                    wrong += code != OverlayTables::UNREACHED;
+                    continue;
+                }
+                const auto& target = index.positions[index.first_inner(p) + i];
+                const auto &first = index.positions[tables.rings.vertex[place]],
+                           &second = index.positions[tables.rings.vertex[place + 1]];
+                double square = 0;
+                for (size_t axis = 0; axis < 3; ++axis)
+                    square += std::pow(
+                        double{target[axis]} - 0.5 * (double{first[axis]} + double{second[axis]}), 2);
+                const double quantum = double{tables.quantum[p]};
+                // Entries are rounded by half a step, the middle's once more; near a segment that counts
+                // more.
+                const double length = double{tables.rings.segment_length[place]};
+                const double rounding = quantum * (1 + 2 * (std::sqrt(square) + length) / std::sqrt(square));
+                wrong += std::abs(code * quantum - std::sqrt(square)) > rounding;
+                ++middles;
+            }
+    CHECK(wrong == 0);
+    CHECK(middles > 5000);
+}

@@ -1,0 +1,194 @@
+// The innermost loop of MSAD: every kernel that this processor can run.
+#include "src/query/sweep.h"
+
+#include <array>
+#include <cstring>
+
+#include <doctest/doctest.h>
+
+#include "tests/query/flat_border.h"
+
+using namespace geodesic;
+using namespace geodesic::test;
+
+namespace {
+
+constexpr size_t SOURCES = SweepKernel::SOURCES;
+
+// A border in the plane, with a gap here and there, sources below it and targets above.
+struct Plane {
+    Plane(std::vector<Point> line, std::vector<Point> above)
+        : border(std::move(line)), targets(std::move(above)) {
+        const size_t places = border.size();
+        double longest = 0;
+        for (const Point& target : targets)
+            for (const Point& at : border) longest = std::max(longest, distance(target, at));
+        quantum = static_cast<float>(longest / OverlayTables::LARGEST);
+        length.assign(places + SweptBorder::BLOCK, 1);
+        for (size_t k = 0; k + 1 < places; ++k)
+            length[k] = static_cast<float>(distance(border[k], border[k + 1]));
+        length[places - 1] = NAN;
+        codes.assign(targets.size() * places + SweptBorder::BLOCK, 0);
+        middles = codes;
+        for (size_t r = 0; r < targets.size(); ++r)
+            for (size_t k = 0; k < places; ++k) {
+                codes[r * places + k] = code_of(distance(targets[r], border[k]));
+                middles[r * places + k] =
+                    k + 1 < places ? code_of(distance(targets[r], middle(k))) : OverlayTables::UNREACHED;
+            }
+    }
+
+    Point middle(size_t k) const {
+        return {(border[k].x + border[k + 1].x) / 2, (border[k].y + border[k + 1].y) / 2};
+    }
+    uint16_t code_of(double d) const { return static_cast<uint16_t>(std::lround(d / double{quantum})); }
+
+    void add_gap(size_t k) {
+        length[k] = NAN;
+        for (size_t r = 0; r < targets.size(); ++r) middles[r * border.size() + k] = OverlayTables::UNREACHED;
+    }
+    void add_source(Point source) {
+        std::vector<float> distances(border.size());
+        for (size_t k = 0; k < border.size(); ++k)
+            distances[k] = static_cast<float>(distance(source, border[k]));
+        from.push_back(distances);
+        sources.push_back(source);
+    }
+
+    // By definition.
+    double least_way(size_t source, size_t target) const {
+        double least = std::numeric_limits<double>::infinity();
+        for (size_t k = 0; k < border.size(); ++k) {
+            if (from[source][k] == INFINITE) continue;
+            least = std::min(least, double{from[source][k]} + distance(border[k], targets[target]));
+            if (k + 1 == border.size() || std::isnan(length[k]) || from[source][k + 1] == INFINITE) continue;
+            least =
+                std::min(least, distance(sources[source], middle(k)) + distance(middle(k), targets[target]));
+        }
+        return least;
+    }
+
+    std::vector<Point> border, targets, sources;
+    float quantum;
+    std::vector<float> length;
+    std::vector<uint16_t> codes, middles;
+    std::vector<std::vector<float>> from; // per source and place
+};
+
+// Distances by row, of `count` sources from `first` on, side by side.
+std::vector<float> sweep(const SweepKernel& kernel, const Plane& plane, size_t first, size_t count) {
+    const size_t places = plane.border.size();
+    const size_t room = (SweptBorder::whole_blocks(places) + SweptBorder::BLOCK) * count;
+    std::vector<float> from(room, INFINITE), middle_from(room, 12345);
+    std::vector<int16_t> code(room, -77), middle(room, -77);
+    for (size_t k = 0; k < places; ++k)
+        for (size_t i = 0; i < count; ++i) from[k * count + i] = plane.from[first + i][k];
+    const SweptBorder border{places, from.data(), plane.length.data(), plane.quantum};
+    std::array<float, SOURCES> nearest{};
+    const SweptCodes codes{code.data(), middle.data(), nearest.data()};
+    const SweptRows rows{plane.targets.size(), plane.codes.data(), plane.middles.data()};
+    std::vector<float> distances(rows.count * count);
+    (count == 1 ? kernel.see : kernel.see_each)(border, codes, middle_from.data());
+    if (count == 1 && nearest[0] == INFINITE)
+        distances.assign(rows.count, INFINITE);
+    else
+        (count == 1 ? kernel.sweep : kernel.sweep_each)(border, codes, rows, distances.data());
+    return distances;
+}
+
+// Of all sources, each alone and all at once, which must be the same bits, by every kernel.
+std::vector<float> sweep_every_way(const Plane& plane) {
+    const size_t rows = plane.targets.size();
+    std::vector<float> first;
+    uint64_t different = 0;
+    for (const SweepKernel& kernel : sweep_kernels()) {
+        CAPTURE(kernel.name);
+        const auto each = sweep(kernel, plane, 0, SOURCES);
+        if (first.empty()) first = each;
+        CHECK(std::memcmp(first.data(), each.data(), each.size() * sizeof(float)) == 0);
+        for (size_t i = 0; i < SOURCES; ++i) {
+            const auto alone = sweep(kernel, plane, i, 1);
+            for (size_t r = 0; r < rows; ++r)
+                different += std::memcmp(&alone[r], &each[r * SOURCES + i], sizeof(float)) != 0;
+        }
+    }
+    CHECK(different == 0);
+    return first;
+}
+
+Plane random_plane(size_t places, size_t targets, std::mt19937& random) {
+    std::uniform_real_distribution<double> along(-5, 60), off(0.5, 30);
+    std::vector<Point> above;
+    for (size_t i = 0; i < targets; ++i) above.push_back({along(random), off(random)});
+    Plane plane(line_of(places, random), above);
+    for (size_t i = 0; i < SOURCES; ++i) plane.add_source({along(random), -off(random)});
+    return plane;
+}
+
+uint64_t count_wrong(const Plane& plane, const std::vector<float>& distances) {
+    uint64_t wrong = 0;
+    for (size_t r = 0; r < plane.targets.size(); ++r)
+        for (size_t i = 0; i < SOURCES; ++i) {
+            const double expected = plane.least_way(i, r), answer = double{distances[r * SOURCES + i]};
+            const double rounding = 1.1 * double{plane.quantum} + 1e-5 * expected; // half a step at each end
+            wrong += std::isfinite(expected) ? std::abs(answer - expected) > rounding : answer != expected;
+        }
+    return wrong;
+}
+
+}
+
+TEST_CASE("sweep: the least way over places and middles, by every kernel") {
+    std::mt19937 random(1);
+    for (size_t places : {5u, 7u, 16u, 17u, 31u, 33u, 48u, 63u, 100u, 129u, 300u})
+        for (size_t targets : {1u, 2u, 7u, 8u, 9u, 64u}) {
+            CAPTURE(places);
+            CAPTURE(targets);
+            Plane plane = random_plane(places, targets, random);
+            for (size_t k = 3; k + 1 < places; k += 7) plane.add_gap(k);
+            CHECK(count_wrong(plane, sweep_every_way(plane)) == 0);
+        }
+}
+
+TEST_CASE("sweep: sources that reach a part of the border, or nothing of it") {
+    std::mt19937 random(2);
+    for (size_t places : {6u, 33u, 70u}) {
+        CAPTURE(places);
+        Plane plane = random_plane(places, 11, random);
+        plane.from[0].assign(places, INFINITE);
+        plane.from[SOURCES - 1].assign(places, INFINITE);
+        for (size_t k = 0; k < places; ++k)
+            if (k % 3 != 2) plane.from[5][k] = INFINITE;
+        plane.from[6].assign(places, INFINITE);
+        plane.from[6][places - 1] = 5;
+        CHECK(count_wrong(plane, sweep_every_way(plane)) == 0);
+    }
+}
+
+TEST_CASE("sweep: the middle of a segment nearer than both of its ends") {
+    Plane plane({{-30, 0}, {-10, 0}, {10, 0}, {30, 0}}, {{0, 1}, {0, 25}});
+    for (size_t i = 0; i < SOURCES; ++i) plane.add_source({0, -0.5 - static_cast<double>(i)});
+    const auto distances = sweep_every_way(plane);
+    for (size_t i = 0; i < SOURCES; ++i) {
+        CHECK(double{distances[i]} == doctest::Approx(1.5 + static_cast<double>(i)).epsilon(1e-3));
+        CHECK(double{distances[SOURCES + i]} == doctest::Approx(25.5 + static_cast<double>(i)).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("sweep: targets out of reach") {
+    std::mt19937 random(3);
+    Plane plane = random_plane(40, 9, random);
+    for (size_t k = 0; k < 40; ++k) {
+        plane.codes[k] = plane.middles[k] = OverlayTables::UNREACHED; // row 0: from everywhere
+        plane.middles[40 + k] = OverlayTables::UNREACHED;
+        if (k != 30) plane.codes[40 + k] = OverlayTables::UNREACHED; // row 1: but from one place, far off
+    }
+    plane.codes[40 + 30] = OverlayTables::LARGEST;
+    const auto distances = sweep_every_way(plane);
+    for (size_t i = 0; i < SOURCES; ++i) {
+        CHECK(distances[i] == INFINITE);
+        CHECK(double{distances[SOURCES + i]} ==
+              doctest::Approx(double{plane.from[i][30] + OverlayTables::LARGEST * plane.quantum})
+                  .epsilon(1e-4));
+    }
+}
