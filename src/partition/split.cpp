@@ -7,6 +7,7 @@
 
 #include "src/partition/patch.h"
 #include "src/partition/poisson_disk.h"
+#include "src/partition/straighten.h"
 #include "src/partition/voronoi.h"
 
 namespace geodesic {
@@ -33,6 +34,7 @@ std::vector<uint32_t> relaxed_cells(Splitter& splitter, std::span<const uint32_t
         relax_seeds(splitter.solver, splitter.mesh, faces, cell, seeds);
         cell = voronoi_cells(splitter.solver, splitter.mesh, faces, seeds);
     }
+    straighten_borders(splitter.mesh, faces, cell);
     return cell;
 }
 
@@ -112,13 +114,13 @@ std::vector<Faces> cut_off_one_face(const Mesh& mesh, const Faces& faces) {
     return patches;
 }
 
-// Three cells around an annulus are discs.
+// Two halves of an annulus are discs, if they are not rings again.
 void split_until_one_ring(Splitter& splitter, Faces faces, std::vector<Faces>& done) {
     if (faces.size() == 1 || has_one_ring(splitter, faces)) {
         done.push_back(std::move(faces));
         return;
     }
-    auto parts = connected_patches(splitter.mesh, faces, relaxed_cells(splitter, faces, 3));
+    auto parts = connected_patches(splitter.mesh, faces, relaxed_cells(splitter, faces, 2));
     if (parts.size() == 1) parts = cut_off_one_face(splitter.mesh, faces);
     for (Faces& part : parts) split_until_one_ring(splitter, std::move(part), done);
 }
