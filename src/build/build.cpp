@@ -18,7 +18,7 @@ namespace geodesic {
 
 namespace {
 
-constexpr double TABLES_END = 0.97; // of the work
+constexpr double TABLES_END = 0.91; // of the work
 
 [[noreturn]] void invalid(const std::string& detail) { throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail); }
 
@@ -97,7 +97,9 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     const auto vertex_of_number = lay_out(intake, hierarchy, leaves_at_vertex, is_border, workers, index);
     workers.begin_stage("tables", options.engine == GEOIDX_ENGINE_OVERLAY ? 0.88 : TABLES_END);
     fill_tables(intake.mesh, vertex_of_number, options, workers, index);
-    workers.begin_stage("labels", 0.98);
+    workers.begin_stage("calibration", 0.95);
+    calibrate(index, vertex_of_number, intake.id_of_vertex, workers);
+    workers.begin_stage("labels", 0.97);
     workers.run(1, [&](FieldSolver&, size_t) { make_labels(index, [&] { workers.check_cancelled(); }); });
     workers.begin_stage("accuracy", 1);
     index.error = measure_error(index, vertex_of_number, intake.id_of_vertex, workers);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/index/middle_tables.h"
 #include "src/partition/random.h"
 #include "src/query/query.h"
 
@@ -12,6 +13,7 @@ namespace geodesic {
 namespace {
 
 constexpr uint32_t SOURCES = 20;
+constexpr uint64_t MEASURING_SEED = 0x6572726F72, CALIBRATION_SEED = 0x7363616C65;
 
 // Distances under the metric from random sources, by number.
 struct ExactFields {
@@ -19,8 +21,9 @@ struct ExactFields {
     std::vector<std::vector<double>> distances;
 };
 
-ExactFields exact_fields(const Index& index, std::span<const uint32_t> vertex_of_number, Workers& workers) {
-    Random random(index.seed ^ 0x6572726F72u);
+ExactFields exact_fields(const Index& index, std::span<const uint32_t> vertex_of_number, uint64_t seed,
+                         Workers& workers) {
+    Random random(index.seed ^ seed);
     ExactFields fields{std::vector<uint32_t>(SOURCES), std::vector<std::vector<double>>(SOURCES)};
     for (uint32_t& source : fields.sources) source = random.below(index.vertex_count());
     workers.run(SOURCES, [&](FieldSolver& solver, size_t i) {
@@ -68,25 +71,47 @@ MeasuredError summary(std::vector<double> errors) {
     return result;
 }
 
+bool crosses_between_vertices(const Index& index) {
+    return index.engine == GEOIDX_ENGINE_OVERLAY && (index.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
+}
+
+// Calls a function while no segment joins border vertices.
+template <class Function>
+void without_segments(Rings& rings, const Function& function) {
+    std::pmr::vector<float> lengths(rings.segment_length.size(), std::numeric_limits<float>::quiet_NaN(),
+                                    rings.segment_length.get_allocator());
+    auto inverses = lengths;
+    lengths.swap(rings.segment_length);
+    inverses.swap(rings.half_inverse);
+    function();
+    lengths.swap(rings.segment_length);
+    inverses.swap(rings.half_inverse);
+}
+
+}
+
+void calibrate(Index& index, std::span<const uint32_t> vertex_of_number,
+               std::span<const uint32_t> id_of_vertex, Workers& workers) {
+    if (!crosses_between_vertices(index)) return;
+    const ExactFields exact = exact_fields(index, vertex_of_number, CALIBRATION_SEED, workers);
+    const double share =
+        summary(relative_errors(index, vertex_of_number, id_of_vertex, exact, workers)).signed_mean;
+    for (uint32_t p = 0; p < index.first_leaf(); ++p)
+        index.overlay_tables.quantum[p] =
+            static_cast<float>(double{index.overlay_tables.quantum[p]} / (1 + share));
+    make_middle_tables(index);
 }
 
 MeasuredError measure_error(Index& index, std::span<const uint32_t> vertex_of_number,
                             std::span<const uint32_t> id_of_vertex, Workers& workers) {
-    const ExactFields exact = exact_fields(index, vertex_of_number, workers);
+    const ExactFields exact = exact_fields(index, vertex_of_number, MEASURING_SEED, workers);
     const auto measured = [&] {
         return summary(relative_errors(index, vertex_of_number, id_of_vertex, exact, workers));
     };
     MeasuredError result = measured();
     result.mean_at_vertices = result.mean;
-    const bool unfolds = (index.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
-    if (unfolds && index.engine == GEOIDX_ENGINE_OVERLAY) {
-        auto& half_inverse = index.overlay_tables.rings.half_inverse;
-        std::pmr::vector<float> gaps(half_inverse.size(), std::numeric_limits<float>::quiet_NaN(),
-                                     half_inverse.get_allocator());
-        half_inverse.swap(gaps);
-        result.mean_at_vertices = measured().mean;
-        half_inverse.swap(gaps);
-    }
+    if (crosses_between_vertices(index))
+        without_segments(index.overlay_tables.rings, [&] { result.mean_at_vertices = measured().mean; });
     return result;
 }
 

@@ -199,11 +199,11 @@ TEST_CASE("overlay: several sources are the nearest of them") {
 }
 
 // The straight lines of a plane cross every border between two vertices: over vertices only they would be 0.1
-// % too long on average. The hills are coarse.
+// % too long on average, over the middles of segments, too, a quarter of that. The hills are coarse.
 TEST_CASE("overlay: exact distances, crossing borders between vertices") {
     for (uint32_t exact_vertices : {1u, 1000000u})
         for (const auto& [mesh, most] :
-             {std::pair{grid(40, 40, 0.25), 2e-4}, {hills(40, 40), 2e-3}, {torus(60, 30), 1e-3}}) {
+             {std::pair{grid(40, 40, 0.25), 3e-4}, {hills(40, 40), 2e-3}, {torus(60, 30), 1e-3}}) {
             CAPTURE(exact_vertices);
             const uint32_t count = mesh.vertex_count();
             const auto options = overlay_options(GEOIDX_METRIC_EXACT, 3, exact_vertices);
