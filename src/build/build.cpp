@@ -6,6 +6,7 @@
 #include "format/error.h"
 #include "src/build/measure.h"
 #include "src/build/metric_options.h"
+#include "src/concurrency/threads.h"
 #include "src/partition/hierarchy.h"
 #include "src/query/labels.h"
 #include "src/tables/borders.h"
@@ -28,7 +29,7 @@ void check_options(const geoidx_build_options& options) {
     if (options.level_count > GEOIDX_MAX_LEVELS)
         invalid("level_count is " + std::to_string(options.level_count) + ", more than " +
                 std::to_string(GEOIDX_MAX_LEVELS));
-    if (options.threads > 1024) invalid("threads is " + std::to_string(options.threads) + ", more than 1024");
+    thread_count(options.threads);
     if (options.lloyd_iterations > 1000)
         invalid("lloyd_iterations is " + std::to_string(options.lloyd_iterations) + ", more than 1000");
     if (options.engine > GEOIDX_ENGINE_OVERLAY)

@@ -6,6 +6,8 @@
 #include <mutex>
 #include <thread>
 
+#include "src/concurrency/threads.h"
+
 namespace geodesic {
 
 struct Workers::Failure {
@@ -16,10 +18,9 @@ struct Workers::Failure {
     std::exception_ptr error;
 };
 
-Workers::Workers(const Metric& metric, uint32_t thread_count, ProgressFunction progress)
+Workers::Workers(const Metric& metric, uint32_t threads, ProgressFunction progress)
     : progress_(std::move(progress)) {
-    if (thread_count == 0) thread_count = std::max(1u, std::thread::hardware_concurrency());
-    for (uint32_t i = 0; i < thread_count; ++i) {
+    for (uint32_t i = thread_count(threads); i > 0; --i) {
         solvers_.push_back(metric.make_solver());
         solvers_.back()->cancel_when(cancelled_);
     }

@@ -16,7 +16,7 @@ using ProgressFunction = std::function<bool(double fraction, const char* stage)>
 // The threads of one build. Each has a solver of the metric of its own.
 class Workers {
 public:
-    Workers(const Metric& metric, uint32_t thread_count, ProgressFunction progress);
+    Workers(const Metric& metric, uint32_t threads, ProgressFunction progress);
 
     // Names the stage that follows and the share of the whole work it ends at. A stage of several run() calls
     // says how many tasks they have together.

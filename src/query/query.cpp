@@ -5,9 +5,9 @@
 #include <cstring>
 #include <limits>
 #include <string>
-#include <thread>
 
 #include "format/error.h"
+#include "src/concurrency/threads.h"
 #include "src/query/four_at_a_time.h"
 #include "src/query/lanes.h"
 
@@ -146,11 +146,7 @@ void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<f
 }
 
 void Query::set_threads(uint32_t count) {
-    constexpr uint32_t MOST = 1024;
-    if (count > MOST)
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
-                    "threads is " + std::to_string(count) + ", more than " + std::to_string(MOST));
-    if (count == 0) count = std::max(1u, std::thread::hardware_concurrency());
+    count = thread_count(count);
     if (auto* const overlay = std::get_if<OverlayQuery>(&engine_)) overlay->set_threads(count);
 }
 
