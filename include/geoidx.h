@@ -32,6 +32,10 @@
 #define GEOIDX_VERSION_MINOR 1
 #define GEOIDX_VERSION_PATCH 0
 
+/* Goes up when programs that were compiled with an older header must be compiled again. The shared library's
+ * SOVERSION. */
+#define GEOIDX_ABI_VERSION 0
+
 #if defined(_WIN32)
 #if defined(GEOIDX_BUILDING_SHARED)
 #define GEOIDX_API __declspec(dllexport)
@@ -80,6 +84,9 @@ enum {
 
 /* The release of the library: major * 10000 + minor * 100 + patch. */
 GEOIDX_API uint32_t geoidx_version(void);
+
+/* GEOIDX_ABI_VERSION of the library, for who finds its functions at run time. */
+GEOIDX_API uint32_t geoidx_abi_version(void);
 
 /* A short constant English phrase for a status; never NULL, also for numbers unknown here. */
 GEOIDX_API const char* geoidx_status_string(geoidx_status status);
@@ -150,8 +157,8 @@ enum {
     GEOIDX_ENGINE_GRAPH = 0,
     /* Tables of all borders of a patch's children to each other, 16 bits an entry: a query is a fixed
      * sequence of min-plus products. Where the metric is GEOIDX_METRIC_UNFOLDABLE a path may cross a border
-     * between two vertices, and distances may be a little below the metric's. Building takes time linear in
-     * the vertices. */
+     * between two vertices, the tables are calibrated so that such paths are right on average, and distances
+     * may be a little below the metric's. Building takes time linear in the vertices. */
     GEOIDX_ENGINE_OVERLAY = 1
 };
 
@@ -297,9 +304,9 @@ GEOIDX_API geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_i
  * ----------------------------------------------------------------------------- */
 
 /* Single source, single destination. Symmetric bit for bit; 0 for a vertex and itself. Two vertices of one
- * leaf are as far apart as the metric says: to float precision by GEOIDX_ENGINE_GRAPH, whose distances are
- * never below the metric by more than that, and to 1/65532 of the leaf's longest distance by
- * GEOIDX_ENGINE_OVERLAY. */
+ * leaf, not both of them on its border, are as far apart as the metric says: to float precision by
+ * GEOIDX_ENGINE_GRAPH, whose distances are never below the metric by more than that, and to 1/65532 of the
+ * leaf's longest distance by GEOIDX_ENGINE_OVERLAY. */
 GEOIDX_API geoidx_status geoidx_sssd(const geoidx* index, uint32_t source, uint32_t target, float* distance);
 
 /* pair_count pairs: source_target_pairs[2 i] and [2 i + 1] give distances[i], the same bits as geoidx_sssd.
