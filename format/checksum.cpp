@@ -1,5 +1,6 @@
 #include "format/checksum.h"
 
+#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 namespace geodesic::format {

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "format/error.h"

@@ -120,6 +120,8 @@ void fill_info(const Index& index, geoidx_info& info) {
 
 }
 
+uint32_t geoidx_abi_version(void) { return GEOIDX_ABI_VERSION; }
+
 uint32_t geoidx_version(void) {
     return GEOIDX_VERSION_MAJOR * 10000 + GEOIDX_VERSION_MINOR * 100 + GEOIDX_VERSION_PATCH;
 }

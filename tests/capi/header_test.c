@@ -17,6 +17,7 @@ int geoidx_header_test(void);
 
 /* A function whose type differs from geoidx.h's does not compile here. */
 static uint32_t (*const version)(void) = geoidx_version;
+static uint32_t (*const abi_version)(void) = geoidx_abi_version;
 static const char* (*const status_string)(geoidx_status) = geoidx_status_string;
 static const char* (*const last_error)(void) = geoidx_last_error;
 static void (*const mesh_init)(geoidx_mesh*) = geoidx_mesh_init;
@@ -170,6 +171,7 @@ int geoidx_header_test(void) {
     geoidx* index = NULL;
     int failed;
     EXPECT(version() / 10000 == GEOIDX_VERSION_MAJOR);
+    EXPECT(abi_version() == GEOIDX_ABI_VERSION);
     EXPECT(strcmp(status_string(GEOIDX_OK), status_string(GEOIDX_ERROR_IO)) != 0);
     make_grid(&mesh);
     build_options_init(&options);

@@ -1,0 +1,38 @@
+# What `cmake --install` and `cpack` give.
+include(CMakePackageConfigHelpers)
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/geoidx)
+
+install(FILES include/geoidx.h include/geoidx.hpp TYPE INCLUDE)
+install(TARGETS geoidx EXPORT geoidx)
+install(TARGETS geoidx_static EXPORT geoidx_static)
+install(EXPORT geoidx NAMESPACE geoidx:: FILE geoidxTargets.cmake DESTINATION ${package_folder})
+install(EXPORT geoidx_static NAMESPACE geoidx:: FILE geoidxStaticTargets.cmake DESTINATION ${package_folder})
+if(GEOIDX_BUILD_TOOLS)
+    set_target_properties(geoidx_tool PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+    install(TARGETS geoidx_tool)
+endif()
+
+configure_package_config_file(cmake/geoidxConfig.cmake.in ${PROJECT_BINARY_DIR}/geoidxConfig.cmake
+                              INSTALL_DESTINATION ${package_folder})
+# Before 1.0 a new minor version may change the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/geoidxConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/geoidxConfig.cmake ${PROJECT_BINARY_DIR}/geoidxConfigVersion.cmake
+        DESTINATION ${package_folder})
+file(RELATIVE_PATH GEOIDX_PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(cmake/geoidx.pc.in ${PROJECT_BINARY_DIR}/geoidx.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/geoidx.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES LICENSE README.md CHANGELOG.md format/SPEC.md TYPE DOC)
+
+set(CPACK_GENERATOR TGZ DEB)
+set(CPACK_PACKAGE_NAME geoidx)
+set(CPACK_PACKAGE_VENDOR geoidx)
+set(CPACK_PACKAGE_CONTACT "the geoidx authors <geoidx@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Geodesic distances on triangle meshes, precomputed")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+include(CPack)

@@ -1,0 +1,270 @@
+// The C API of geoidx.h for C++20: owning, move-only handles, spans, and exceptions. What functions mean,
+// units, and thread rules are stated in geoidx.h.
+#ifndef GEOIDX_HPP
+#define GEOIDX_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <geoidx.h>
+
+// `geoidx` itself is the handle of the C API.
+namespace gdx {
+
+// A failure, with its status and the library's detail.
+class error : public std::runtime_error {
+public:
+    error(geoidx_status status, const std::string& detail)
+        : std::runtime_error(detail.empty() ? geoidx_status_string(status) : detail), status_(status) {}
+    geoidx_status status() const noexcept { return status_; }
+
+private:
+    geoidx_status status_;
+};
+
+inline void check(geoidx_status status) {
+    if (status != GEOIDX_OK) throw error(status, geoidx_last_error());
+}
+
+namespace detail {
+
+template <class T>
+std::uint32_t count_of(std::span<T> values) {
+    if (values.size() > std::numeric_limits<std::uint32_t>::max())
+        throw std::length_error("more than 2^32 - 1 values");
+    return static_cast<std::uint32_t>(values.size());
+}
+
+}
+
+// A mesh of the caller's arrays, which must outlive it: x, y, z of each vertex, three ids a triangle.
+template <class Real>
+geoidx_mesh mesh_of(std::span<const Real> positions, std::span<const std::uint32_t> triangles) {
+    static_assert(std::is_same_v<Real, float> || std::is_same_v<Real, double>);
+    if (positions.size() % 3 != 0 || triangles.size() % 3 != 0)
+        throw std::invalid_argument("positions and triangles come in threes");
+    geoidx_mesh mesh;
+    geoidx_mesh_init(&mesh);
+    mesh.position_type = std::is_same_v<Real, float> ? GEOIDX_POSITION_FLOAT : GEOIDX_POSITION_DOUBLE;
+    mesh.positions = positions.data();
+    mesh.vertex_count = positions.size() / 3;
+    mesh.triangles = triangles.data();
+    mesh.triangle_count = triangles.size() / 3;
+    return mesh;
+}
+
+inline geoidx_build_options build_options() {
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    return options;
+}
+
+// Told a fraction 0 .. 1 and the name of a stage; returns false to cancel. What it throws leaves build().
+using progress_function = std::function<bool(float fraction, const char* stage)>;
+
+class query;
+
+// An index. Any number of threads may query one at once.
+class index {
+public:
+    static index build(const geoidx_mesh& mesh, geoidx_build_options options = build_options(),
+                       const progress_function& progress = {}) {
+        watched_progress watched{progress, nullptr};
+        if (progress) {
+            options.progress = watched_progress::call;
+            options.progress_user = &watched;
+        }
+        geoidx* built = nullptr;
+        const geoidx_status status = geoidx_build(&mesh, &options, &built);
+        if (watched.thrown) std::rethrow_exception(watched.thrown);
+        check(status);
+        return index(built);
+    }
+
+    static index open(const std::string& utf8_path, const geoidx_open_options* options = nullptr) {
+        geoidx* opened = nullptr;
+        check(geoidx_open(utf8_path.c_str(), options, &opened));
+        return index(opened);
+    }
+
+    static index open(std::span<const std::byte> file, const geoidx_open_options* options = nullptr) {
+        geoidx* opened = nullptr;
+        check(geoidx_open_memory(file.data(), file.size(), options, &opened));
+        return index(opened);
+    }
+
+    void save(const std::string& utf8_path) const { check(geoidx_save(get(), utf8_path.c_str())); }
+
+    std::vector<std::byte> bytes() const {
+        std::uint64_t size = 0;
+        check(geoidx_save_memory(get(), nullptr, 0, &size));
+        std::vector<std::byte> file(size);
+        check(geoidx_save_memory(get(), file.data(), file.size(), &size));
+        return file;
+    }
+
+    geoidx_info info() const {
+        geoidx_info info{};
+        info.struct_size = sizeof info;
+        check(geoidx_get_info(get(), &info));
+        return info;
+    }
+
+    float sssd(std::uint32_t source, std::uint32_t target) const {
+        float distance = 0;
+        check(geoidx_sssd(get(), source, target, &distance));
+        return distance;
+    }
+
+    // Of source-target pairs, one after the other.
+    void sssd(std::span<const std::uint32_t> pairs, std::span<float> distances) const {
+        if (pairs.size() != 2 * distances.size())
+            throw std::invalid_argument("two vertices are needed for each distance");
+        check(geoidx_sssd_batch(get(), pairs.data(), distances.size(), distances.data()));
+    }
+
+    // To every vertex from the nearest source.
+    void msad(std::span<const std::uint32_t> sources, std::span<float> distances) const {
+        check(geoidx_msad(get(), sources.data(), detail::count_of(sources), distances.data(),
+                          detail::count_of(distances)));
+    }
+    std::vector<float> msad(std::span<const std::uint32_t> sources) const {
+        std::vector<float> distances(info().vertex_count);
+        msad(sources, distances);
+        return distances;
+    }
+
+    // To every vertex from each source: one source's distances after the other's.
+    void ssad(std::span<const std::uint32_t> sources, std::span<float> distances) const {
+        check(geoidx_ssad_batch(get(), sources.data(), detail::count_of(sources), distances.data(),
+                                distances.size()));
+    }
+
+    query make_query() const;
+
+    const geoidx* get() const noexcept { return handle_.get(); }
+
+private:
+    struct watched_progress {
+        const progress_function& progress;
+        std::exception_ptr thrown;
+
+        static std::int32_t call(void* user, float fraction, const char* stage) noexcept {
+            auto& watched = *static_cast<watched_progress*>(user);
+            try {
+                return watched.progress(fraction, stage) ? 1 : 0;
+            } catch (...) {
+                watched.thrown = std::current_exception();
+                return 0;
+            }
+        }
+    };
+    struct close {
+        void operator()(geoidx* handle) const noexcept { geoidx_close(handle); }
+    };
+    explicit index(geoidx* handle) : handle_(handle) {}
+
+    std::unique_ptr<geoidx, close> handle_;
+};
+
+// One thread's scratch for queries on one index, which must outlive it.
+class query {
+public:
+    float sssd(std::uint32_t source, std::uint32_t target) {
+        float distance = 0;
+        check(geoidx_query_sssd(get(), source, target, &distance));
+        return distance;
+    }
+    void msad(std::span<const std::uint32_t> sources, std::span<float> distances) {
+        check(geoidx_query_msad(get(), sources.data(), detail::count_of(sources), distances.data(),
+                                detail::count_of(distances)));
+    }
+    void msad_within(std::span<const std::uint32_t> sources, float radius, std::span<float> distances) {
+        check(geoidx_query_msad_within(get(), sources.data(), detail::count_of(sources), radius,
+                                       distances.data(), detail::count_of(distances)));
+    }
+    void ssad(std::span<const std::uint32_t> sources, std::span<float> distances) {
+        check(geoidx_query_ssad_batch(get(), sources.data(), detail::count_of(sources), distances.data(),
+                                      distances.size()));
+    }
+    void set_threads(std::uint32_t threads) { check(geoidx_query_set_threads(get(), threads)); }
+
+    // From then on prepared() is from this source.
+    void prepare(std::uint32_t source) { check(geoidx_query_prepare(get(), source)); }
+    void prepared(std::span<const std::uint32_t> targets, std::span<float> distances) {
+        if (targets.size() != distances.size())
+            throw std::invalid_argument("there must be a distance for each target");
+        check(geoidx_query_prepared(get(), targets.data(), targets.size(), distances.data()));
+    }
+
+    geoidx_query* get() const noexcept { return handle_.get(); }
+
+private:
+    struct close {
+        void operator()(geoidx_query* handle) const noexcept { geoidx_query_close(handle); }
+    };
+    friend class index;
+    explicit query(geoidx_query* handle) : handle_(handle) {}
+    std::unique_ptr<geoidx_query, close> handle_;
+};
+
+inline query index::make_query() const {
+    geoidx_query* made = nullptr;
+    check(geoidx_query_create(get(), &made));
+    return query(made);
+}
+
+// A mesh and a metric, and one thread's scratch: distances computed from scratch.
+class solver {
+public:
+    explicit solver(const geoidx_mesh& mesh, const geoidx_build_options* options = nullptr) {
+        geoidx_solver* made = nullptr;
+        check(geoidx_solver_create(&mesh, options, &made));
+        handle_.reset(made);
+    }
+
+    // To each target, which the computation stops after, from the nearest source.
+    void distances(std::span<const std::uint32_t> sources, std::span<const std::uint32_t> targets,
+                   std::span<double> distances) {
+        if (targets.size() != distances.size())
+            throw std::invalid_argument("there must be a distance for each target");
+        check(geoidx_solver_distances(get(), sources.data(), detail::count_of(sources), targets.data(),
+                                      detail::count_of(targets), distances.data()));
+    }
+
+    // To every vertex of the mesh.
+    void distances(std::span<const std::uint32_t> sources, std::span<double> distances) {
+        check(geoidx_solver_distances(get(), sources.data(), detail::count_of(sources), nullptr,
+                                      detail::count_of(distances), distances.data()));
+    }
+
+    void distances(std::span<const geoidx_surface_point> sources,
+                   std::span<const geoidx_surface_point> targets, std::span<double> distances) {
+        if (targets.size() != distances.size())
+            throw std::invalid_argument("there must be a distance for each target");
+        check(geoidx_solver_point_distances(get(), sources.data(), detail::count_of(sources), targets.data(),
+                                            detail::count_of(targets), distances.data()));
+    }
+
+    geoidx_solver* get() const noexcept { return handle_.get(); }
+
+private:
+    struct close {
+        void operator()(geoidx_solver* handle) const noexcept { geoidx_solver_close(handle); }
+    };
+    std::unique_ptr<geoidx_solver, close> handle_;
+};
+
+}
+
+#endif

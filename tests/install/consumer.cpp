@@ -1,0 +1,70 @@
+// The same through geoidx.hpp, and what it adds.
+#include <geoidx.hpp>
+
+#include <cmath>
+#include <iostream>
+
+namespace {
+
+const std::vector<double> CORNERS{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+const std::vector<std::uint32_t> TRIANGLES{0, 1, 2, 0, 2, 3};
+
+bool is_root_of_two(double distance) { return std::abs(distance - std::sqrt(2.0)) < 1e-5; }
+
+bool answers_right(const gdx::index& index) {
+    const std::uint32_t source = 0, target = 2;
+    float prepared = 0, within = 0;
+    std::vector<float> field(4);
+    gdx::query query = index.make_query();
+    query.prepare(source);
+    query.prepared({&target, 1}, {&prepared, 1});
+    query.msad_within({&source, 1}, 1.2f, field);
+    within = field[target];
+    return is_root_of_two(double{index.sssd(source, target)}) && is_root_of_two(double{query.sssd(2, 0)}) &&
+           is_root_of_two(double{prepared}) && std::isinf(within) &&
+           is_root_of_two(double{index.msad(std::span(&source, 1))[target]});
+}
+
+template <class Function>
+geoidx_status status_of(const Function& function) {
+    try {
+        function();
+    } catch (const gdx::error& error) {
+        return std::string(error.what()).empty() ? GEOIDX_OK : error.status();
+    }
+    return GEOIDX_OK;
+}
+
+bool throws_what_progress_throws(const geoidx_mesh& mesh) {
+    try {
+        gdx::index::build(mesh, gdx::build_options(), [](float, const char*) -> bool { throw 7; });
+    } catch (int thrown) {
+        return thrown == 7;
+    }
+    return false;
+}
+
+}
+
+int main() {
+    const geoidx_mesh mesh = gdx::mesh_of<double>(CORNERS, TRIANGLES);
+    gdx::index built = gdx::index::build(mesh);
+    const gdx::index moved = std::move(built);
+    if (!answers_right(moved)) return 1;
+    if (!answers_right(gdx::index::open(moved.bytes()))) return 2;
+    moved.save("square++.geoidx");
+    if (!answers_right(gdx::index::open("square++.geoidx"))) return 3;
+    if (status_of([] { gdx::index::open("no such file"); }) != GEOIDX_ERROR_IO) return 4;
+    if (status_of([&] { moved.sssd(0, 4); }) != GEOIDX_ERROR_INVALID_ARGUMENT) return 5;
+    if (status_of([&] {
+            gdx::index::build(mesh, gdx::build_options(), [](float, const char*) { return false; });
+        }) != GEOIDX_ERROR_CANCELLED)
+        return 6;
+    if (!throws_what_progress_throws(mesh)) return 7;
+
+    std::vector<double> distances(4);
+    const std::uint32_t source = 0;
+    gdx::solver(mesh).distances(std::span(&source, 1), distances);
+    if (!is_root_of_two(distances[2])) return 8;
+    std::cout << moved.sssd(0, 2) << '\n';
+}

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# install_test.sh BUILD WORK: installs a build into an empty prefix in the folder WORK, and uses it as strangers do.
+set -euo pipefail
+
+here=$(cd "$(dirname "$0")" && pwd)
+build=$1
+work=$2
+prefix=$work/prefix
+rm -rf "$work"
+mkdir -p "$work"
+
+fail() { echo "FAILED: $1"; exit 1; }
+expect() { [ "$2" = "$3" ] || fail "$1: expected '$3', got '$2'"; }
+
+cmake --install "$build" --prefix "$prefix" >/dev/null
+library=$(find "$prefix" -name 'libgeoidx.so')
+libraries=$(dirname "$library")
+cd "$work"
+
+cc -std=c99 -pedantic-errors -Wall -Wextra -Werror "$here/consumer.c" -I"$prefix/include" -L"$libraries" -lgeoidx -lm -o c99
+expect "a C99 program" "$(LD_LIBRARY_PATH=$libraries ./c99)" 1.41421
+
+export PKG_CONFIG_PATH=$libraries/pkgconfig
+read -ra flags <<<"$(pkg-config --cflags --libs geoidx)"
+c++ -std=c++20 -Wall -Wextra -Wpedantic -Wconversion -Werror "$here/consumer.cpp" "${flags[@]}" -o pkg_config
+expect "a program by pkg-config" "$(LD_LIBRARY_PATH=$libraries ./pkg_config)" 1.41421
+expect "its version" "$(pkg-config --modversion geoidx)" "$("$prefix/bin/geoidx" --version | grep -o '[0-9.]*$')"
+
+cmake -S "$here" -B consumer -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+cmake --build consumer >/dev/null
+for program in consumer_c consumer_cpp consumer_cpp_static; do
+    expect "$program by find_package" "$(consumer/$program)" 1.41421
+done
+readelf -d consumer/consumer_cpp_static | grep -q 'libgeoidx' && fail "the static program needs the shared library"
+
+# What the shared library needs at run time, and what it offers.
+needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' | sort | tr '\n' ' ')
+for name in $needed; do
+    case $name in
+    libc.so.* | libm.so.* | libgcc_s.so.* | libstdc++.so.* | ld-linux*) ;;
+    *) fail "the shared library needs $name" ;;
+    esac
+done
+LC_ALL=C ldd "$library" | grep -E 'not found|png|zstd|libz\.' && fail "ldd shows what is to be linked in"
+nm -D --defined-only "$library" | awk '{print $3}' | sort >exported.txt
+diff "$here/exported.txt" exported.txt || fail "the exported symbols are not those of exported.txt"
+
+# The packages.
+(cd "$build" && cpack -B "$work/packages" >/dev/null 2>&1) || fail cpack
+grep -q 'include/geoidx.h$' <<<"$(tar -tzf packages/*.tar.gz)" || fail "no header in the .tar.gz"
+grep -q '/usr/lib/.*libgeoidx.so' <<<"$(dpkg-deb -c packages/*.deb)" || fail "no library in the .deb"
+grep -q 'libc6' <<<"$(dpkg-deb -f packages/*.deb Depends)" || fail "the .deb does not say what it needs"
+echo "installed, linked and packaged: all as expected"
