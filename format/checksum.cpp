@@ -1,6 +1,5 @@
 #include "format/checksum.h"
 
-#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 namespace geodesic::format {

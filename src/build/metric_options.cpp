@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 
-#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "format/error.h"

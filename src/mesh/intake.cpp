@@ -7,7 +7,6 @@
 #include <numeric>
 #include <string>
 
-#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "format/error.h"
