@@ -8,7 +8,7 @@ packages=(
     doctest-dev libcli11-dev libtinyobjloader-dev
     libcgal-dev libgmp-dev libmpfr-dev
     clang-14 libclang-rt-14-dev clang-format-14
-    glmark2-data
+    glmark2-data abigail-tools
 )
 
 is_installed() { dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed; }

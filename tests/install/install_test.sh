@@ -33,18 +33,6 @@ for program in consumer_c consumer_cpp consumer_cpp_static; do
 done
 readelf -d consumer/consumer_cpp_static | grep -q 'libgeoidx' && fail "the static program needs the shared library"
 
-# What the shared library needs at run time, and what it offers.
-needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' | sort | tr '\n' ' ')
-for name in $needed; do
-    case $name in
-    libc.so.* | libm.so.* | libgcc_s.so.* | libstdc++.so.* | ld-linux*) ;;
-    *) fail "the shared library needs $name" ;;
-    esac
-done
-LC_ALL=C ldd "$library" | grep -E 'not found|png|zstd|libz\.' && fail "ldd shows what is to be linked in"
-nm -D --defined-only "$library" | awk '{print $3}' | sort >exported.txt
-diff "$here/exported.txt" exported.txt || fail "the exported symbols are not those of exported.txt"
-
 # The packages.
 (cd "$build" && cpack -B "$work/packages" >/dev/null 2>&1) || fail cpack
 grep -q 'include/geoidx.h$' <<<"$(tar -tzf packages/*.tar.gz)" || fail "no header in the .tar.gz"

@@ -1,0 +1,93 @@
+/* The layout of every struct of geoidx.h on 64-bit machines, as other languages declare it: laid down by
+ * hand, since a change breaks programs that exist. C11, for static assertions. */
+#include <assert.h>
+#include <stddef.h>
+
+#include "geoidx.h"
+
+#define FIELD(type, field, offset) static_assert(offsetof(type, field) == (offset), #type "." #field)
+#define SIZE(type, size) static_assert(sizeof(type) == (size), #type)
+
+FIELD(geoidx_allocator, allocate, 0);
+FIELD(geoidx_allocator, release, 8);
+FIELD(geoidx_allocator, user, 16);
+SIZE(geoidx_allocator, 24);
+
+FIELD(geoidx_mesh, struct_size, 0);
+FIELD(geoidx_mesh, position_type, 4);
+FIELD(geoidx_mesh, positions, 8);
+FIELD(geoidx_mesh, vertex_count, 16);
+FIELD(geoidx_mesh, triangles, 24);
+FIELD(geoidx_mesh, triangle_count, 32);
+FIELD(geoidx_mesh, position_stride, 40);
+FIELD(geoidx_mesh, reserved, 44);
+SIZE(geoidx_mesh, 48);
+
+FIELD(geoidx_build_options, struct_size, 0);
+FIELD(geoidx_build_options, metric, 4);
+FIELD(geoidx_build_options, weld_tolerance, 8);
+FIELD(geoidx_build_options, delta, 16);
+FIELD(geoidx_build_options, seed, 24);
+FIELD(geoidx_build_options, threads, 32);
+FIELD(geoidx_build_options, level_count, 36);
+FIELD(geoidx_build_options, patches, 40);
+FIELD(geoidx_build_options, lloyd_iterations, 72);
+FIELD(geoidx_build_options, edge_cost_count, 76);
+FIELD(geoidx_build_options, edge_cost_vertices, 80);
+FIELD(geoidx_build_options, edge_costs, 88);
+FIELD(geoidx_build_options, metric_callback, 96);
+FIELD(geoidx_build_options, metric_user, 104);
+FIELD(geoidx_build_options, progress, 112);
+FIELD(geoidx_build_options, progress_user, 120);
+FIELD(geoidx_build_options, allocator, 128);
+FIELD(geoidx_build_options, refuse_edges_of_many, 152);
+FIELD(geoidx_build_options, metric_flags, 156);
+FIELD(geoidx_build_options, face_costs, 160);
+FIELD(geoidx_build_options, face_cost_count, 168);
+FIELD(geoidx_build_options, points_per_edge, 176);
+FIELD(geoidx_build_options, engine, 180);
+FIELD(geoidx_build_options, edge_lengths, 184);
+FIELD(geoidx_build_options, edge_length_count, 192);
+FIELD(geoidx_build_options, exact_vertices, 200);
+FIELD(geoidx_build_options, reserved, 204);
+SIZE(geoidx_build_options, 208);
+
+FIELD(geoidx_open_options, struct_size, 0);
+FIELD(geoidx_open_options, reserved, 4);
+FIELD(geoidx_open_options, expected_mesh, 8);
+FIELD(geoidx_open_options, allocator, 16);
+SIZE(geoidx_open_options, 40);
+
+FIELD(geoidx_info, struct_size, 0);
+FIELD(geoidx_info, metric, 4);
+FIELD(geoidx_info, vertex_count, 8);
+FIELD(geoidx_info, triangle_count, 16);
+FIELD(geoidx_info, welded_vertex_count, 24);
+FIELD(geoidx_info, mesh_fingerprint, 32);
+FIELD(geoidx_info, table_entries, 40);
+FIELD(geoidx_info, border_vertex_count, 48);
+FIELD(geoidx_info, bounding_box_diagonal, 56);
+FIELD(geoidx_info, delta, 64);
+FIELD(geoidx_info, seed, 72);
+FIELD(geoidx_info, format_major, 80);
+FIELD(geoidx_info, format_minor, 84);
+FIELD(geoidx_info, level_count, 88);
+FIELD(geoidx_info, patch_count, 92);
+FIELD(geoidx_info, error_sources, 124);
+FIELD(geoidx_info, error_mean, 128);
+FIELD(geoidx_info, error_signed_mean, 136);
+FIELD(geoidx_info, error_p99, 144);
+FIELD(geoidx_info, error_p999, 152);
+FIELD(geoidx_info, error_max, 160);
+FIELD(geoidx_info, metric_fingerprint, 168);
+FIELD(geoidx_info, metric_flags, 176);
+FIELD(geoidx_info, engine, 180);
+FIELD(geoidx_info, error_mean_at_vertices, 184);
+SIZE(geoidx_info, 192);
+
+FIELD(geoidx_surface_point, triangle, 0);
+FIELD(geoidx_surface_point, reserved, 4);
+FIELD(geoidx_surface_point, weights, 8);
+SIZE(geoidx_surface_point, 32);
+
+int main(void) { return 0; }
