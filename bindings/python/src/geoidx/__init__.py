@@ -1,0 +1,83 @@
+"""Geodesic distances on triangle meshes, precomputed once, answered from one file.
+
+    import geoidx
+    index = geoidx.Index.build(vertices, faces)
+    index.sssd(0, 2)        # the distance between two vertices
+    index.msad([0, 7])      # of every vertex to the nearest of some
+    index.save("square.geoidx")
+"""
+
+from ._callbacks import MetricFunction, Progress
+from ._errors import (
+    BadMeshError,
+    CallbackError,
+    CancelledError,
+    ChecksumError,
+    CorruptError,
+    Error,
+    FileError,
+    FormatError,
+    InternalError,
+    InvalidArgumentError,
+    LimitError,
+    MeshMismatchError,
+    NotAnIndexError,
+    OutOfMemoryError,
+    Status,
+    TruncatedError,
+    UnsupportedVersionError,
+)
+from ._index import Index
+from ._info import Info
+from ._metrics import Callback, Edges, Exact, Metric, MetricKind, MetricLike, Weighted
+from ._native import HEADER_VERSION, AllocateFn, Allocator, ReleaseFn, library, version_of, version_text
+from ._options import Engine
+from ._query import Query
+from ._solver import SURFACE_POINT, Solver, surface_points
+from ._verify import Issue, verify
+
+__version__ = version_text(HEADER_VERSION)
+library_version = version_text(version_of(library))
+"""The release of the native library in use."""
+
+__all__ = [
+    "SURFACE_POINT",
+    "AllocateFn",
+    "Allocator",
+    "BadMeshError",
+    "Callback",
+    "CallbackError",
+    "CancelledError",
+    "ChecksumError",
+    "CorruptError",
+    "Edges",
+    "Engine",
+    "Error",
+    "Exact",
+    "FileError",
+    "FormatError",
+    "Index",
+    "Info",
+    "InternalError",
+    "InvalidArgumentError",
+    "Issue",
+    "LimitError",
+    "MeshMismatchError",
+    "Metric",
+    "MetricFunction",
+    "MetricKind",
+    "MetricLike",
+    "NotAnIndexError",
+    "OutOfMemoryError",
+    "Progress",
+    "Query",
+    "ReleaseFn",
+    "Solver",
+    "Status",
+    "TruncatedError",
+    "UnsupportedVersionError",
+    "Weighted",
+    "library_version",
+    "surface_points",
+    "verify",
+]

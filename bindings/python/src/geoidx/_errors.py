@@ -1,0 +1,179 @@
+"""Statuses of the library and the exceptions they become."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+from ._native import library
+
+
+class Status(IntEnum):
+    """What a call into the library came to: 0 is success, errors are negative."""
+
+    OK = 0
+    INVALID_ARGUMENT = -1
+    IO = -2
+    NOT_AN_INDEX = -3
+    TRUNCATED = -4
+    CORRUPT = -5
+    CHECKSUM = -6
+    UNSUPPORTED_VERSION = -7
+    MESH_MISMATCH = -8
+    LIMIT = -9
+    OUT_OF_MEMORY = -10
+    CANCELLED = -11
+    BAD_MESH = -12
+    CALLBACK = -13
+    INTERNAL = -14
+
+
+def status_of(number: int) -> int:
+    """A Status, or the number itself where only a newer library knows it."""
+    return Status(number) if number in Status.__members__.values() else number
+
+
+def phrase(status: int) -> str:
+    """The library's short English phrase for a status, also for numbers unknown here."""
+    text: bytes = library.geoidx_status_string(status)
+    return text.decode()
+
+
+class Error(Exception):
+    """A failure of the library. `status` says which, `detail` what, where and which value."""
+
+    status: int = Status.INTERNAL
+
+    def __init__(self, detail: str) -> None:
+        super().__init__(detail)
+        self.detail = detail
+
+    def __str__(self) -> str:
+        return f"{phrase(self.status)}: {self.detail}"
+
+
+class InvalidArgumentError(Error, ValueError):
+    """A vertex id, an option or the shape of an array is out of range, or a handle is closed."""
+
+    status = Status.INVALID_ARGUMENT
+
+
+class FileError(Error, OSError):
+    """The operating system refused to open, read, write or rename."""
+
+    status = Status.IO
+
+
+class FormatError(Error, ValueError):
+    """The data is not an index that this library can read."""
+
+
+class NotAnIndexError(FormatError):
+    """The data does not begin like a geoidx file."""
+
+    status = Status.NOT_AN_INDEX
+
+
+class TruncatedError(FormatError):
+    """The data is shorter than its header says."""
+
+    status = Status.TRUNCATED
+
+
+class CorruptError(FormatError):
+    """The data contradicts the format or itself."""
+
+    status = Status.CORRUPT
+
+
+class ChecksumError(FormatError):
+    """Stored bytes do not match their checksum."""
+
+    status = Status.CHECKSUM
+
+
+class UnsupportedVersionError(FormatError):
+    """Written by a newer format, or with features unknown to this library."""
+
+    status = Status.UNSUPPORTED_VERSION
+
+
+class MeshMismatchError(Error, ValueError):
+    """The index belongs to another mesh than the one given."""
+
+    status = Status.MESH_MISMATCH
+
+
+class LimitError(Error, OverflowError):
+    """A count or a distance is over what the format or the library can hold."""
+
+    status = Status.LIMIT
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """There is not enough memory, or the allocator gave none."""
+
+    status = Status.OUT_OF_MEMORY
+
+
+class CancelledError(Error):
+    """A progress callable returned False."""
+
+    status = Status.CANCELLED
+
+
+class BadMeshError(Error, ValueError):
+    """The mesh cannot be used; the detail names the element."""
+
+    status = Status.BAD_MESH
+
+
+class CallbackError(Error, RuntimeError):
+    """The caller's metric gave NaN or a negative number."""
+
+    status = Status.CALLBACK
+
+
+class InternalError(Error, RuntimeError):
+    """A defect of the library."""
+
+    status = Status.INTERNAL
+
+
+_ERRORS: dict[int, type[Error]] = {
+    error.status: error
+    for error in (
+        InvalidArgumentError,
+        FileError,
+        NotAnIndexError,
+        TruncatedError,
+        CorruptError,
+        ChecksumError,
+        UnsupportedVersionError,
+        MeshMismatchError,
+        LimitError,
+        OutOfMemoryError,
+        CancelledError,
+        BadMeshError,
+        CallbackError,
+        InternalError,
+    )
+}
+
+
+def error_of(status: int, detail: str) -> Error:
+    """The exception for a status; a plain Error for one that only a newer library knows."""
+    error = _ERRORS.get(status, Error)(detail)
+    error.status = status_of(status)
+    return error
+
+
+def last_error() -> str:
+    """The detail of the calling thread's latest failure, "" before the first one."""
+    text: bytes = library.geoidx_last_error()
+    return text.decode(errors="replace")
+
+
+def check(status: int) -> None:
+    """Raises the exception of a status that is not success."""
+    if status != Status.OK:
+        raise error_of(status, last_error())

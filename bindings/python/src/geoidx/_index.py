@@ -1,0 +1,268 @@
+"""An index: built from a mesh or opened, saved, asked."""
+
+from __future__ import annotations
+
+import math
+import os
+from ctypes import byref, c_uint64, c_void_p, sizeof
+from typing import Any, Callable, Sequence, Union, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _fields, _native
+from ._arrays import UINT64_MAX, address, id_list, ids, output, whole_number
+from ._callbacks import Progress
+from ._errors import InvalidArgumentError, check
+from ._fields import Distances
+from ._handle import Closable, Handle
+from ._info import Info, info_of
+from ._mesh import MeshView
+from ._metrics import MetricLike
+from ._native import Allocator, library
+from ._options import BuildOptions, Engine, OpenOptions, as_engine
+from ._query import Query
+
+Vertex = Union[int, "np.integer[Any]"]
+Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
+
+_PAIRS_AT_ONCE = 1 << 18
+
+
+def _native_path(path: Path) -> bytes:
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise InvalidArgumentError("the path holds a zero byte")
+    return name
+
+
+def _is_vertex(value: object) -> bool:
+    return isinstance(value, (int, np.integer))
+
+
+def _read_info(handle: Handle) -> Info:
+    struct = _native.Info(struct_size=sizeof(_native.Info))
+    check(library.geoidx_get_info(handle, byref(struct)))
+    return info_of(struct)
+
+
+class Index(Closable):
+    """An index: a mesh's distances, precomputed. Made by `build`, `open` or `from_bytes`.
+
+    Immutable: any number of threads may ask one index at once, and calls let other Python threads run. Vertex ids
+    are positions in the array given to `build`; negative ones are refused. Distances are float32 in the mesh's own
+    unit, infinite where there is no path. Pickles as its bytes.
+    """
+
+    def __init__(self, handle: Handle) -> None:
+        super().__init__(handle)
+        self._info = _read_info(handle)
+
+    @classmethod
+    def build(
+        cls,
+        vertices: ArrayLike,
+        faces: ArrayLike,
+        *,
+        metric: MetricLike = "exact",
+        engine: Engine | str = Engine.OVERLAY,
+        levels: int = 0,
+        patches: Sequence[int] = (),
+        delta: float = 0.0,
+        weld_tolerance: float = 0.0,
+        exact_vertices: int = 400,
+        lloyd_iterations: int = 4,
+        seed: int = 0,
+        threads: int = 0,
+        refuse_edges_of_many: bool = False,
+        progress: Progress | None = None,
+        allocator: Allocator | None = None,
+    ) -> Index:
+        """Builds the index of a triangle mesh. Mesh, options and seed decide every bit, whatever the threads.
+
+        vertices: (n, 3). float32 and float64 are not copied when x, y, z lie side by side, also as a part of larger
+            records.
+        faces: (m, 3) vertex ids of any integer type. C-contiguous uint32 and int32 are not copied.
+        metric: "exact", "edges", a function as of `Callback`, or an Exact, Edges, Weighted or Callback.
+        engine: "overlay", or "graph" for the paper's graph search.
+        levels: below the whole mesh, at most 8; 0: as many as `patches` names, or automatic.
+        patches: of level 1, then into how many each patch of a level is split; 0: in proportion to the vertices.
+        delta: pruning threshold, % of the bounding-box diagonal.
+        weld_tolerance: vertices at most this far apart are one; 0: equal positions only.
+        exact_vertices: overlay tables of patches of up to so many vertices hold the metric's own distances.
+        lloyd_iterations: relaxations of the patches' seeds.
+        threads: 0: one per processor.
+        refuse_edges_of_many: an edge with more than two triangles is a BadMeshError.
+        progress: called on this thread with a fraction of 0 .. 1 and the name of a stage. Returning False cancels
+            the build (CancelledError); what it raises stops the build and is raised here, as is KeyboardInterrupt.
+
+        Raises BadMeshError for NaN, infinite positions and faces out of range, InvalidArgumentError for options and
+        shapes, TypeError for dtypes.
+        """
+        mesh = MeshView(vertices, faces)
+        options = BuildOptions(metric, weld_tolerance, progress)
+        struct = options.struct
+        struct.engine = as_engine(engine)
+        struct.level_count = whole_number(levels, "levels")
+        options.set_patches(patches)
+        struct.delta = delta
+        struct.exact_vertices = whole_number(exact_vertices, "exact_vertices")
+        struct.lloyd_iterations = whole_number(lloyd_iterations, "lloyd_iterations")
+        struct.seed = whole_number(seed, "seed", UINT64_MAX)
+        struct.threads = whole_number(threads, "threads")
+        struct.refuse_edges_of_many = bool(refuse_edges_of_many)
+        if allocator:
+            struct.allocator = allocator
+        out = c_void_p()
+        with options.callbacks.calling():
+            status = library.geoidx_build(byref(mesh.struct), byref(struct), byref(out))
+            handle = Handle(out, library.geoidx_close, allocator)
+        check(status)
+        return cls(handle)
+
+    @classmethod
+    def open(
+        cls,
+        path: Path,
+        *,
+        expected_mesh: tuple[ArrayLike, ArrayLike] | None = None,
+        allocator: Allocator | None = None,
+    ) -> Index:
+        """Opens a file. Everything in it is checked before it is believed.
+
+        expected_mesh: the vertices and faces (same arrays, same numbers) that the index must have been built from,
+            else MeshMismatchError.
+
+        Raises FileError, which is an OSError, and FormatError, which is a ValueError.
+        """
+        name = _native_path(path)
+        return cls._opened(expected_mesh, allocator, lambda *rest: library.geoidx_open(name, *rest))
+
+    @classmethod
+    def from_bytes(
+        cls,
+        data: Any,
+        *,
+        expected_mesh: tuple[ArrayLike, ArrayLike] | None = None,
+        allocator: Allocator | None = None,
+    ) -> Index:
+        """Opens an index in memory: bytes, or any other contiguous buffer, which is neither copied nor kept."""
+        view = np.frombuffer(data, np.uint8)
+        return cls._opened(
+            expected_mesh,
+            allocator,
+            lambda *rest: library.geoidx_open_memory(address(view), view.size, *rest),
+        )
+
+    @classmethod
+    def _opened(
+        cls,
+        expected_mesh: tuple[ArrayLike, ArrayLike] | None,
+        allocator: Allocator | None,
+        call: Callable[..., int],
+    ) -> Index:
+        options = OpenOptions(MeshView(*expected_mesh) if expected_mesh else None, allocator)
+        out = c_void_p()
+        status = call(byref(options.struct), byref(out))
+        handle = Handle(out, library.geoidx_close, allocator)
+        check(status)
+        return cls(handle)
+
+    def save(self, path: Path) -> None:
+        """Writes the index to a file, replacing what is there at once or, on failure (FileError), not at all."""
+        check(library.geoidx_save(self._handle, _native_path(path)))
+
+    def to_bytes(self) -> bytes:
+        """The bytes of the file."""
+        # Their number is known only once all is encoded: what is enough for most indices saves encoding twice.
+        buffer = np.empty(8 * self.info.table_entries + 64 * self.vertex_count + (1 << 16), np.uint8)
+        needed = self._encode(buffer)
+        if needed > buffer.size:
+            buffer = np.empty(needed, np.uint8)
+            self._encode(buffer)
+        return buffer[:needed].tobytes()
+
+    def _encode(self, buffer: NDArray[np.uint8]) -> int:
+        """The number of the file's bytes, which are in the buffer unless there are more than it holds."""
+        needed = c_uint64()
+        status = library.geoidx_save_memory(self._handle, address(buffer), buffer.size, byref(needed))
+        if needed.value <= buffer.size:
+            check(status)
+        return needed.value
+
+    def __reduce__(self) -> tuple[Callable[[bytes], Index], tuple[bytes]]:
+        return type(self).from_bytes, (self.to_bytes(),)
+
+    def __repr__(self) -> str:
+        return f"<geoidx.Index of {self.vertex_count} vertices{', closed' if self.closed else ''}>"
+
+    @property
+    def info(self) -> Info:
+        """What the index is."""
+        self._handle
+        return self._info
+
+    @property
+    def vertex_count(self) -> int:
+        """n, the number of vertices in the array given to `build`."""
+        return self._info.vertex_count
+
+    @overload
+    def sssd(self, a: Vertex, b: Vertex) -> float: ...
+    @overload
+    def sssd(self, a: ArrayLike, b: ArrayLike) -> Distances | float: ...
+
+    def sssd(self, a: ArrayLike, b: ArrayLike) -> Distances | float:
+        """Single source, single destination: a float for two vertices, else an array, a and b broadcast together.
+
+        Symmetric bit for bit. Many pairs in one call take less time each.
+        """
+        if _is_vertex(a) and _is_vertex(b):
+            return _fields.sssd(library.geoidx_sssd, self._handle, a, b)  # type: ignore[arg-type]
+        pairs = np.stack(np.broadcast_arrays(ids(a, "a"), ids(b, "b")), axis=-1)
+        distances = np.empty(pairs.shape[:-1], np.float32)
+        _fields.pairwise(library.geoidx_sssd_batch, self._handle, pairs, distances)
+        return distances if distances.ndim else float(distances)
+
+    def matrix(self, a: ArrayLike, b: ArrayLike | None = None, *, out: Distances | None = None) -> Distances:
+        """(len(a), len(b)) distances, the same bits as `sssd` gives; b: a, unless given.
+
+        Where b is a large part of the mesh, `ssad(a)[:, b]` takes less time.
+        """
+        rows = id_list(a, "a")
+        columns = rows if b is None else id_list(b, "b")
+        distances = output(out, (rows.size, columns.size), np.float32)
+        rows_at_once = max(1, _PAIRS_AT_ONCE // max(1, columns.size))
+        for begin in range(0, rows.size, rows_at_once):
+            part = distances[begin : begin + rows_at_once]
+            pairs = np.empty(part.shape + (2,), np.uint32)
+            pairs[..., 0] = rows[begin : begin + rows_at_once, None]
+            pairs[..., 1] = columns
+            _fields.pairwise(library.geoidx_sssd_batch, self._handle, pairs, part)
+        return distances
+
+    def msad(self, sources: ArrayLike, *, radius: float = math.inf, out: Distances | None = None) -> Distances:
+        """Multiple sources, all destinations: (n,) distances to the nearest of the sources.
+
+        sources: a vertex or (k,) of them, at least one.
+        radius: vertices farther than this are at infinity, and looking for them ends there.
+        out: (n,) float32, C-contiguous, to be written to and returned.
+        """
+        if radius == math.inf:
+            return _fields.msad(library.geoidx_msad, self._handle, sources, self.vertex_count, out)
+        with self.query() as query:
+            return query.msad(sources, radius=radius, out=out)
+
+    def ssad(self, sources: ArrayLike, *, out: Distances | None = None) -> Distances:
+        """Single source, all destinations, of each source by itself: (k, n) for (k,) sources, (n,) for a vertex.
+
+        out: float32 of that shape, C-contiguous, to be written to and returned.
+        """
+        return _fields.ssad(library.geoidx_ssad_batch, self._handle, sources, self.vertex_count, out)
+
+    def query(self, *, threads: int = 1) -> Query:
+        """Scratch for the queries of one thread; `threads` is how many its `msad` uses, 0: one per processor."""
+        query = Query(self._handle, self.vertex_count)
+        if threads != 1:
+            query.threads = threads
+        return query

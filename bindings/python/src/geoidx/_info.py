@@ -1,0 +1,68 @@
+"""What an index is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from . import _native
+from ._metrics import MetricKind
+from ._options import Engine
+
+
+@dataclass(frozen=True)
+class Info:
+    """What an index is. Counts are numbers of things, lengths in the mesh's own unit.
+
+    Errors are of MSAD against the metric itself, |d - exact| / exact over all targets of `error_sources` seeded
+    random sources, measured when the index was built.
+    """
+
+    metric: MetricKind
+    metric_unfoldable: bool
+    """Paths may cross borders between two vertices."""
+    metric_fingerprint: int
+    """Of what decides the metric besides the mesh (costs, lengths); 0: nothing."""
+    engine: Engine
+    vertex_count: int
+    """Of the caller's array."""
+    triangle_count: int
+    """Of the caller's array."""
+    welded_vertex_count: int
+    """Distinct vertices after welding that a triangle uses."""
+    mesh_fingerprint: int
+    table_entries: int
+    """Distances in all tables."""
+    border_vertex_count: int
+    """Vertices on a border of the last level, after pruning."""
+    bounding_box_diagonal: float
+    delta: float
+    """Pruning threshold, % of the bounding-box diagonal."""
+    seed: int
+    format_major: int
+    format_minor: int
+    patch_count: tuple[int, ...]
+    """Of each level below the whole mesh."""
+    error_sources: int
+    error_mean: float
+    error_signed_mean: float
+    error_p99: float
+    error_p999: float
+    error_max: float
+    error_mean_at_vertices: float
+    """The mean error if paths crossed borders at vertices only."""
+
+    @property
+    def level_count(self) -> int:
+        """Levels below the whole mesh."""
+        return len(self.patch_count)
+
+
+def info_of(struct: _native.Info) -> Info:
+    same = {name: getattr(struct, name) for name in Info.__dataclass_fields__ if hasattr(struct, name)}
+    same.update(
+        metric=MetricKind(struct.metric),
+        metric_unfoldable=bool(struct.metric_flags & _native.METRIC_UNFOLDABLE),
+        engine=Engine(struct.engine),
+        patch_count=tuple(struct.patch_count[: struct.level_count]),
+    )
+    return Info(**same)

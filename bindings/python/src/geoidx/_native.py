@@ -1,0 +1,227 @@
+"""The C API as it stands in geoidx.h: structs, callback types, functions, and the library that holds them."""
+
+from __future__ import annotations
+
+import os
+from ctypes import (
+    CDLL,
+    CFUNCTYPE,
+    POINTER,
+    Structure,
+    c_char_p,
+    c_double,
+    c_float,
+    c_int32,
+    c_uint32,
+    c_uint64,
+    c_void_p,
+)
+from pathlib import Path
+
+HEADER_VERSION = (0, 1, 0)
+"""The release whose header this module mirrors."""
+
+MAX_LEVELS = 8
+POSITION_FLOAT = 0
+POSITION_DOUBLE = 1
+METRIC_UNFOLDABLE = 1
+
+AllocateFn = CFUNCTYPE(c_void_p, c_void_p, c_uint64, c_uint64)
+ReleaseFn = CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint64)
+MetricFn = CFUNCTYPE(c_int32, c_void_p, c_uint32, c_void_p, c_uint32, c_void_p)
+ProgressFn = CFUNCTYPE(c_int32, c_void_p, c_float, c_char_p)
+IssueFn = CFUNCTYPE(c_int32, c_void_p, c_int32, c_uint64, c_char_p)
+
+
+class Allocator(Structure):
+    """Memory of the caller's choosing, for an index and its queries (not for building and opening).
+
+    `allocate(user, size, alignment)` and `release(user, memory, size, alignment)` are C functions: those of
+    another library, or Python functions wrapped in `AllocateFn` and `ReleaseFn`. Both are called from several
+    threads at once and must not call geoidx. An index keeps its allocator alive.
+    """
+
+    _fields_ = [("allocate", AllocateFn), ("release", ReleaseFn), ("user", c_void_p)]
+
+
+class Mesh(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("position_type", c_uint32),
+        ("positions", c_void_p),
+        ("vertex_count", c_uint64),
+        ("triangles", c_void_p),
+        ("triangle_count", c_uint64),
+        ("position_stride", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class BuildOptions(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("metric", c_uint32),
+        ("weld_tolerance", c_double),
+        ("delta", c_double),
+        ("seed", c_uint64),
+        ("threads", c_uint32),
+        ("level_count", c_uint32),
+        ("patches", c_uint32 * MAX_LEVELS),
+        ("lloyd_iterations", c_uint32),
+        ("edge_cost_count", c_uint32),
+        ("edge_cost_vertices", c_void_p),
+        ("edge_costs", c_void_p),
+        ("metric_callback", MetricFn),
+        ("metric_user", c_void_p),
+        ("progress", ProgressFn),
+        ("progress_user", c_void_p),
+        ("allocator", Allocator),
+        ("refuse_edges_of_many", c_uint32),
+        ("metric_flags", c_uint32),
+        ("face_costs", c_void_p),
+        ("face_cost_count", c_uint64),
+        ("points_per_edge", c_uint32),
+        ("engine", c_uint32),
+        ("edge_lengths", c_void_p),
+        ("edge_length_count", c_uint64),
+        ("exact_vertices", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class OpenOptions(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("expected_mesh", POINTER(Mesh)),
+        ("allocator", Allocator),
+    ]
+
+
+class Info(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("metric", c_uint32),
+        ("vertex_count", c_uint64),
+        ("triangle_count", c_uint64),
+        ("welded_vertex_count", c_uint64),
+        ("mesh_fingerprint", c_uint64),
+        ("table_entries", c_uint64),
+        ("border_vertex_count", c_uint64),
+        ("bounding_box_diagonal", c_double),
+        ("delta", c_double),
+        ("seed", c_uint64),
+        ("format_major", c_uint32),
+        ("format_minor", c_uint32),
+        ("level_count", c_uint32),
+        ("patch_count", c_uint32 * MAX_LEVELS),
+        ("error_sources", c_uint32),
+        ("error_mean", c_double),
+        ("error_signed_mean", c_double),
+        ("error_p99", c_double),
+        ("error_p999", c_double),
+        ("error_max", c_double),
+        ("metric_fingerprint", c_uint64),
+        ("metric_flags", c_uint32),
+        ("engine", c_uint32),
+        ("error_mean_at_vertices", c_double),
+    ]
+
+
+class SurfacePoint(Structure):
+    _fields_ = [("triangle", c_uint32), ("reserved", c_uint32), ("weights", c_double * 3)]
+
+
+_HANDLE_OUT = POINTER(c_void_p)
+
+# Arrays and handles are addresses here: void pointers.
+FUNCTIONS = {
+    "geoidx_version": (c_uint32, []),
+    "geoidx_status_string": (c_char_p, [c_int32]),
+    "geoidx_last_error": (c_char_p, []),
+    "geoidx_mesh_init": (None, [POINTER(Mesh)]),
+    "geoidx_build_options_init": (None, [POINTER(BuildOptions)]),
+    "geoidx_open_options_init": (None, [POINTER(OpenOptions)]),
+    "geoidx_build": (c_int32, [POINTER(Mesh), POINTER(BuildOptions), _HANDLE_OUT]),
+    "geoidx_save": (c_int32, [c_void_p, c_char_p]),
+    "geoidx_save_memory": (c_int32, [c_void_p, c_void_p, c_uint64, POINTER(c_uint64)]),
+    "geoidx_open": (c_int32, [c_char_p, POINTER(OpenOptions), _HANDLE_OUT]),
+    "geoidx_open_memory": (c_int32, [c_void_p, c_uint64, POINTER(OpenOptions), _HANDLE_OUT]),
+    "geoidx_close": (None, [c_void_p]),
+    "geoidx_get_info": (c_int32, [c_void_p, POINTER(Info)]),
+    "geoidx_verify": (c_int32, [c_void_p, c_uint64, IssueFn, c_void_p]),
+    "geoidx_sssd": (c_int32, [c_void_p, c_uint32, c_uint32, POINTER(c_float)]),
+    "geoidx_sssd_batch": (c_int32, [c_void_p, c_void_p, c_uint64, c_void_p]),
+    "geoidx_msad": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint32]),
+    "geoidx_ssad_batch": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint64]),
+    "geoidx_query_create": (c_int32, [c_void_p, _HANDLE_OUT]),
+    "geoidx_query_close": (None, [c_void_p]),
+    "geoidx_query_sssd": (c_int32, [c_void_p, c_uint32, c_uint32, POINTER(c_float)]),
+    "geoidx_query_msad": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint32]),
+    "geoidx_query_ssad_batch": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint64]),
+    "geoidx_query_msad_within": (c_int32, [c_void_p, c_void_p, c_uint32, c_float, c_void_p, c_uint32]),
+    "geoidx_query_set_threads": (c_int32, [c_void_p, c_uint32]),
+    "geoidx_query_prepare": (c_int32, [c_void_p, c_uint32]),
+    "geoidx_query_prepared": (c_int32, [c_void_p, c_void_p, c_uint64, c_void_p]),
+    "geoidx_solver_create": (c_int32, [POINTER(Mesh), POINTER(BuildOptions), _HANDLE_OUT]),
+    "geoidx_solver_close": (None, [c_void_p]),
+    "geoidx_solver_distances": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint32, c_void_p]),
+    "geoidx_solver_point_distances": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint32, c_void_p]),
+}
+
+
+def version_text(version: tuple[int, int, int]) -> str:
+    return ".".join(str(part) for part in version)
+
+
+def version_of(library: CDLL) -> tuple[int, int, int]:
+    number = library.geoidx_version()
+    return number // 10000, number // 100 % 100, number % 100
+
+
+def _candidates() -> list[str]:
+    if named := os.environ.get("GEOIDX_LIBRARY"):
+        return [named]
+    beside = Path(__file__).with_name("libgeoidx.so")
+    by_loader = [f"libgeoidx.so.{HEADER_VERSION[0]}", "libgeoidx.so"]
+    return [str(beside)] if beside.exists() else by_loader
+
+
+def _open_library() -> CDLL:
+    refusals = []
+    for name in _candidates():
+        try:
+            return CDLL(name)
+        except OSError as error:
+            refusals.append(str(error))
+    raise ImportError("the geoidx library cannot be loaded: " + "; ".join(refusals))
+
+
+def _declare(library: CDLL, name: str) -> None:
+    try:
+        function = getattr(library, name)
+    except AttributeError as error:
+        raise ImportError(f"{library._name} is not a geoidx library: it has no {name}") from error
+    function.restype, function.argtypes = FUNCTIONS[name]
+
+
+def _check_version(library: CDLL) -> None:
+    found = version_of(library)
+    if found[0] != HEADER_VERSION[0] or found < HEADER_VERSION[:2]:
+        raise ImportError(
+            f"{library._name} is geoidx {version_text(found)}, "
+            f"but this package needs {version_text(HEADER_VERSION)} or a later one of the same major version"
+        )
+
+
+def load() -> CDLL:
+    """The library of GEOIDX_LIBRARY, else the one beside this file, else the one the system's loader finds."""
+    library = _open_library()
+    _declare(library, "geoidx_version")
+    _check_version(library)
+    for name in FUNCTIONS:
+        _declare(library, name)
+    return library
+
+
+library = load()

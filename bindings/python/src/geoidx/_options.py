@@ -1,0 +1,63 @@
+"""Options as the library takes them, with the arrays and functions that they point to."""
+
+from __future__ import annotations
+
+from ctypes import byref, pointer
+from enum import IntEnum
+from typing import Sequence
+
+from . import _native
+from ._arrays import whole_number
+from ._callbacks import Callbacks, Progress
+from ._errors import InvalidArgumentError
+from ._mesh import MeshView
+from ._metrics import Callback, MetricLike, as_metric
+from ._native import Allocator, library
+
+
+class Engine(IntEnum):
+    """How an index answers: by graph search (as the paper does) or by overlay tables."""
+
+    GRAPH = 0
+    OVERLAY = 1
+
+
+class BuildOptions:
+    """The options of a metric; an index has more."""
+
+    def __init__(self, metric: MetricLike, weld_tolerance: float, progress: Progress | None = None) -> None:
+        self.struct = _native.BuildOptions()
+        library.geoidx_build_options_init(byref(self.struct))
+        self.struct.weld_tolerance = weld_tolerance
+        metric = as_metric(metric)
+        self._arrays = metric.fill(self.struct)
+        self.callbacks = Callbacks(progress, metric.function if isinstance(metric, Callback) else None)
+        self.callbacks.fill(self.struct)
+
+    def set_patches(self, patches: Sequence[int]) -> None:
+        if len(patches) > _native.MAX_LEVELS:
+            raise InvalidArgumentError(f"patches of {len(patches)} levels, more than {_native.MAX_LEVELS}")
+        for level, count in enumerate(patches):
+            self.struct.patches[level] = whole_number(count, f"patches[{level}]")
+
+
+class OpenOptions:
+    """The options of opening an index."""
+
+    def __init__(self, expected_mesh: MeshView | None, allocator: Allocator | None) -> None:
+        self.struct = _native.OpenOptions()
+        library.geoidx_open_options_init(byref(self.struct))
+        if expected_mesh:
+            self._mesh = expected_mesh
+            self.struct.expected_mesh = pointer(expected_mesh.struct)
+        if allocator:
+            self.struct.allocator = allocator
+
+
+def as_engine(engine: Engine | str) -> Engine:
+    names = {name.lower(): member for name, member in Engine.__members__.items()}
+    if isinstance(engine, Engine):
+        return engine
+    if engine not in names:
+        raise InvalidArgumentError(f"the engine {engine!r} is none of {sorted(names)}")
+    return names[engine]

@@ -1,0 +1,50 @@
+"""What is wrong with an index."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _native
+from ._arrays import address
+from ._callbacks import HeldSignals
+from ._errors import check, status_of
+from ._native import library
+
+
+@dataclass(frozen=True)
+class Issue:
+    """A problem of an index: its Status, the byte offset it concerns, and one line of text."""
+
+    status: int
+    offset: int
+    message: str
+
+
+def verify(source: str | os.PathLike[str] | Any, *, most: int | None = None) -> list[Issue]:
+    """Checks each section's checksum and contents, and goes on after a problem where it can.
+
+    source: a path, or the bytes of an index in any contiguous buffer.
+    most: how many issues to look for; None: all.
+
+    Returns what is wrong, [] when nothing is. Raises OSError when a file cannot be read.
+    """
+    if isinstance(source, (str, os.PathLike)):
+        source = Path(source).read_bytes()
+    data = np.frombuffer(source, np.uint8)
+    issues: list[Issue] = []
+
+    def note(user: int, status: int, offset: int, message: bytes) -> bool:
+        issues.append(Issue(status_of(status), offset, message.decode(errors="replace")))
+        return len(issues) != most
+
+    with HeldSignals() as signals:
+        status = library.geoidx_verify(address(data), data.size, _native.IssueFn(note), None)
+    signals.deliver()
+    if not issues:
+        check(status)
+    return issues
