@@ -22,7 +22,8 @@ def run_cmake(folder: Path) -> Path:
     switches = ["-DCMAKE_BUILD_TYPE=Release"]
     switches += [f"-DGEOIDX_BUILD_{part}=OFF" for part in ("TESTS", "TOOLS", "BENCH")]
     subprocess.run(["cmake", "-S", REPOSITORY, "-B", folder, *switches], check=True)
-    subprocess.run(["cmake", "--build", folder, "--target", "geoidx", "--parallel"], check=True)
+    jobs = str(os.cpu_count() or 1)
+    subprocess.run(["cmake", "--build", folder, "--target", "geoidx", "--parallel", jobs], check=True)
     return folder / "src" / LIBRARY
 
 

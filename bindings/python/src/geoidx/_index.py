@@ -174,13 +174,16 @@ class Index(Closable):
 
     def to_bytes(self) -> bytes:
         """The bytes of the file."""
-        # Their number is known only once all is encoded: what is enough for most indices saves encoding twice.
-        buffer = np.empty(8 * self.info.table_entries + 64 * self.vertex_count + (1 << 16), np.uint8)
+        buffer = np.empty(self._likely_size(), np.uint8)
         needed = self._encode(buffer)
         if needed > buffer.size:
             buffer = np.empty(needed, np.uint8)
             self._encode(buffer)
         return buffer[:needed].tobytes()
+
+    def _likely_size(self) -> int:
+        """More bytes than most files have. Asking for their number encodes them, too."""
+        return 8 * self.info.table_entries + 64 * self.vertex_count + (1 << 16)
 
     def _encode(self, buffer: NDArray[np.uint8]) -> int:
         """The number of the file's bytes, which are in the buffer unless there are more than it holds."""
