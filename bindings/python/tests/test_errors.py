@@ -1,0 +1,233 @@
+"""Every status as its exception; files and bytes, whole and damaged."""
+
+import io
+import mmap
+import os
+import pickle
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+from meshes import SQUARE, hills, plane
+
+import geoidx
+from geoidx import Status
+from geoidx._errors import error_of
+
+
+class Statuses(unittest.TestCase):
+    def setUp(self):
+        self.data = geoidx.Index.build(*SQUARE).to_bytes()
+
+    def opened_with(self, offset, value):
+        damaged = bytearray(self.data)
+        damaged[offset] ^= value
+        geoidx.Index.from_bytes(damaged)
+
+    def raised(self, status, error, builtin, call, *arguments, **options):
+        with self.assertRaises(error) as caught:
+            call(*arguments, **options)
+        found = caught.exception
+        self.assertIs(type(found), error)
+        self.assertIsInstance(found, geoidx.Error)
+        self.assertIsInstance(found, builtin)
+        self.assertEqual(found.status, status)
+        self.assertTrue(found.detail)
+        self.assertTrue(str(found).endswith(": " + found.detail))
+        copy = pickle.loads(pickle.dumps(found))
+        self.assertEqual((type(copy), copy.status, str(copy)), (error, status, str(found)))
+
+    def test_invalid_argument(self):
+        index = geoidx.Index.build(*SQUARE)
+        self.raised(Status.INVALID_ARGUMENT, geoidx.InvalidArgumentError, ValueError, index.sssd, 0, 4)
+
+    def test_io(self):
+        self.raised(Status.IO, geoidx.FileError, OSError, geoidx.Index.open, "/nonexistent/index.geoidx")
+        index = geoidx.Index.build(*SQUARE)
+        self.raised(Status.IO, geoidx.FileError, OSError, index.save, "/nonexistent/index.geoidx")
+
+    def test_not_an_index(self):
+        self.raised(Status.NOT_AN_INDEX, geoidx.NotAnIndexError, ValueError, geoidx.Index.from_bytes, b"solid " * 20)
+
+    def test_truncated(self):
+        for size in (0, 1, 47, len(self.data) - 1):
+            data = self.data[:size]
+            self.raised(Status.TRUNCATED, geoidx.TruncatedError, geoidx.FormatError, geoidx.Index.from_bytes, data)
+
+    def test_corrupt(self):
+        open_ = geoidx.Index.from_bytes
+        self.raised(Status.CORRUPT, geoidx.CorruptError, geoidx.FormatError, open_, self.data + b"\0")
+
+    def test_checksum(self):
+        self.raised(Status.CHECKSUM, geoidx.ChecksumError, geoidx.FormatError, self.opened_with, len(self.data) // 2, 1)
+
+    def test_unsupported_version(self):
+        # The major version follows the magic of 8 bytes.
+        error = geoidx.UnsupportedVersionError
+        self.raised(Status.UNSUPPORTED_VERSION, error, geoidx.FormatError, self.opened_with, 8, 64)
+
+    def test_mesh_mismatch(self):
+        for expected in (hills(3, 3), (SQUARE[0] * 2, SQUARE[1]), (SQUARE[0], SQUARE[1][::-1])):
+            self.raised(
+                Status.MESH_MISMATCH,
+                geoidx.MeshMismatchError,
+                ValueError,
+                geoidx.Index.from_bytes,
+                self.data,
+                expected_mesh=expected,
+            )
+        geoidx.Index.from_bytes(self.data, expected_mesh=SQUARE)
+
+    def test_limit(self):
+        self.raised(
+            Status.LIMIT,
+            geoidx.LimitError,
+            OverflowError,
+            geoidx.Index.build,
+            *SQUARE,
+            metric=lambda source, targets: np.where(targets == source, 0, 1e300),
+        )
+
+    def test_out_of_memory(self):
+        refusing = geoidx.Allocator(geoidx.AllocateFn(lambda *_: None), geoidx.ReleaseFn(lambda *_: None))
+        for call, arguments in ((geoidx.Index.build, SQUARE), (geoidx.Index.from_bytes, (self.data,))):
+            self.raised(
+                Status.OUT_OF_MEMORY, geoidx.OutOfMemoryError, MemoryError, call, *arguments, allocator=refusing
+            )
+
+    def test_cancelled(self):
+        self.raised(
+            Status.CANCELLED,
+            geoidx.CancelledError,
+            geoidx.Error,
+            geoidx.Index.build,
+            *SQUARE,
+            progress=lambda fraction, stage: False,
+        )
+
+    def test_bad_mesh(self):
+        self.raised(Status.BAD_MESH, geoidx.BadMeshError, ValueError, geoidx.Index.build, SQUARE[0], [[0, 1, 4]])
+
+    def test_callback(self):
+        self.raised(
+            Status.CALLBACK,
+            geoidx.CallbackError,
+            RuntimeError,
+            geoidx.Index.build,
+            *SQUARE,
+            metric=lambda source, targets: np.full(len(targets), np.nan),
+        )
+
+    def test_internal(self):
+        def fail():
+            raise error_of(Status.INTERNAL, "a defect")
+
+        self.raised(Status.INTERNAL, geoidx.InternalError, RuntimeError, fail)
+
+    def test_each_status_has_its_own_exception(self):
+        found = {type(error_of(status, "")) for status in Status if status != Status.OK}
+        self.assertEqual(len(found), len(Status) - 1)
+        self.assertNotIn(geoidx.Error, found)
+        self.assertLessEqual({error.__name__ for error in found}, set(geoidx.__all__))
+
+    def test_a_status_of_a_newer_library(self):
+        error = error_of(-99, "new")
+        self.assertEqual((type(error), error.status, str(error)), (geoidx.Error, -99, "unknown status: new"))
+
+
+class Files(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.mesh = hills(15, 14)
+        cls.index = geoidx.Index.build(*cls.mesh, patches=(3, 3))
+        cls.data = cls.index.to_bytes()
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def assert_same(self, index):
+        np.testing.assert_array_equal(index.msad([0, 9]), self.index.msad([0, 9]))
+        self.assertEqual(index.info, self.index.info)
+        self.assertEqual(index.to_bytes(), self.data)
+
+    def test_paths(self):
+        plain = self.folder / "Käse 距離.geoidx"
+        for path in (plain, str(plain), os.fsencode(plain), os.fsencode(self.folder) + b"/\xff.geoidx"):
+            self.index.save(path)
+            self.assert_same(geoidx.Index.open(path))
+            self.assert_same(geoidx.Index.open(path, expected_mesh=self.mesh))
+        self.assertEqual(plain.read_bytes(), self.data)
+        for path in ("a\0b", b"a\0b"):
+            with self.assertRaises(ValueError):
+                self.index.save(path)
+        with self.assertRaises(TypeError):
+            geoidx.Index.open(3)
+
+    def test_buffers(self):
+        path = self.folder / "index"
+        path.write_bytes(self.data)
+        with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as mapped:
+            self.assert_same(geoidx.Index.from_bytes(mapped))
+        for buffer in (self.data, bytearray(self.data), memoryview(self.data), np.frombuffer(self.data, np.uint8)):
+            self.assert_same(geoidx.Index.from_bytes(buffer))
+        self.assert_same(geoidx.Index.from_bytes(io.BytesIO(self.data).getbuffer()))
+        with self.assertRaises(BufferError):
+            geoidx.Index.from_bytes(memoryview(self.data)[::2])
+
+    def test_bytes_are_not_needed_after_the_call(self):
+        data = bytearray(self.data)
+        index = geoidx.Index.from_bytes(data)
+        data[:] = bytes(len(data))
+        self.assert_same(index)
+
+    def test_more_bytes_than_expected(self):
+        for size in (0, 100, len(self.data) - 1, len(self.data)):
+            with mock.patch.object(geoidx.Index, "_likely_size", return_value=size):
+                self.assertEqual(self.index.to_bytes(), self.data)
+
+    def test_pickle(self):
+        self.assert_same(pickle.loads(pickle.dumps(self.index)))
+
+    def test_a_failed_save_leaves_the_old_file(self):
+        path = self.folder / "index"
+        path.mkdir()
+        with self.assertRaisesRegex(geoidx.FileError, "directory"):
+            self.index.save(path)
+        self.assertEqual(list(self.folder.iterdir()), [path])
+
+
+class Verify(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.data = geoidx.Index.build(*plane(9, 9), patches=(3, 2)).to_bytes()
+
+    def test_sound(self):
+        self.assertEqual(geoidx.verify(self.data), [])
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "index")
+            path.write_bytes(self.data)
+            self.assertEqual(geoidx.verify(path), [])
+            self.assertEqual(geoidx.verify(str(path)), [])
+            with self.assertRaises(OSError):
+                geoidx.verify(Path(folder, "other"))
+
+    def test_issues(self):
+        (issue,) = geoidx.verify(self.data[:-1])
+        self.assertEqual(issue.status, Status.TRUNCATED)
+        self.assertTrue(issue.message)
+        damaged = bytearray(self.data)
+        for offset in range(len(damaged) // 2, len(damaged), 64):
+            damaged[offset] ^= 1
+        issues = geoidx.verify(damaged)
+        self.assertGreater(len(issues), 1)
+        self.assertEqual({issue.status for issue in issues}, {Status.CHECKSUM})
+        self.assertTrue(all(0 < issue.offset < len(damaged) for issue in issues))
+        self.assertEqual(geoidx.verify(damaged, most=1), issues[:1])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,291 @@
+"""Closing, finalizing, and threads that share an index."""
+
+import ctypes
+import gc
+import os
+import subprocess
+import sys
+import threading
+import unittest
+import weakref
+from pathlib import Path
+
+import numpy as np
+from meshes import SQUARE, hills, plane, straight
+
+import geoidx
+
+libc = ctypes.CDLL(None)
+libc.aligned_alloc.restype = ctypes.c_void_p
+libc.aligned_alloc.argtypes = [ctypes.c_size_t, ctypes.c_size_t]
+libc.free.argtypes = [ctypes.c_void_p]
+
+
+class Memory:
+    """An allocator that knows what is in use."""
+
+    def __init__(self):
+        self.blocks = {}
+        self.allocator = geoidx.Allocator(geoidx.AllocateFn(self.allocate), geoidx.ReleaseFn(self.release))
+
+    def allocate(self, user, size, alignment):
+        memory = libc.aligned_alloc(alignment, (size + alignment - 1) // alignment * alignment)
+        self.blocks[memory] = size
+        return memory
+
+    def release(self, user, memory, size, alignment):
+        assert self.blocks.pop(memory) == size
+        libc.free(memory)
+
+
+class Closing(unittest.TestCase):
+    def setUp(self):
+        self.memory = Memory()
+        self.index = geoidx.Index.build(*SQUARE, allocator=self.memory.allocator)
+        self.assertTrue(self.memory.blocks)
+
+    def test_close_gives_memory_back(self):
+        self.index.close()
+        self.assertFalse(self.memory.blocks)
+        self.index.close()
+        self.assertTrue(self.index.closed)
+
+    def test_context_manager(self):
+        with self.index as index:
+            self.assertIs(index, self.index)
+            self.assertFalse(index.closed)
+        self.assertTrue(self.index.closed)
+        self.assertFalse(self.memory.blocks)
+        with self.assertRaises(ValueError), self.index:
+            pass
+
+    def test_finalizer(self):
+        del self.index
+        self.assertFalse(self.memory.blocks)
+
+    def test_finalizer_in_a_cycle(self):
+        cycle = [self.index]
+        cycle.append(cycle)
+        del self.index, cycle
+        gc.collect()
+        self.assertFalse(self.memory.blocks)
+
+    def test_a_query_outlives_its_index(self):
+        query = self.index.query()
+        expected = query.msad(0)
+        self.index.close()
+        np.testing.assert_array_equal(query.msad(0), expected)
+        del self.index
+        gc.collect()
+        np.testing.assert_array_equal(query.msad(0), expected)
+        query.close()
+        self.assertFalse(self.memory.blocks)
+
+    def test_the_allocator_lives_as_long_as_the_index(self):
+        allocator = self.memory.allocator
+        gone = weakref.ref(allocator)
+        index = geoidx.Index.from_bytes(self.index.to_bytes(), allocator=allocator)
+        del allocator, self.memory.allocator
+        self.index.close()
+        gc.collect()
+        self.assertIsNotNone(gone())
+        index.msad(0)
+        index.close()
+        self.assertIsNone(gone())
+        self.assertFalse(self.memory.blocks)
+
+    def test_failures_leak_nothing(self):
+        self.index.close()
+
+        def late(fraction, stage):
+            if fraction == 1:
+                raise LookupError
+
+        for options in ({"progress": lambda f, s: False}, {"progress": late}, {"delta": -1}):
+            with self.assertRaises((LookupError, geoidx.Error)):
+                geoidx.Index.build(*SQUARE, allocator=self.memory.allocator, **options)
+            self.assertFalse(self.memory.blocks)
+
+
+class UseAfterClose(unittest.TestCase):
+    def refused(self, call):
+        with self.assertRaisesRegex(ValueError, "closed"):
+            call()
+
+    def test_index(self):
+        index = geoidx.Index.build(*SQUARE)
+        index.close()
+        for call in (
+            lambda: index.info,
+            lambda: index.sssd(0, 1),
+            lambda: index.sssd([0], 1),
+            lambda: index.matrix([0]),
+            lambda: index.msad(0),
+            lambda: index.msad(0, radius=1),
+            lambda: index.ssad([0]),
+            lambda: index.query(),
+            lambda: index.save("never"),
+            lambda: index.to_bytes(),
+        ):
+            self.refused(call)
+        self.assertIn("closed", repr(index))
+
+    def test_query(self):
+        query = geoidx.Index.build(*SQUARE).query()
+        with query:
+            query.prepare(0)
+        for call in (
+            lambda: query.sssd(0, 1),
+            lambda: query.msad(0),
+            lambda: query.msad(0, radius=1),
+            lambda: query.ssad([0]),
+            lambda: query.prepare(0),
+            lambda: query.prepared([0]),
+            lambda: setattr(query, "threads", 2),
+        ):
+            self.refused(call)
+
+    def test_solver(self):
+        with geoidx.Solver(*SQUARE) as solver:
+            point = geoidx.surface_points(0, [1, 0, 0])
+        self.refused(lambda: solver.distances(0))
+        self.refused(lambda: solver.point_distances(point, point))
+
+
+class Threads(unittest.TestCase):
+    COUNT = 8
+
+    @classmethod
+    def setUpClass(cls):
+        cls.mesh = hills(25, 24)
+        cls.index = geoidx.Index.build(*cls.mesh, patches=(4, 4))
+
+    def run_threads(self, work):
+        """work(number) on each thread; raises what one of them raises."""
+        failures = []
+        barrier = threading.Barrier(self.COUNT)
+
+        def run(number):
+            try:
+                barrier.wait()
+                work(number)
+            except BaseException as error:
+                failures.append(error)
+
+        threads = [threading.Thread(target=run, args=(number,)) for number in range(self.COUNT)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for failure in failures:
+            raise failure
+
+    def test_one_index(self):
+        vertices = np.arange(self.COUNT)
+        expected = self.index.ssad(vertices)
+        matrix = self.index.matrix(vertices)
+
+        def work(number):
+            with self.index.query() as query:
+                for _ in range(30):
+                    np.testing.assert_array_equal(self.index.msad(number), expected[number])
+                    np.testing.assert_array_equal(query.msad(number), expected[number])
+                    np.testing.assert_array_equal(self.index.matrix(number, vertices)[0], matrix[number])
+                    self.assertEqual(self.index.sssd(number, 5), matrix[number, 5])
+                    self.assertEqual(query.sssd(number, 5), matrix[number, 5])
+
+        self.run_threads(work)
+
+    def test_errors_are_each_threads_own(self):
+        def work(number):
+            for _ in range(200):
+                with self.assertRaisesRegex(geoidx.InvalidArgumentError, f"vertex {1000 + number} is"):
+                    self.index.sssd(0, 1000 + number)
+
+        self.run_threads(work)
+
+    def test_closing_while_others_ask(self):
+        """Calls under way end well; later ones say that the index is closed."""
+        index = geoidx.Index.from_bytes(self.index.to_bytes())
+        expected = self.index.ssad(range(self.COUNT))
+
+        def work(number):
+            with self.assertRaisesRegex(ValueError, "closed"):
+                for turn in range(1 << 20):
+                    np.testing.assert_array_equal(index.msad(number), expected[number])
+                    if turn == 20 and number == 0:
+                        index.close()
+
+        self.run_threads(work)
+
+    def test_a_call_lets_other_threads_run(self):
+        """A Python metric called from threads of the library, while the calling thread waits in the library."""
+        callers = set()
+
+        def metric(source, targets):
+            callers.add(threading.get_ident())
+            return straight(vertices, source, targets)
+
+        vertices, faces = plane(30, 30)
+        geoidx.Index.build(vertices, faces, metric=metric, threads=3)
+        self.assertGreater(len(callers), 1)
+
+    def test_python_runs_during_a_build(self):
+        done = threading.Event()
+        turns = []
+
+        def build():
+            geoidx.Index.build(*hills(90, 90), threads=1)
+            done.set()
+
+        thread = threading.Thread(target=build)
+        thread.start()
+        while not done.wait(0.005):
+            turns.append(None)
+        thread.join()
+        self.assertGreater(len(turns), 3)
+
+    def test_a_query_is_one_threads(self):
+        """Whoever asks a busy query is told so, and nothing else goes wrong."""
+        query = self.index.query()
+        expected = self.index.msad(0)
+        refused = []
+
+        def work(number):
+            for _ in range(100):
+                try:
+                    np.testing.assert_array_equal(query.msad(0), expected)
+                except RuntimeError as error:
+                    refused.append(error)
+
+        self.run_threads(work)
+        np.testing.assert_array_equal(query.msad(0), expected)
+
+
+class Exit(unittest.TestCase):
+    def test_the_interpreter_ends_with_everything_open(self):
+        """Also while a thread is still inside the library."""
+        program = """
+import threading, geoidx, meshes
+index = geoidx.Index.build(*meshes.hills(40, 40))
+query = index.query()
+solver = geoidx.Solver(*meshes.SQUARE)
+def ask():
+    while True:
+        index.ssad(range(200))
+threading.Thread(target=ask, daemon=True).start()
+index.msad(0)
+"""
+        here = os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])
+        result = subprocess.run(
+            [sys.executable, "-B", "-c", program],
+            env={**os.environ, "PYTHONPATH": here},
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,249 @@
+"""Shapes, broadcasting and bits of the queries of an index, a query and a solver."""
+
+import math
+import unittest
+
+import numpy as np
+from meshes import hills, plane
+
+import geoidx
+
+
+class Queries(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.mesh = hills(17, 15)
+        cls.n = len(cls.mesh[0])
+        cls.index = geoidx.Index.build(*cls.mesh, patches=(4, 3))
+        cls.query = cls.index.query()
+
+
+class Sssd(Queries):
+    def test_two_vertices_give_a_float(self):
+        for a, b in ((3, 200), (np.int64(3), np.uint8(200)), (np.array(3), 200)):
+            distance = self.index.sssd(a, b)
+            self.assertIs(type(distance), float)
+            self.assertEqual(distance, self.index.sssd(200, 3))
+        self.assertEqual(self.index.sssd(7, 7), 0)
+        self.assertEqual(self.query.sssd(3, 200), self.index.sssd(3, 200))
+
+    def test_arrays_are_broadcast(self):
+        a = np.array([[3], [50]])
+        b = np.array([200, 7, 100])
+        distances = self.index.sssd(a, b)
+        self.assertEqual((distances.shape, distances.dtype), ((2, 3), np.float32))
+        for i in range(2):
+            for j in range(3):
+                self.assertEqual(distances[i, j], self.index.sssd(int(a[i, 0]), int(b[j])))
+        np.testing.assert_array_equal(self.index.sssd(3, b), distances[0])
+        np.testing.assert_array_equal(self.index.sssd([3, 3, 3], list(b)), distances[0])
+        self.assertEqual(self.index.sssd([3], 200).shape, (1,))
+        with self.assertRaises(ValueError):
+            self.index.sssd([1, 2], [1, 2, 3])
+
+    def test_no_pairs(self):
+        self.assertEqual(self.index.sssd([], []).shape, (0,))
+        self.assertEqual(self.index.sssd(np.empty((2, 0), np.uint32), 4).shape, (2, 0))
+
+    def test_near_the_exact_distance(self):
+        exact = geoidx.Solver(*self.mesh).distances(3)
+        np.testing.assert_allclose(self.index.sssd(3, np.arange(self.n)), exact, rtol=0.2)
+
+
+class Matrix(Queries):
+    def test_is_sssd_of_each_pair(self):
+        a, b = [5, 0, 250], [9, 200, 5, 5]
+        matrix = self.index.matrix(a, b)
+        self.assertEqual((matrix.shape, matrix.dtype), ((3, 4), np.float32))
+        np.testing.assert_array_equal(matrix, self.index.sssd(np.array(a)[:, None], b))
+        np.testing.assert_array_equal(self.index.matrix(a), self.index.matrix(a, a))
+        self.assertEqual(self.index.matrix([], b).shape, (0, 4))
+        self.assertEqual(self.index.matrix(a, []).shape, (3, 0))
+        self.assertEqual(self.index.matrix(4, b).shape, (1, 4))
+
+    def test_more_pairs_than_fit_at_once(self):
+        a = np.arange(self.n).repeat(5)
+        b = np.arange(self.n)
+        matrix = self.index.matrix(a, b)
+        self.assertGreater(matrix.size, 1 << 18)
+        np.testing.assert_array_equal(matrix[::5], self.index.sssd(b[:, None], b))
+        np.testing.assert_array_equal(matrix[4::5], matrix[::5])
+
+    def test_out(self):
+        out = np.empty((2, 2), np.float32)
+        self.assertIs(self.index.matrix([1, 2], out=out), out)
+        np.testing.assert_array_equal(out, self.index.matrix([1, 2]))
+
+
+class Fields(Queries):
+    def test_msad_is_the_nearest_source(self):
+        for asked in (self.index, self.query):
+            one, other = asked.msad(4), asked.msad([240])
+            self.assertEqual((one.shape, one.dtype), ((self.n,), np.float32))
+            both = asked.msad([4, 240])
+            np.testing.assert_allclose(both, np.minimum(one, other), rtol=1e-3)
+            self.assertEqual((both[4], both[240]), (0, 0))
+
+    def test_ssad_is_msad_of_each_source(self):
+        for asked in (self.index, self.query):
+            sources = [4, 240, 4, *range(20)]
+            fields = asked.ssad(sources)
+            self.assertEqual((fields.shape, fields.dtype), ((23, self.n), np.float32))
+            for source, field in zip(sources, fields):
+                np.testing.assert_array_equal(field, asked.msad(source))
+            np.testing.assert_array_equal(asked.ssad(4), asked.msad(4))
+            self.assertEqual(asked.ssad([]).shape, (0, self.n))
+            with self.assertRaises(geoidx.InvalidArgumentError):
+                asked.ssad([[1, 2]])
+
+    def test_radius(self):
+        everything = self.index.msad([4, 240])
+        for asked in (self.index, self.query):
+            near = asked.msad([4, 240], radius=5)
+            np.testing.assert_array_equal(near, np.where(everything <= 5, everything, np.inf))
+            np.testing.assert_array_equal(asked.msad(4, radius=math.inf), asked.msad(4))
+            for radius in (-1, math.nan):
+                with self.assertRaisesRegex(geoidx.InvalidArgumentError, "radius"):
+                    asked.msad(4, radius=radius)
+
+    def test_out(self):
+        for asked in (self.index, self.query):
+            out = np.zeros(self.n, np.float32)
+            self.assertIs(asked.msad(4, out=out), out)
+            np.testing.assert_array_equal(out, self.index.msad(4))
+            self.assertIs(asked.msad(4, radius=2, out=out), out)
+            rows = np.zeros((5, self.n), np.float32)
+            self.assertTrue(np.shares_memory(asked.ssad([4, 5], out=rows[1:3]), rows))
+            np.testing.assert_array_equal(rows[1], self.index.msad(4))
+            self.assertFalse(rows[[0, 3, 4]].any())
+
+    def test_out_that_cannot_be_written_to(self):
+        n = self.n
+        read_only = np.zeros(n, np.float32)
+        read_only.flags.writeable = False
+        unaligned = np.zeros(4 * n + 1, np.uint8)[1:].view(np.float32)
+        for out in (np.zeros(n), np.zeros(n, ">f4"), [0.0] * n):
+            with self.assertRaises(TypeError):
+                self.index.msad(4, out=out)
+        for out in (np.zeros(n + 1, np.float32), np.zeros(2 * n, np.float32)[::2], read_only, unaligned):
+            with self.assertRaises(geoidx.InvalidArgumentError):
+                self.index.msad(4, out=out)
+
+    def test_no_source(self):
+        for asked in (self.index, self.query):
+            with self.assertRaisesRegex(geoidx.InvalidArgumentError, "no source"):
+                asked.msad([])
+
+    def test_unreachable(self):
+        vertices, faces = plane(3, 3)
+        two = np.concatenate([vertices, vertices + 10, [[0, 0, 50]]]), np.concatenate([faces, faces + 9])
+        index = geoidx.Index.build(*two)
+        field = index.msad(0)
+        self.assertTrue(np.isfinite(field[:9]).all())
+        self.assertTrue((field[9:] == np.inf).all())
+        self.assertEqual(index.sssd(0, 18), math.inf)
+        self.assertEqual(geoidx.Solver(*two).distances(0, 12), math.inf)
+
+
+class Prepared(Queries):
+    def test_near_the_field(self):
+        self.query.prepare(4)
+        targets = np.arange(self.n)
+        distances = self.query.prepared(targets)
+        np.testing.assert_allclose(distances, self.index.msad(4), rtol=0.05)
+        self.assertEqual(self.query.prepared(targets[:6].reshape(2, 3)).shape, (2, 3))
+        self.assertEqual(self.query.prepared([]).shape, (0,))
+        out = np.zeros(self.n, np.float32)
+        self.assertIs(self.query.prepared(targets, out=out), out)
+        np.testing.assert_array_equal(out, distances)
+        one = self.query.prepared(9)
+        self.assertIs(type(one), float)
+        self.assertEqual(one, distances[9])
+
+    def test_without_a_source(self):
+        with self.assertRaisesRegex(geoidx.InvalidArgumentError, "prepared"):
+            self.index.query().prepared([1])
+
+
+class Threads(Queries):
+    def test_the_same_bits(self):
+        expected = self.index.msad([4, 240])
+        for threads in (1, 2, 0):
+            with self.index.query(threads=threads) as query:
+                self.assertEqual(query.threads, threads)
+                np.testing.assert_array_equal(query.msad([4, 240]), expected)
+
+    def test_out_of_range(self):
+        for threads in (-1, 1025, 1 << 40):
+            with self.assertRaises(geoidx.InvalidArgumentError):
+                self.query.threads = threads
+        self.assertEqual(self.query.threads, 1)
+
+
+class Ids(Queries):
+    """Ids that are none, in every call that takes some."""
+
+    def calls(self):
+        solver = geoidx.Solver(*self.mesh)
+        self.query.prepare(0)
+        yield lambda v: self.index.sssd(v, 0)
+        yield lambda v: self.index.sssd([0, 1], [v, v])
+        yield lambda v: self.index.matrix([0, v])
+        yield lambda v: self.index.matrix([0], [v])
+        for asked in (self.index, self.query):
+            yield lambda v: asked.msad([0, v])
+            yield lambda v: asked.ssad([0, v])
+            yield lambda v: asked.msad([0, v], radius=1.0)
+        yield lambda v: self.query.sssd(0, v)
+        yield lambda v: self.query.prepare(v)
+        yield lambda v: self.query.prepared([v])
+        yield lambda v: solver.distances(v)
+        yield lambda v: solver.distances(0, [v])
+
+    def test_out_of_range(self):
+        for number, call in enumerate(self.calls()):
+            for vertex in (self.n, -1, 1 << 32, (1 << 32) - 1, -(1 << 40)):
+                with self.subTest(call=number, vertex=vertex):
+                    with self.assertRaises(geoidx.InvalidArgumentError) as caught:
+                        call(vertex)
+                    self.assertEqual(caught.exception.status, geoidx.Status.INVALID_ARGUMENT)
+                    self.assertIn(str(vertex), str(caught.exception))
+
+    def test_not_an_integer(self):
+        for number, call in enumerate(self.calls()):
+            for vertex in (1.0, "1", None, 1j):
+                with self.subTest(call=number, vertex=vertex), self.assertRaises(TypeError):
+                    call(vertex)
+
+    def test_every_integer_type_and_layout(self):
+        expected = self.index.msad([4, 240])
+        for dtype in "u1 i2 u2 i4 u4 i8 u8 >u4 >i4 >i8".split():
+            with self.subTest(dtype=dtype):
+                sources = np.array([4, 240 if np.iinfo(dtype).max > 240 else 4], dtype)
+                np.testing.assert_array_equal(self.index.msad(sources), expected)
+        for strided in (np.array([4, 9, 240], np.uint32)[::2], np.array([240, 4], np.int32)[::-1]):
+            np.testing.assert_array_equal(self.index.msad(strided), expected)
+        with self.assertRaises(TypeError):
+            self.index.msad(np.array([True, False]))
+
+
+class SolverQueries(Queries):
+    def test_targets(self):
+        solver = geoidx.Solver(*self.mesh)
+        self.assertEqual(solver.vertex_count, self.n)
+        field = solver.distances([4, 240])
+        self.assertEqual((field.shape, field.dtype), ((self.n,), np.float64))
+        np.testing.assert_array_equal(field, np.minimum(solver.distances(4), solver.distances(240)))
+        targets = np.array([[1, 2], [3, 4]])
+        np.testing.assert_allclose(solver.distances([4, 240], targets), field[targets], rtol=1e-12)
+        self.assertEqual(solver.distances(4, []).shape, (0,))
+        self.assertEqual(solver.distances(4, 4), 0)
+        out = np.zeros(self.n)
+        self.assertIs(solver.distances([4, 240], out=out), out)
+        np.testing.assert_array_equal(out, field)
+        with self.assertRaisesRegex(geoidx.InvalidArgumentError, "no source"):
+            solver.distances([])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,38 @@
+"""What a type checker must understand of the installed package; it is not run."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import geoidx
+
+
+def progress(fraction: float, stage: str) -> bool:
+    return fraction < 0.5
+
+
+def taxicab(source: int, targets: NDArray[np.uint32]) -> NDArray[np.float64]:
+    return np.zeros(len(targets))
+
+
+def ask(vertices: NDArray[np.float32], faces: NDArray[np.int64]) -> None:
+    with geoidx.Index.build(vertices, faces, metric=taxicab, patches=[4, 3], progress=progress) as index:
+        distance: float = index.sssd(0, np.int64(1))
+        field: NDArray[np.float32] = index.msad([0, 1], radius=2 * distance)
+        index.ssad(3, out=field)
+        with index.query(threads=2) as query:
+            query.prepare(3)
+            query.prepared(faces)
+        diagonal: float = index.info.bounding_box_diagonal
+        counts: tuple[int, ...] = index.info.patch_count
+    solver = geoidx.Solver(vertices, faces, metric=geoidx.Weighted(np.ones(len(faces))))
+    exact: NDArray[np.float64] = solver.distances(0)
+    point: Any = geoidx.surface_points(0, [1, 0, 0])
+    solver.point_distances(point, point)
+    issues: list[geoidx.Issue] = geoidx.verify("index.geoidx", most=1)
+    print(diagonal, counts, exact, issues)
+
+
+def status(error: geoidx.Error) -> int:
+    return error.status
