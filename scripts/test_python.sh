@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Installs the Python package into build/python, offline, and runs its tests against what is installed.
+# GEOIDX_NATIVE: the folder of libgeoidx.so, build/release/src unless set.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+python=/usr/bin/python3
+venv=$PWD/build/python/venv
+package=$PWD/bindings/python
+library=$(realpath -m "${GEOIDX_NATIVE:-build/release/src}")/libgeoidx.so
+
+for module in numpy ensurepip setuptools wheel; do
+    if ! "$python" -c "import $module" 2>/dev/null; then
+        echo "SKIPPED: the Python tests need python3-numpy, python3-venv, python3-setuptools and python3-wheel"
+        exit 0
+    fi
+done
+if [ ! -e "$library" ]; then
+    echo "there is no $library: build it, or name its folder in GEOIDX_NATIVE" >&2
+    exit 1
+fi
+
+remove_leftovers() { rm -rf "$package/build" "$package"/src/*.egg-info; }
+trap remove_leftovers EXIT
+remove_leftovers
+
+"$python" -m venv --clear --system-site-packages "$venv"
+GEOIDX_LIBRARY=$library "$venv/bin/pip" --quiet --disable-pip-version-check \
+    install --no-index --no-build-isolation --no-deps "$package"
+
+unset GEOIDX_LIBRARY PYTHONPATH
+if [ -x /usr/bin/mypy ]; then
+    (cd "$package" && /usr/bin/mypy --cache-dir "$venv/../mypy")
+    (cd "$package/tests" && /usr/bin/mypy --strict --cache-dir "$venv/../mypy" --python-executable "$venv/bin/python" typed_use.py)
+else
+    echo "SKIPPED: the check of type hints needs mypy"
+fi
+"$venv/bin/python" -B -m unittest discover --start-directory "$package/tests"
