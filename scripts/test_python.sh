@@ -30,8 +30,9 @@ GEOIDX_LIBRARY=$library "$venv/bin/pip" --quiet --disable-pip-version-check \
 
 unset GEOIDX_LIBRARY PYTHONPATH
 if [ -x /usr/bin/mypy ]; then
-    (cd "$package" && /usr/bin/mypy --cache-dir "$venv/../mypy")
-    (cd "$package/tests" && /usr/bin/mypy --strict --cache-dir "$venv/../mypy" --python-executable "$venv/bin/python" typed_use.py)
+    mypy=(/usr/bin/mypy --strict --cache-dir "$venv/../mypy" --python-executable "$venv/bin/python")
+    (cd "$package" && "${mypy[@]}")
+    (cd "$package/tests" && "${mypy[@]}" typed_use.py)
 else
     echo "SKIPPED: the check of type hints needs mypy"
 fi

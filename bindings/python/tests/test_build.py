@@ -193,7 +193,11 @@ class Interrupts(unittest.TestCase):
 
     def test_on_another_thread(self):
         found = []
-        worker = threading.Thread(target=lambda: found.append(geoidx.Index.build(*hills(9, 9), progress=lambda f, s: None)))
+
+        def build():
+            found.append(geoidx.Index.build(*hills(9, 9), progress=lambda fraction, stage: None))
+
+        worker = threading.Thread(target=build)
         worker.start()
         worker.join()
         self.assertEqual(found[0].vertex_count, 81)
@@ -251,9 +255,11 @@ class MetricFailures(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "in use"):
             solver.distances(0)
 
-    def test_a_build_within_a_build(self):
-        inner = geoidx.Solver(*self.mesh)
-        index = geoidx.Index.build(*self.mesh, metric=lambda source, targets: inner.distances(source, targets), threads=1)
+    def test_asking_another_solver(self):
+        def metric(source, targets):
+            return geoidx.Solver(*self.mesh).distances(source, targets)
+
+        index = geoidx.Index.build(*self.mesh, metric=metric)
         self.assertAlmostEqual(index.sssd(0, 7), 7, delta=1e-3)
 
 
