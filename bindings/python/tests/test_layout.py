@@ -97,6 +97,7 @@ class Layout(unittest.TestCase):
             expected["GEOIDX_" + name] = getattr(_native, name)
         for name, number in zip(("MAJOR", "MINOR", "PATCH"), _native.HEADER_VERSION):
             expected["GEOIDX_VERSION_" + name] = number
+        expected["GEOIDX_ABI_VERSION"] = _native.ABI_VERSION
         lines = [f'printf("%lld\\n", (long long){name});' for name in expected]
         self.assertEqual(run_c(lines), [str(number) for number in expected.values()])
 

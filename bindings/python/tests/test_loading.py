@@ -72,14 +72,20 @@ class Loading(unittest.TestCase):
     def test_another_library(self):
         self.assertIn("geoidx_version", self.refusal(self.compiled("int other;")))
 
+    def versioned(self, number, abi):
+        return self.compiled(
+            f"unsigned geoidx_version(void) {{ return {number}; }}"
+            f"unsigned geoidx_abi_version(void) {{ return {abi}; }}"
+        )
+
     def test_another_version(self):
-        for number, version in ((10000, "1.0.0"), (20304, "2.3.4"), (0, "0.0.0"), (99, "0.0.99")):
-            message = self.refusal(self.compiled(f"unsigned geoidx_version(void) {{ return {number}; }}"))
-            self.assertIn(f"is geoidx {version}", message)
+        for number, abi, version in ((10000, 1, "1.0.0"), (20304, 7, "2.3.4"), (0, 0, "0.0.0"), (99, 0, "0.0.99")):
+            message = self.refusal(self.versioned(number, abi))
+            self.assertIn(f"is geoidx {version} with ABI {abi}", message)
             self.assertIn(f"needs {geoidx.__version__}", message)
 
     def test_a_later_version_that_lacks_a_function(self):
-        self.assertIn("geoidx_", self.refusal(self.compiled("unsigned geoidx_version(void) { return 200; }")))
+        self.assertIn("geoidx_", self.refusal(self.versioned(200, 0)))
 
     def test_versions(self):
         self.assertEqual(geoidx.library_version, geoidx.__version__)

@@ -21,6 +21,9 @@ from pathlib import Path
 HEADER_VERSION = (0, 1, 0)
 """The release whose header this module mirrors."""
 
+ABI_VERSION = 0
+"""The binary interface of that header."""
+
 MAX_LEVELS = 8
 POSITION_FLOAT = 0
 POSITION_DOUBLE = 1
@@ -137,6 +140,7 @@ _HANDLE_OUT = POINTER(c_void_p)
 # Arrays and handles are addresses here: void pointers.
 FUNCTIONS = {
     "geoidx_version": (c_uint32, []),
+    "geoidx_abi_version": (c_uint32, []),
     "geoidx_status_string": (c_char_p, [c_int32]),
     "geoidx_last_error": (c_char_p, []),
     "geoidx_mesh_init": (None, [POINTER(Mesh)]),
@@ -183,7 +187,7 @@ def _candidates() -> list[str]:
     if named := os.environ.get("GEOIDX_LIBRARY"):
         return [named]
     beside = Path(__file__).with_name("libgeoidx.so")
-    by_loader = [f"libgeoidx.so.{HEADER_VERSION[0]}", "libgeoidx.so"]
+    by_loader = [f"libgeoidx.so.{ABI_VERSION}", "libgeoidx.so"]
     return [str(beside)] if beside.exists() else by_loader
 
 
@@ -207,17 +211,19 @@ def _declare(library: CDLL, name: str) -> None:
 
 def _check_version(library: CDLL) -> None:
     found = version_of(library)
-    if found[0] != HEADER_VERSION[0] or found < HEADER_VERSION[:2]:
+    found_abi = library.geoidx_abi_version()
+    if found_abi != ABI_VERSION or found < HEADER_VERSION[:2]:
         raise ImportError(
-            f"{library._name} is geoidx {version_text(found)}, "
-            f"but this package needs {version_text(HEADER_VERSION)} or a later one of the same major version"
+            f"{library._name} is geoidx {version_text(found)} with ABI {found_abi}, "
+            f"but this package needs {version_text(HEADER_VERSION)} or later with ABI {ABI_VERSION}"
         )
 
 
 def load() -> CDLL:
     """The library of GEOIDX_LIBRARY, else the one beside this file, else the one the system's loader finds."""
     library = _open_library()
-    _declare(library, "geoidx_version")
+    for name in ("geoidx_version", "geoidx_abi_version"):
+        _declare(library, name)
     _check_version(library)
     for name in FUNCTIONS:
         _declare(library, name)
