@@ -125,10 +125,20 @@ void sample_tables(Index& index, uint32_t patch) {
     tables.coarse_positions.insert(tables.coarse_positions.end(), rows.begin(), rows.end());
 }
 
+void clear(OverlayTables& tables) {
+    tables.coarse_rings = Rings(tables.near.get_allocator().resource());
+    for (Array<uint32_t>* numbers : {&tables.coarse_places, &tables.coarse_samples, &tables.sample_positions,
+                                     &tables.coarse_positions_begin, &tables.coarse_positions})
+        numbers->clear();
+    for (Array<float>* lengths : {&tables.sample_spacing, &tables.near}) lengths->clear();
+    tables.coarse_tables.clear();
+}
+
 }
 
 void make_coarse_tables(Index& index) {
     OverlayTables& tables = index.overlay_tables;
+    clear(tables);
     RingWriter writer(tables.coarse_rings);
     writer.begin();
     for (uint32_t p = 0; p < index.patch_count(); ++p) sample_ring(index, p, writer);

@@ -4,7 +4,7 @@
 
 namespace geodesic {
 
-// Samples the rings and the outer tables: fills what index.overlay_tables has of them.
+// Samples the rings and the outer tables: fills what index.overlay_tables has of them, anew if it has some.
 void make_coarse_tables(Index& index);
 
 }

@@ -198,6 +198,10 @@ void allocate_tables(Index& index);
 // Likewise those of the overlay engine, when the rings are laid out.
 void allocate_overlay_tables(Index& index);
 
+// Takes the codes of two vertices on the border of an inner patch from the tables of its parent, as they are
+// read from a file, into those of its children.
+void take_over_border_codes(Index& index);
+
 // Fills what is derived; throws Error CORRUPT where a border vertex is on the border of a patch but not in
 // its parent's overlay, or in the overlay of a patch, but on no border of its children.
 void derive(Index& index);

@@ -8,17 +8,19 @@ namespace geodesic {
 
 namespace {
 
-// The neighbours, over edges, of each of some faces, by their positions among these.
+// The neighbours, over edges of two faces, of each of some faces, by their positions among these.
 class Neighbours {
 public:
     Neighbours(const Mesh& mesh, std::span<const uint32_t> faces) {
         std::unordered_map<uint32_t, uint32_t> position;
         for (uint32_t i = 0; i < faces.size(); ++i) position.emplace(faces[i], i);
         for (uint32_t f : faces) {
-            for (uint32_t e : mesh.face_edges[f])
-                for (uint32_t g : mesh.edge_faces[e])
-                    if (const auto found = position.find(g); g != f && found != position.end())
-                        neighbours_.push_back(found->second);
+            for (uint32_t e : mesh.face_edges[f]) {
+                if (mesh.edge_faces[e].size() != 2) continue;
+                const uint32_t other = mesh.edge_faces[e][mesh.edge_faces[e][0] == f ? 1 : 0];
+                if (const auto found = position.find(other); found != position.end())
+                    neighbours_.push_back(found->second);
+            }
             begin_.push_back(static_cast<uint32_t>(neighbours_.size()));
         }
     }

@@ -35,7 +35,8 @@ void lay_out_labels(Index& index) {
         size += uint64_t{index.inner_size(p)} * tables.label_offset[p];
     }
     const uint64_t entries = tables.outer_tables.size() + tables.inner_tables.size();
-    if (size > MOST_PER_ENTRY * entries)
+    const uint64_t heads = uint64_t{OverlayTables::LABEL_HEAD} * index.level_count() * index.vertex_count();
+    if (size > heads + MOST_PER_ENTRY * entries)
         throw Error(GEOIDX_ERROR_LIMIT, "labels would take " + std::to_string(size) +
                                             " numbers, for tables of " + std::to_string(entries));
     tables.labels.assign(size, SeenBorder::NOT_SEEN);

@@ -9,17 +9,12 @@ namespace {
 
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
-// The child of a patch that has `inside` in it; NONE from there on.
-uint32_t next_inwards(const Index& index, uint32_t patch, uint32_t inside) {
-    if (inside == patch) return NONE;
-    while (index.parent[inside] != patch) inside = index.parent[inside];
-    return inside;
-}
-
 }
 
 OverlayBatch::OverlayBatch(const Index& index, std::pmr::memory_resource* memory)
-    : index_(index), sweep_(index, SOURCES, memory), out_(memory) {
+    : index_(index), sweep_(index, SOURCES, memory), out_(memory),
+      sources_inside_(index.patch_count(), memory) {
+    static_assert(SOURCES <= 8 * sizeof(sources_inside_[0]));
     uint32_t most = 0;
     for (uint32_t p = 0; p < index.patch_count(); ++p) most = std::max(most, index.inner_size(p));
     out_.resize(most * SOURCES);
@@ -28,23 +23,19 @@ OverlayBatch::OverlayBatch(const Index& index, std::pmr::memory_resource* memory
 void OverlayBatch::sweep(std::span<const uint32_t> sources, OverlayMsad& climber,
                          std::span<float> distances) {
     std::ranges::fill(distances, INFINITE);
-    for (size_t i = 0; i < SOURCES; ++i) {
-        source_[i] = sources[std::min(i, sources.size() - 1)];
-        climber.climb({&source_[i], 1}, {distances.data() + i, SOURCES});
-    }
-    next_around_.fill(0);
-    for (uint32_t p = 0; p < index_.patch_count(); ++p) {
-        enter(p);
-        if (p > 0) descend(p, distances);
-    }
+    for (size_t i = 0; i < SOURCES; ++i)
+        climber.climb(sources.subspan(std::min(i, sources.size() - 1), 1), {distances.data() + i, SOURCES});
+    mark_patches_around(sources);
+    for (uint32_t p = 1; p < index_.patch_count(); ++p) descend(p, distances);
 }
 
-// Sources that lie in a patch have its distances already: they are met from the whole mesh inwards.
-void OverlayBatch::enter(uint32_t patch) {
-    for (size_t i = 0; i < SOURCES; ++i) {
-        is_outside_[i] = next_around_[i] != patch;
-        if (!is_outside_[i]) next_around_[i] = next_inwards(index_, patch, index_.entry(source_[i]));
-    }
+// Sources that lie in a patch have its distances already.
+void OverlayBatch::mark_patches_around(std::span<const uint32_t> sources) {
+    std::ranges::fill(sources_inside_, uint16_t{0});
+    for (size_t i = 0; i < SOURCES; ++i)
+        for (uint32_t p = index_.entry(sources[std::min(i, sources.size() - 1)]); p != NONE;
+             p = index_.parent[p])
+            sources_inside_[p] = static_cast<uint16_t>(sources_inside_[p] | 1u << i);
 }
 
 // To what lies inside.
@@ -52,14 +43,15 @@ void OverlayBatch::descend(uint32_t patch, std::span<float> distances) {
     const uint32_t count = index_.inner_size(patch);
     if (count == 0 || !(sweep_.see(patch, distances.data()) < INFINITE)) return;
     float* const inside = distances.data() + size_t{index_.first_inner(patch)} * SOURCES;
-    if (std::ranges::find(is_outside_, false) == is_outside_.end()) {
+    const uint32_t inside_sources = sources_inside_[patch];
+    if (inside_sources == 0) {
         sweep_.cross(inside);
         return;
     }
     sweep_.cross(out_.data());
     for (size_t r = 0; r < count; ++r)
         for (size_t i = 0; i < SOURCES; ++i)
-            if (is_outside_[i]) inside[r * SOURCES + i] = out_[r * SOURCES + i];
+            if (!(inside_sources >> i & 1)) inside[r * SOURCES + i] = out_[r * SOURCES + i];
 }
 
 }

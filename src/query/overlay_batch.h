@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "src/index/index.h"
@@ -22,15 +21,13 @@ public:
     void sweep(std::span<const uint32_t> sources, OverlayMsad& climber, std::span<float> distances);
 
 private:
+    void mark_patches_around(std::span<const uint32_t> sources);
     void descend(uint32_t patch, std::span<float> distances);
-    void enter(uint32_t patch);
 
     const Index& index_;
-    InnerSweep sweep_;                            // of the patch at hand
-    Array<float> out_;                            // per row, SOURCES each
-    std::array<uint32_t, SOURCES> source_{};      // the last one repeated
-    std::array<uint32_t, SOURCES> next_around_{}; // the next patch that each lies in
-    std::array<bool, SOURCES> is_outside_{};      // of the patch at hand
+    InnerSweep sweep_;               // of the patch at hand
+    Array<float> out_;               // per row, SOURCES each
+    Array<uint16_t> sources_inside_; // per patch: a bit each
 };
 
 }

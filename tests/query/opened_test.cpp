@@ -1,0 +1,47 @@
+// An index that was built and the same one from its file.
+#include <cstring>
+#include <random>
+
+#include "tests/query/query_cases.h"
+
+using namespace geodesic::test;
+
+TEST_CASE("opened: every answer is that of the index as built, bit for bit") {
+    for (const TestMesh& mesh : {hills(40, 40), torus(60, 30), grid(45, 33, 0.25)}) {
+        auto options = build_options(GEOIDX_METRIC_EXACT, 3);
+        options.engine = GEOIDX_ENGINE_OVERLAY;
+        const auto built = build(mesh, options);
+        const auto opened = open(save(built.get()));
+        const uint32_t count = mesh.vertex_count();
+        uint64_t different = 0;
+        for (uint32_t source = 0; source < count; source += 7) {
+            const auto a = msad(built.get(), source, count), b = msad(opened.get(), source, count);
+            different += std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) != 0;
+        }
+        std::mt19937 random(3);
+        for (int pair = 0; pair < 30000; ++pair) {
+            const uint32_t a = static_cast<uint32_t>(random() % count),
+                           b = static_cast<uint32_t>(random() % count);
+            different += sssd(built.get(), a, b) != sssd(opened.get(), a, b);
+        }
+        CHECK(different == 0);
+    }
+}
+
+// Each fits into a leaf: there is no border at all.
+TEST_CASE("opened: a thousand separate triangles") {
+    constexpr uint32_t TRIANGLES = 1000;
+    TestMesh mesh;
+    for (uint32_t t = 0; t < TRIANGLES; ++t)
+        for (uint32_t corner = 0; corner < 3; ++corner) {
+            const auto x = static_cast<double>(3 * t + (corner == 1)), y = static_cast<double>(corner == 2);
+            mesh.positions.insert(mesh.positions.end(), {x, y, 0});
+            mesh.triangles.push_back(3 * t + corner);
+        }
+    geoidx_build_options options = build_options();
+    options.engine = GEOIDX_ENGINE_OVERLAY;
+    const auto index = open(save(build(mesh, options).get()));
+    CHECK(double{sssd(index.get(), 3, 4)} == doctest::Approx(1));
+    CHECK(double{sssd(index.get(), 2998, 2999)} == doctest::Approx(std::sqrt(2.0)));
+    CHECK(std::isinf(sssd(index.get(), 0, 3)));
+}
