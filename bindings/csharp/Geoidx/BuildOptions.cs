@@ -1,0 +1,117 @@
+using System;
+using System.Runtime.CompilerServices;
+
+namespace Geoidx
+{
+    /// <summary>Options of a build. New ones have the native library's defaults.</summary>
+    public sealed class BuildOptions
+    {
+        /// <summary>The most levels below the whole mesh.</summary>
+        public const int MaxLevels = 8;
+
+        /// <summary>The native library's defaults.</summary>
+        public BuildOptions()
+        {
+            GeodesicLibrary.Load();
+            TakeDefaults();
+        }
+
+        /// <summary>What a distance is. Default: <see cref="MetricKind.Exact"/>.</summary>
+        public MetricKind Metric { get; set; }
+
+        /// <summary>
+        /// The metric of <see cref="MetricKind.Callback"/>; read by no other. It is called until the build has returned
+        /// or the solver is disposed.
+        /// </summary>
+        public GeodesicMetric? MetricCallback { get; set; }
+
+        /// <summary>What <see cref="MetricCallback"/> is known to be. Default: symmetric only.</summary>
+        public MetricFlags MetricFlags { get; set; }
+
+        /// <summary>How the index answers. Default: <see cref="GeodesicEngine.Overlay"/>.</summary>
+        public GeodesicEngine Engine { get; set; }
+
+        /// <summary>
+        /// Vertices at most this far apart, in the mesh's unit, are one. Default: 0, equal positions only.
+        /// </summary>
+        public double WeldTolerance { get; set; }
+
+        /// <summary>The pruning threshold, in % of the bounding-box diagonal, 0 to 100. Default: 0, none.</summary>
+        public double Delta { get; set; }
+
+        /// <summary>Of every random choice: the same mesh, options and seed give the same bytes.</summary>
+        public ulong Seed { get; set; }
+
+        /// <summary>Threads that build. Default: 0, one per processor.</summary>
+        public int Threads { get; set; }
+
+        /// <summary>Levels below the whole mesh, at most <see cref="MaxLevels"/>. Default: 0, automatic.</summary>
+        public int LevelCount { get; set; }
+
+        /// <summary>
+        /// Into how many patches the whole mesh is split, each of these, and so on; 0 or nothing (the default) means in
+        /// proportion to the vertices.
+        /// </summary>
+        public ReadOnlyMemory<int> Patches { get; set; }
+
+        /// <summary>Relaxations of the patches' seeds, at most 1000. Default: 4.</summary>
+        public int LloydIterations { get; set; }
+
+        /// <summary>
+        /// <see cref="MetricKind.Edges"/>: two vertices for each edge of <see cref="EdgeCosts"/>. Other edges cost
+        /// their length.
+        /// </summary>
+        public ReadOnlyMemory<int> EdgeCostVertices { get; set; }
+
+        /// <summary>
+        /// <see cref="MetricKind.Edges"/>: what passing along each edge of <see cref="EdgeCostVertices"/> costs, finite
+        /// and not negative, in the unit that distances then have.
+        /// </summary>
+        public ReadOnlyMemory<double> EdgeCosts { get; set; }
+
+        /// <summary>
+        /// <see cref="MetricKind.Weighted"/>: what a unit of length costs in each triangle of the mesh, positive and
+        /// finite.
+        /// </summary>
+        public ReadOnlyMemory<double> FaceCosts { get; set; }
+
+        /// <summary><see cref="MetricKind.Weighted"/>: points on every edge, 0 to 1000. Default: 12.</summary>
+        public int PointsPerEdge { get; set; }
+
+        /// <summary>
+        /// <see cref="MetricKind.Exact"/> and <see cref="MetricKind.Weighted"/>: a surface given by lengths, in the
+        /// mesh's unit, instead of positions. Three a triangle: the edges opposite to its first, second and third
+        /// corner. Default: none.
+        /// </summary>
+        public ReadOnlyMemory<double> EdgeLengths { get; set; }
+
+        /// <summary>
+        /// <see cref="GeodesicEngine.Overlay"/>: tables of patches of up to this many vertices hold the metric's own
+        /// distances. Larger is more exact and takes longer to build. Default: 400.
+        /// </summary>
+        public int ExactVertices { get; set; }
+
+        /// <summary>Whether an edge with more than two triangles makes the mesh unusable. Default: no.</summary>
+        public bool RefuseEdgesOfMany { get; set; }
+
+        /// <summary>Is told about fraction and stage, on the thread that builds. Default: nobody.</summary>
+        public IProgress<BuildStage>? StageProgress { get; set; }
+
+        /// <summary>Where the index and its queries get memory. Default: the global heap.</summary>
+        public IGeodesicAllocator? Allocator { get; set; }
+
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        private void TakeDefaults()
+        {
+            NativeBuildOptions native = NativeDefaults.BuildOptions();
+            Metric = (MetricKind)native.metric;
+            Engine = (GeodesicEngine)native.engine;
+            WeldTolerance = native.weld_tolerance;
+            Delta = native.delta;
+            Seed = native.seed;
+            LloydIterations = (int)native.lloyd_iterations;
+            PointsPerEdge = (int)native.points_per_edge;
+            ExactVertices = (int)native.exact_vertices;
+        }
+    }
+}

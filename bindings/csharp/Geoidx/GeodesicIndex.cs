@@ -1,0 +1,177 @@
+using System;
+using System.Runtime.InteropServices;
+using System.Threading;
+
+namespace Geoidx
+{
+    /// <summary>
+    /// Precomputed geodesic distances of a mesh. An index is immutable: any number of threads may use it at once.
+    /// Distances are in the mesh's own unit, infinite to a vertex that cannot be reached. Vertices are positions in the
+    /// array that the index was built from.
+    /// </summary>
+    public sealed partial class GeodesicIndex : IDisposable
+    {
+        private readonly IndexHandle handle;
+
+        private GeodesicIndex(IndexHandle handle)
+        {
+            this.handle = handle;
+            Info = ReadInfo();
+        }
+
+        /// <summary>What the index is and how exact.</summary>
+        public GeodesicInfo Info { get; }
+
+        /// <summary>Vertices of the caller's array.</summary>
+        public int VertexCount => checked((int)Info.VertexCount);
+
+        /// <summary>Builds the index of a mesh.</summary>
+        /// <param name="mesh">The mesh; its arrays are not needed afterwards.</param>
+        /// <param name="options">Null: the defaults.</param>
+        /// <param name="progress">
+        /// Is told the fraction that is done, 0 to 1, on this thread. What it throws stops the build and is thrown on.
+        /// </param>
+        /// <param name="cancellationToken">Stops the build, within a fraction of a second.</param>
+        /// <exception cref="OperationCanceledException">The build was cancelled.</exception>
+        /// <exception cref="GeodesicException">The status says what failed, the message where.</exception>
+        public static GeodesicIndex Build(
+            GeodesicMesh mesh,
+            BuildOptions? options = null,
+            IProgress<float>? progress = null,
+            CancellationToken cancellationToken = default)
+        {
+            if (mesh == null) throw new ArgumentNullException(nameof(mesh));
+            GeodesicLibrary.Load();
+            using PinnedMesh pinned = mesh.Pin();
+            return Build(pinned.Native, options, progress, cancellationToken);
+        }
+
+        /// <inheritdoc cref="Build(GeodesicMesh, BuildOptions?, IProgress{float}?, CancellationToken)"/>
+        /// <typeparam name="TVertex">
+        /// float or double: x, y and z of a vertex are three elements. Any other struct is one vertex and begins with
+        /// its position, three floats.
+        /// </typeparam>
+        /// <param name="positions">Of the vertices, in the mesh's own unit.</param>
+        /// <param name="triangles">Three vertices a triangle.</param>
+        /// <param name="options">Null: the defaults.</param>
+        /// <param name="progress">
+        /// Is told the fraction that is done, 0 to 1, on this thread. What it throws stops the build and is thrown on.
+        /// </param>
+        /// <param name="cancellationToken">Stops the build, within a fraction of a second.</param>
+        public static unsafe GeodesicIndex Build<TVertex>(
+            ReadOnlySpan<TVertex> positions,
+            ReadOnlySpan<int> triangles,
+            BuildOptions? options = null,
+            IProgress<float>? progress = null,
+            CancellationToken cancellationToken = default) where TVertex : unmanaged
+        {
+            GeodesicLibrary.Load();
+            NativeMesh mesh =
+                MeshLayout.Of<TVertex>(PositionType.Float).Describe(positions.Length, triangles.Length);
+            fixed (TVertex* first = &MemoryMarshal.GetReference(positions))
+            fixed (int* corners = &MemoryMarshal.GetReference(triangles))
+            {
+                mesh.positions = first;
+                mesh.triangles = corners;
+                return Build(mesh, options, progress, cancellationToken);
+            }
+        }
+
+        /// <summary>The distance between two vertices (SSSD), the same in both directions.</summary>
+        /// <exception cref="GeodesicArgumentException">A vertex is out of range.</exception>
+        /// <exception cref="ObjectDisposedException">The index is disposed.</exception>
+        public float Distance(int source, int target)
+        {
+            NativeMethods.geoidx_sssd(handle, source, target, out float distance).ThrowIfError();
+            return distance;
+        }
+
+        /// <summary>The distance of each pair; many at once take less time each.</summary>
+        /// <param name="pairs">Vertices.</param>
+        /// <param name="distances">
+        /// As long as <paramref name="pairs"/>; takes the distances, in the mesh's unit.
+        /// </param>
+        /// <exception cref="GeodesicArgumentException">A vertex is out of range; nothing is written.</exception>
+        public unsafe void Distances(ReadOnlySpan<VertexPair> pairs, Span<float> distances)
+        {
+            Lengths.CheckEqual(pairs.Length, distances.Length);
+            fixed (VertexPair* first = &MemoryMarshal.GetReference(pairs))
+            fixed (float* results = &MemoryMarshal.GetReference(distances))
+                NativeMethods.geoidx_sssd_batch(handle, first, (ulong)pairs.Length, results).ThrowIfError();
+        }
+
+        /// <summary>The distance of each pair, in the mesh's unit; many at once take less time each.</summary>
+        public float[] Distances(params VertexPair[] pairs)
+        {
+            var distances = new float[pairs.Length];
+            Distances(pairs, distances);
+            return distances;
+        }
+
+        /// <summary>The distance of every vertex to the nearest source (MSAD).</summary>
+        /// <param name="sources">One or more vertices.</param>
+        /// <param name="distances">One for each vertex, in the mesh's unit.</param>
+        /// <exception cref="GeodesicArgumentException">A source or the number of distances is wrong.</exception>
+        public unsafe void FromSources(ReadOnlySpan<int> sources, Span<float> distances)
+        {
+            fixed (int* first = &MemoryMarshal.GetReference(sources))
+            fixed (float* results = &MemoryMarshal.GetReference(distances))
+                NativeMethods.geoidx_msad(handle, first, (uint)sources.Length, results, (uint)distances.Length)
+                    .ThrowIfError();
+        }
+
+        /// <summary>The distance of every vertex to the nearest source (MSAD), in the mesh's unit.</summary>
+        public float[] FromSources(params int[] sources)
+        {
+            var distances = new float[VertexCount];
+            FromSources(sources, distances);
+            return distances;
+        }
+
+        /// <summary>The distances from each source to every vertex (SSAD of each).</summary>
+        /// <param name="sources">One or more vertices.</param>
+        /// <param name="distances">
+        /// For each source one for each vertex, in the mesh's unit: that from sources[i] to v at i * VertexCount + v.
+        /// </param>
+        /// <exception cref="GeodesicArgumentException">A source or the number of distances is wrong.</exception>
+        public unsafe void FromEachSource(ReadOnlySpan<int> sources, Span<float> distances)
+        {
+            fixed (int* first = &MemoryMarshal.GetReference(sources))
+            fixed (float* results = &MemoryMarshal.GetReference(distances))
+                NativeMethods.geoidx_ssad_batch(handle, first, (uint)sources.Length, results, (ulong)distances.Length)
+                    .ThrowIfError();
+        }
+
+        /// <summary>
+        /// The distances from each source to every vertex, in the mesh's unit: that from sources[i] to v at
+        /// i * VertexCount + v.
+        /// </summary>
+        public float[] FromEachSource(params int[] sources)
+        {
+            var distances = new float[checked(sources.Length * VertexCount)];
+            FromEachSource(sources, distances);
+            return distances;
+        }
+
+        /// <summary>One thread's scratch for queries, which neither lock nor, after the first ones, allocate.</summary>
+        public GeodesicQuery CreateQuery() => new GeodesicQuery(QueryHandle.Create(handle), VertexCount);
+
+        /// <summary>Frees the native index, when calls on other threads and its queries are done with it.</summary>
+        public void Dispose() => handle.Dispose();
+
+        private static GeodesicIndex Build(
+            NativeMesh mesh, BuildOptions? options, IProgress<float>? progress, CancellationToken cancellationToken)
+        {
+            cancellationToken.ThrowIfCancellationRequested();
+            using var callbacks = new BuildCallbacks(options, progress, cancellationToken);
+            return new GeodesicIndex(IndexHandle.Build(mesh, options, callbacks));
+        }
+
+        private unsafe GeodesicInfo ReadInfo()
+        {
+            var native = new NativeInfo { struct_size = (uint)sizeof(NativeInfo) };
+            NativeMethods.geoidx_get_info(handle, &native).ThrowIfError();
+            return new GeodesicInfo(native);
+        }
+    }
+}

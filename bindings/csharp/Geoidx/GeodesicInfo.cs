@@ -1,0 +1,111 @@
+using System;
+using System.Collections.Generic;
+
+namespace Geoidx
+{
+    /// <summary>
+    /// What an index is. Errors are of distances from sources to all vertices against the metric itself, |d - exact| /
+    /// exact (0.01 is 1 %), from <see cref="ErrorSources"/> seeded random sources, measured when the index was built.
+    /// </summary>
+    public sealed class GeodesicInfo
+    {
+        internal unsafe GeodesicInfo(NativeInfo native)
+        {
+            Metric = (MetricKind)native.metric;
+            MetricFlags = (MetricFlags)native.metric_flags;
+            MetricFingerprint = native.metric_fingerprint;
+            Engine = (GeodesicEngine)native.engine;
+            VertexCount = (long)native.vertex_count;
+            TriangleCount = (long)native.triangle_count;
+            WeldedVertexCount = (long)native.welded_vertex_count;
+            MeshFingerprint = native.mesh_fingerprint;
+            TableEntries = (long)native.table_entries;
+            BorderVertexCount = (long)native.border_vertex_count;
+            BoundingBoxDiagonal = native.bounding_box_diagonal;
+            Delta = native.delta;
+            Seed = native.seed;
+            FormatVersion = new Version((int)native.format_major, (int)native.format_minor);
+            PatchCounts = Counts(native.patch_count, (int)native.level_count);
+            ErrorSources = (int)native.error_sources;
+            ErrorMean = native.error_mean;
+            ErrorSignedMean = native.error_signed_mean;
+            ErrorP99 = native.error_p99;
+            ErrorP999 = native.error_p999;
+            ErrorMax = native.error_max;
+            ErrorMeanAtVertices = native.error_mean_at_vertices;
+        }
+
+        /// <summary>What a distance is.</summary>
+        public MetricKind Metric { get; }
+
+        /// <summary>Properties of the metric.</summary>
+        public MetricFlags MetricFlags { get; }
+
+        /// <summary>Of what decides the metric besides the mesh (costs, lengths); 0: nothing.</summary>
+        public ulong MetricFingerprint { get; }
+
+        /// <summary>How the index answers.</summary>
+        public GeodesicEngine Engine { get; }
+
+        /// <summary>Vertices of the caller's array.</summary>
+        public long VertexCount { get; }
+
+        /// <summary>Triangles of the caller's array.</summary>
+        public long TriangleCount { get; }
+
+        /// <summary>Distinct vertices, after welding, that a triangle uses.</summary>
+        public long WeldedVertexCount { get; }
+
+        /// <summary>Of the caller's arrays.</summary>
+        public ulong MeshFingerprint { get; }
+
+        /// <summary>Distances in all tables.</summary>
+        public long TableEntries { get; }
+
+        /// <summary>Vertices on a border of the last level, after pruning.</summary>
+        public long BorderVertexCount { get; }
+
+        /// <summary>In the mesh's unit.</summary>
+        public double BoundingBoxDiagonal { get; }
+
+        /// <summary>The pruning threshold, in % of the bounding-box diagonal.</summary>
+        public double Delta { get; }
+
+        /// <summary>Of every random choice of the build.</summary>
+        public ulong Seed { get; }
+
+        /// <summary>Of the file.</summary>
+        public Version FormatVersion { get; }
+
+        /// <summary>Patches of each level below the whole mesh.</summary>
+        public IReadOnlyList<int> PatchCounts { get; }
+
+        /// <summary>How many sources the errors were measured from.</summary>
+        public int ErrorSources { get; }
+
+        /// <summary>The mean relative error.</summary>
+        public double ErrorMean { get; }
+
+        /// <summary>The mean relative error with its sign: negative where distances are too short.</summary>
+        public double ErrorSignedMean { get; }
+
+        /// <summary>The relative error that 1 % of the distances exceed.</summary>
+        public double ErrorP99 { get; }
+
+        /// <summary>The relative error that 0.1 % of the distances exceed.</summary>
+        public double ErrorP999 { get; }
+
+        /// <summary>The largest relative error.</summary>
+        public double ErrorMax { get; }
+
+        /// <summary>What the mean relative error would be if paths crossed borders at vertices only.</summary>
+        public double ErrorMeanAtVertices { get; }
+
+        private static unsafe int[] Counts(uint* native, int levels)
+        {
+            var counts = new int[levels];
+            for (int level = 0; level < levels; level++) counts[level] = (int)native[level];
+            return counts;
+        }
+    }
+}

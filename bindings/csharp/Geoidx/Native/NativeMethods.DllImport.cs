@@ -1,0 +1,127 @@
+#if !NET
+using System;
+using System.Runtime.InteropServices;
+
+namespace Geoidx
+{
+    internal static unsafe class NativeMethods
+    {
+        internal const string Library = "geoidx";
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern uint geoidx_version();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern IntPtr geoidx_status_string(GeodesicStatus status);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern IntPtr geoidx_last_error();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern void geoidx_mesh_init(void* mesh);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern void geoidx_build_options_init(void* options);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern void geoidx_open_options_init(void* options);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_build(
+            NativeMesh* mesh, NativeBuildOptions* options, out IntPtr index);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_save(
+            IndexHandle index, [MarshalAs(UnmanagedType.LPUTF8Str)] string utf8_path);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_save_memory(
+            IndexHandle index, byte* buffer, ulong capacity, out ulong needed);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_open(
+            [MarshalAs(UnmanagedType.LPUTF8Str)] string utf8_path, NativeOpenOptions* options,
+            out IntPtr index);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_open_memory(
+            byte* data, ulong size, NativeOpenOptions* options, out IntPtr index);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern void geoidx_close(IntPtr index);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_get_info(IndexHandle index, NativeInfo* info);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_verify(
+            byte* data, ulong size, IntPtr issue, IntPtr user);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_sssd(
+            IndexHandle index, int source, int target, out float distance);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_sssd_batch(
+            IndexHandle index, VertexPair* source_target_pairs, ulong pair_count, float* distances);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_msad(
+            IndexHandle index, int* sources, uint source_count, float* distances, uint distance_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_ssad_batch(
+            IndexHandle index, int* sources, uint source_count, float* distances, ulong distance_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_create(IndexHandle index, out IntPtr query);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern void geoidx_query_close(IntPtr query);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_sssd(
+            QueryHandle query, int source, int target, out float distance);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_msad(
+            QueryHandle query, int* sources, uint source_count, float* distances, uint distance_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_ssad_batch(
+            QueryHandle query, int* sources, uint source_count, float* distances, ulong distance_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_msad_within(
+            QueryHandle query, int* sources, uint source_count, float radius, float* distances,
+            uint distance_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_set_threads(QueryHandle query, uint threads);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_prepare(QueryHandle query, int source);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_prepared(
+            QueryHandle query, int* targets, ulong target_count, float* distances);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_solver_create(
+            NativeMesh* mesh, NativeBuildOptions* options, out IntPtr solver);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern void geoidx_solver_close(IntPtr solver);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_solver_distances(
+            SolverHandle solver, int* sources, uint source_count, int* targets, uint target_count,
+            double* distances);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_solver_point_distances(
+            SolverHandle solver, SurfacePoint* sources, uint source_count, SurfacePoint* targets,
+            uint target_count, double* distances);
+    }
+}
+#endif

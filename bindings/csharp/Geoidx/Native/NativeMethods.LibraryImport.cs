@@ -1,0 +1,125 @@
+#if NET
+using System;
+using System.Runtime.InteropServices;
+
+namespace Geoidx
+{
+    internal static unsafe partial class NativeMethods
+    {
+        internal const string Library = "geoidx";
+
+        [LibraryImport(Library)]
+        internal static partial uint geoidx_version();
+
+        [LibraryImport(Library)]
+        internal static partial IntPtr geoidx_status_string(GeodesicStatus status);
+
+        [LibraryImport(Library)]
+        internal static partial IntPtr geoidx_last_error();
+
+        [LibraryImport(Library)]
+        internal static partial void geoidx_mesh_init(void* mesh);
+
+        [LibraryImport(Library)]
+        internal static partial void geoidx_build_options_init(void* options);
+
+        [LibraryImport(Library)]
+        internal static partial void geoidx_open_options_init(void* options);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_build(
+            NativeMesh* mesh, NativeBuildOptions* options, out IntPtr index);
+
+        [LibraryImport(Library, StringMarshalling = StringMarshalling.Utf8)]
+        internal static partial GeodesicStatus geoidx_save(IndexHandle index, string utf8_path);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_save_memory(
+            IndexHandle index, byte* buffer, ulong capacity, out ulong needed);
+
+        [LibraryImport(Library, StringMarshalling = StringMarshalling.Utf8)]
+        internal static partial GeodesicStatus geoidx_open(
+            string utf8_path, NativeOpenOptions* options, out IntPtr index);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_open_memory(
+            byte* data, ulong size, NativeOpenOptions* options, out IntPtr index);
+
+        [LibraryImport(Library)]
+        internal static partial void geoidx_close(IntPtr index);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_get_info(IndexHandle index, NativeInfo* info);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_verify(
+            byte* data, ulong size, IntPtr issue, IntPtr user);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_sssd(
+            IndexHandle index, int source, int target, out float distance);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_sssd_batch(
+            IndexHandle index, VertexPair* source_target_pairs, ulong pair_count, float* distances);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_msad(
+            IndexHandle index, int* sources, uint source_count, float* distances, uint distance_count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_ssad_batch(
+            IndexHandle index, int* sources, uint source_count, float* distances, ulong distance_count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_create(IndexHandle index, out IntPtr query);
+
+        [LibraryImport(Library)]
+        internal static partial void geoidx_query_close(IntPtr query);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_sssd(
+            QueryHandle query, int source, int target, out float distance);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_msad(
+            QueryHandle query, int* sources, uint source_count, float* distances, uint distance_count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_ssad_batch(
+            QueryHandle query, int* sources, uint source_count, float* distances, ulong distance_count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_msad_within(
+            QueryHandle query, int* sources, uint source_count, float radius, float* distances,
+            uint distance_count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_set_threads(QueryHandle query, uint threads);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_prepare(QueryHandle query, int source);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_prepared(
+            QueryHandle query, int* targets, ulong target_count, float* distances);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_solver_create(
+            NativeMesh* mesh, NativeBuildOptions* options, out IntPtr solver);
+
+        [LibraryImport(Library)]
+        internal static partial void geoidx_solver_close(IntPtr solver);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_solver_distances(
+            SolverHandle solver, int* sources, uint source_count, int* targets, uint target_count,
+            double* distances);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_solver_point_distances(
+            SolverHandle solver, SurfacePoint* sources, uint source_count, SurfacePoint* targets,
+            uint target_count, double* distances);
+    }
+}
+#endif

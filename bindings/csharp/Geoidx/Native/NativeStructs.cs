@@ -1,0 +1,99 @@
+using System;
+using System.Runtime.InteropServices;
+
+// Fields are named as in geoidx.h.
+
+namespace Geoidx
+{
+    [StructLayout(LayoutKind.Sequential)]
+    internal struct NativeAllocator
+    {
+        internal IntPtr allocate;
+        internal IntPtr release;
+        internal IntPtr user;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeMesh
+    {
+        internal uint struct_size;
+        internal uint position_type;
+        internal void* positions;
+        internal ulong vertex_count;
+        internal int* triangles;
+        internal ulong triangle_count;
+        internal uint position_stride;
+        internal uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeBuildOptions
+    {
+        internal uint struct_size;
+        internal uint metric;
+        internal double weld_tolerance;
+        internal double delta;
+        internal ulong seed;
+        internal uint threads;
+        internal uint level_count;
+        internal fixed uint patches[8];
+        internal uint lloyd_iterations;
+        internal uint edge_cost_count;
+        internal int* edge_cost_vertices;
+        internal double* edge_costs;
+        internal IntPtr metric_callback;
+        internal IntPtr metric_user;
+        internal IntPtr progress;
+        internal IntPtr progress_user;
+        internal NativeAllocator allocator;
+        internal uint refuse_edges_of_many;
+        internal uint metric_flags;
+        internal double* face_costs;
+        internal ulong face_cost_count;
+        internal uint points_per_edge;
+        internal uint engine;
+        internal double* edge_lengths;
+        internal ulong edge_length_count;
+        internal uint exact_vertices;
+        internal uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeOpenOptions
+    {
+        internal uint struct_size;
+        internal uint reserved;
+        internal NativeMesh* expected_mesh;
+        internal NativeAllocator allocator;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeInfo
+    {
+        internal uint struct_size;
+        internal uint metric;
+        internal ulong vertex_count;
+        internal ulong triangle_count;
+        internal ulong welded_vertex_count;
+        internal ulong mesh_fingerprint;
+        internal ulong table_entries;
+        internal ulong border_vertex_count;
+        internal double bounding_box_diagonal;
+        internal double delta;
+        internal ulong seed;
+        internal uint format_major;
+        internal uint format_minor;
+        internal uint level_count;
+        internal fixed uint patch_count[8];
+        internal uint error_sources;
+        internal double error_mean;
+        internal double error_signed_mean;
+        internal double error_p99;
+        internal double error_p999;
+        internal double error_max;
+        internal ulong metric_fingerprint;
+        internal uint metric_flags;
+        internal uint engine;
+        internal double error_mean_at_vertices;
+    }
+}

@@ -1,0 +1,14 @@
+namespace Geoidx
+{
+    /// <summary>Options for opening an index.</summary>
+    public sealed class OpenOptions
+    {
+        /// <summary>
+        /// The mesh that the index must have been built from: the same arrays with the same numbers. Default: any.
+        /// </summary>
+        public GeodesicMesh? ExpectedMesh { get; set; }
+
+        /// <summary>Where the index and its queries get memory. Default: the global heap.</summary>
+        public IGeodesicAllocator? Allocator { get; set; }
+    }
+}
