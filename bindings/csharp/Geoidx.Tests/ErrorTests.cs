@@ -1,0 +1,211 @@
+using System;
+using System.Linq;
+using System.Text;
+using Xunit;
+
+namespace Geoidx.Tests
+{
+    public class ErrorTests
+    {
+        private const int MajorOffset = 8; // of format/SPEC.md
+        private const int SectionCountOffset = 20;
+
+        private sealed class NoMemory : IGeodesicAllocator
+        {
+            public IntPtr Allocate(ulong size, ulong alignment) => IntPtr.Zero;
+
+            public void Release(IntPtr memory, ulong size, ulong alignment) =>
+                throw new InvalidOperationException("Nothing was given.");
+        }
+
+        private static byte[] SquareBytes()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
+            return index.ToBytes();
+        }
+
+        private static void Fails<T>(GeodesicStatus status, string detail, Action call) where T : GeodesicException
+        {
+            T exception = Assert.Throws<T>(call);
+            Assert.Equal(status, exception.Status);
+            Assert.Contains(detail, exception.Message);
+        }
+
+        [Fact]
+        public void AVertexOutOfRangeIsAnArgument()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
+            using GeodesicQuery query = index.CreateQuery();
+            using var solver = new GeodesicSolver(Shapes.Square());
+            Action[] calls =
+            {
+                () => index.Distance(0, 4),
+                () => index.Distance(-1, 0),
+                () => index.Distances((0, 4)),
+                () => index.FromSources(4),
+                () => index.FromSources(),
+                () => index.FromEachSource(4),
+                () => query.Distance(0, 4),
+                () => query.Prepare(4),
+                () => query.FromPrepared(0),
+                () => query.SetThreads(1025),
+                () => query.FromSourcesWithin(new[] { 0 }, -1, new float[4]),
+                () => solver.Distance(0, 4),
+            };
+            foreach (Action call in calls) Fails<GeodesicArgumentException>(GeodesicStatus.InvalidArgument, "", call);
+            Fails<GeodesicArgumentException>(
+                GeodesicStatus.InvalidArgument, "vertex 77", () => index.Distance(77, 0));
+        }
+
+        [Fact]
+        public void SpansOfTheWrongLengthAreArguments()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
+            using GeodesicQuery query = index.CreateQuery();
+            using var solver = new GeodesicSolver(Shapes.Square());
+            Action[] calls =
+            {
+                () => index.Distances(new VertexPair[2], new float[1]),
+                () => index.FromSources(new[] { 0 }, new float[3]),
+                () => index.FromEachSource(new[] { 0, 1 }, new float[4]),
+                () => query.FromSources(new[] { 0 }, new float[5]),
+                () => query.FromPrepared(new[] { 0, 1 }, new float[1]),
+                () => solver.FromSources(new[] { 0 }, new double[3]),
+                () => solver.Distances(new[] { 0 }, new[] { 0, 1 }, new double[1]),
+                () => GeodesicIndex.Build(GeodesicMesh.From(new float[4], new int[3])),
+                () => GeodesicIndex.Build(GeodesicMesh.From(new float[9], new int[4])),
+                () => GeodesicMesh.From(new short[9], new int[3]),
+                () => GeodesicIndex.Build(Shapes.Square(), new BuildOptions { Patches = new int[9] }),
+                () => GeodesicIndex.Build(Shapes.Square(), new BuildOptions { EdgeCosts = new double[1] }),
+                () => GeodesicIndex.Open("a\0b"),
+            };
+            foreach (Action call in calls) Fails<GeodesicArgumentException>(GeodesicStatus.InvalidArgument, "", call);
+        }
+
+        [Fact]
+        public void NullIsRefused()
+        {
+            Assert.Throws<ArgumentNullException>(() => GeodesicIndex.Build(null!));
+            Assert.Throws<ArgumentNullException>(() => GeodesicIndex.Open((string)null!));
+            Assert.Throws<ArgumentNullException>(() => GeodesicIndex.Open((System.IO.Stream)null!));
+            Assert.Throws<ArgumentNullException>(() => new GeodesicSolver(null!));
+        }
+
+        [Fact]
+        public void AMissingFileIsIO() =>
+            Fails<GeodesicIOException>(
+                GeodesicStatus.IO, "/no/such/file", () => GeodesicIndex.Open("/no/such/file"));
+
+        [Fact]
+        public void OtherDataIsNotAnIndex() =>
+            Fails<GeodesicDataException>(
+                GeodesicStatus.NotAnIndex, "", () => GeodesicIndex.Open(Encoding.ASCII.GetBytes("something else")));
+
+        [Fact]
+        public void AnEndTooEarlyIsTruncated() =>
+            Fails<GeodesicDataException>(
+                GeodesicStatus.Truncated, "", () => GeodesicIndex.Open(SquareBytes().AsSpan(0, 100)));
+
+        [Fact]
+        public void BytesTooManyAreCorrupt() =>
+            Fails<GeodesicDataException>(
+                GeodesicStatus.Corrupt, "", () => GeodesicIndex.Open(SquareBytes().Append((byte)0).ToArray()));
+
+        [Fact]
+        public void AChangedByteIsAChecksum()
+        {
+            byte[] bytes = SquareBytes();
+            bytes[bytes.Length - 1] ^= 1;
+            Fails<GeodesicDataException>(GeodesicStatus.Checksum, "", () => GeodesicIndex.Open(bytes));
+        }
+
+        [Fact]
+        public void ANewerFormatIsAVersion()
+        {
+            byte[] bytes = SquareBytes();
+            bytes[MajorOffset] = 99;
+            Fails<GeodesicVersionException>(
+                GeodesicStatus.UnsupportedVersion, "99", () => GeodesicIndex.Open(bytes));
+        }
+
+        [Fact]
+        public void AnotherMeshIsAMismatch()
+        {
+            byte[] bytes = SquareBytes();
+            var options = new OpenOptions { ExpectedMesh = Shapes.Cube() };
+            Fails<GeodesicMeshMismatchException>(
+                GeodesicStatus.MeshMismatch, "8", () => GeodesicIndex.Open(bytes, options));
+        }
+
+        [Fact]
+        public void TooManySectionsAreALimit()
+        {
+            byte[] bytes = SquareBytes();
+            for (int i = 0; i < 4; i++) bytes[SectionCountOffset + i] = 0xff;
+            Fails<GeodesicLimitException>(GeodesicStatus.Limit, "", () => GeodesicIndex.Open(bytes));
+        }
+
+        [Fact]
+        public void NoMemoryIsOutOfMemory()
+        {
+            var options = new BuildOptions { Allocator = new NoMemory() };
+            Fails<GeodesicOutOfMemoryException>(
+                GeodesicStatus.OutOfMemory, "", () => GeodesicIndex.Build(Shapes.Square(), options));
+        }
+
+        [Fact]
+        public void APositionThatIsNoNumberIsABadMesh()
+        {
+            var mesh = GeodesicMesh.From(new[] { 0, 0, 0, 1, 0, 0, 1, float.NaN, 0 }, new[] { 0, 1, 2 });
+            Fails<GeodesicMeshException>(GeodesicStatus.BadMesh, "2", () => GeodesicIndex.Build(mesh));
+        }
+
+        [Fact]
+        public void AnEdgeOfManyIsABadMeshOnRequest()
+        {
+            float[] positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0 };
+            var mesh = GeodesicMesh.From(positions, new[] { 0, 1, 2, 0, 1, 3, 0, 1, 4 });
+            GeodesicIndex.Build(mesh).Dispose();
+            Fails<GeodesicMeshException>(
+                GeodesicStatus.BadMesh,
+                "",
+                () => GeodesicIndex.Build(mesh, new BuildOptions { RefuseEdgesOfMany = true }));
+        }
+
+        [Fact]
+        public void AMetricThatGivesNoNumberIsACallback()
+        {
+            var options = new BuildOptions
+            {
+                Metric = MetricKind.Callback,
+                MetricCallback = (_, _, distances) => distances.Fill(double.NaN),
+            };
+            Fails<GeodesicMetricException>(
+                GeodesicStatus.Callback, "", () => GeodesicIndex.Build(Shapes.Square(), options));
+        }
+
+        [Theory]
+        [InlineData(GeodesicStatus.InvalidArgument, typeof(GeodesicArgumentException))]
+        [InlineData(GeodesicStatus.IO, typeof(GeodesicIOException))]
+        [InlineData(GeodesicStatus.NotAnIndex, typeof(GeodesicDataException))]
+        [InlineData(GeodesicStatus.Truncated, typeof(GeodesicDataException))]
+        [InlineData(GeodesicStatus.Corrupt, typeof(GeodesicDataException))]
+        [InlineData(GeodesicStatus.Checksum, typeof(GeodesicDataException))]
+        [InlineData(GeodesicStatus.UnsupportedVersion, typeof(GeodesicVersionException))]
+        [InlineData(GeodesicStatus.MeshMismatch, typeof(GeodesicMeshMismatchException))]
+        [InlineData(GeodesicStatus.Limit, typeof(GeodesicLimitException))]
+        [InlineData(GeodesicStatus.OutOfMemory, typeof(GeodesicOutOfMemoryException))]
+        [InlineData(GeodesicStatus.Cancelled, typeof(OperationCanceledException))]
+        [InlineData(GeodesicStatus.BadMesh, typeof(GeodesicMeshException))]
+        [InlineData(GeodesicStatus.Callback, typeof(GeodesicMetricException))]
+        [InlineData(GeodesicStatus.Internal, typeof(GeodesicException))]
+        [InlineData((GeodesicStatus)(-999), typeof(GeodesicException))]
+        public void EveryStatusIsItsException(GeodesicStatus status, Type type)
+        {
+            Exception exception = GeodesicException.For(status, "the detail");
+            Assert.IsType(type, exception);
+            Assert.Equal("the detail", exception.Message);
+            if (exception is GeodesicException failure) Assert.Equal(status, failure.Status);
+        }
+    }
+}

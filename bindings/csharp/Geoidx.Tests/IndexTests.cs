@@ -1,0 +1,212 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Numerics;
+using Xunit;
+
+namespace Geoidx.Tests
+{
+    public sealed class IndexTests : IDisposable
+    {
+        private const int Side = 12;
+        private const double LeafTolerance = 1e-3; // 1/65532 of a leaf's longest distance, for leaves of this size
+
+        private readonly GeodesicIndex plane = GeodesicIndex.Build(Shapes.Plane(Side));
+
+        public void Dispose() => plane.Dispose();
+
+        // Across leaves an index is not exact.
+        private static void AssertNearly(double exact, float distance) =>
+            Assert.InRange(distance, 0.95 * exact, 1.05 * exact);
+
+        [Fact]
+        public void DistancesInAPlaneAreNearlyStraight()
+        {
+            for (int target = 0; target < Side * Side; target++)
+                AssertNearly(Shapes.PlaneDistance(Side, 17, target), plane.Distance(17, target));
+        }
+
+        [Fact]
+        public void DistancesOnACubeAreThoseOfItsNet()
+        {
+            using GeodesicIndex cube = GeodesicIndex.Build(Shapes.Cube());
+            Assert.Equal(1, cube.Distance(0, 1), LeafTolerance);
+            Assert.Equal(Math.Sqrt(2), cube.Distance(0, 3), LeafTolerance);
+            Assert.Equal(Math.Sqrt(5), cube.Distance(0, 7), LeafTolerance);
+        }
+
+        [Theory]
+        [InlineData(GeodesicEngine.Graph)]
+        [InlineData(GeodesicEngine.Overlay)]
+        public void DistancesOnAConeAreChordsOrPassTheApex(GeodesicEngine engine)
+        {
+            const double angle = 0.35;
+            using GeodesicIndex cone = GeodesicIndex.Build(
+                Shapes.Cone(17, angle), new BuildOptions { Engine = engine, Threads = 1 });
+            for (int steps = 1; steps <= 8; steps++)
+                Assert.Equal(Shapes.RimDistance(angle, steps), cone.Distance(1, 1 + steps), LeafTolerance);
+            Assert.Equal(1, cone.Distance(0, 9), LeafTolerance);
+        }
+
+        [Fact]
+        public void PairsGiveTheSameBitsAsSingleQuestions()
+        {
+            VertexPair[] pairs = { (0, 5), (5, 0), (143, 7), (9, 9) };
+            Assert.Equal(pairs.Select(pair => plane.Distance(pair.Source, pair.Target)), plane.Distances(pairs));
+            Assert.Empty(plane.Distances());
+        }
+
+        [Fact]
+        public void SourcesGiveTheDistanceToTheNearest()
+        {
+            float[] distances = plane.FromSources(0, Side * Side - 1);
+            for (int v = 0; v < distances.Length; v++)
+            {
+                double expected = Math.Min(
+                    Shapes.PlaneDistance(Side, 0, v), Shapes.PlaneDistance(Side, Side * Side - 1, v));
+                AssertNearly(expected, distances[v]);
+            }
+        }
+
+        [Fact]
+        public void EachSourceGivesTheSameBitsAsAlone()
+        {
+            Assert.Equal(plane.FromSources(3).Concat(plane.FromSources(77)), plane.FromEachSource(3, 77));
+        }
+
+        [Fact]
+        public void AStructOfFloatsAndASpanAreTheSameMesh()
+        {
+            (float[] positions, int[] triangles) = Shapes.PlaneArrays(Side);
+            var vertices = new Vector3[Side * Side];
+            for (int v = 0; v < vertices.Length; v++)
+                vertices[v] = new Vector3(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]);
+
+            using GeodesicIndex structs = GeodesicIndex.Build(GeodesicMesh.From(vertices, triangles));
+            using GeodesicIndex span = GeodesicIndex.Build<Vector3>(vertices, triangles);
+            using GeodesicIndex floats = GeodesicIndex.Build<float>(positions, triangles);
+            Assert.Equal(plane.ToBytes(), structs.ToBytes());
+            Assert.Equal(plane.ToBytes(), span.ToBytes());
+            Assert.Equal(plane.ToBytes(), floats.ToBytes());
+        }
+
+        [Fact]
+        public void AStructOfDoublesIsAMesh()
+        {
+            var corners = new[] { (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0) };
+            using GeodesicIndex square = GeodesicIndex.Build(
+                GeodesicMesh.From(corners, new[] { 0, 1, 2, 0, 2, 3 }, PositionType.Double));
+            Assert.Equal(Math.Sqrt(2), square.Distance(1, 3), LeafTolerance);
+        }
+
+        [Fact]
+        public void TheInformationIsThatOfTheMeshAndTheOptions()
+        {
+            var options = new BuildOptions
+            {
+                Engine = GeodesicEngine.Graph, Seed = 7, LevelCount = 2, Patches = new[] { 3, 2 }, Delta = 0.5,
+            };
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(Side), options);
+            GeodesicInfo info = index.Info;
+            Assert.Equal(Side * Side, index.VertexCount);
+            Assert.Equal(Side * Side, info.VertexCount);
+            Assert.Equal(Side * Side, info.WeldedVertexCount);
+            Assert.Equal(2 * (Side - 1) * (Side - 1), info.TriangleCount);
+            Assert.Equal((MetricKind.Exact, MetricFlags.Unfoldable), (info.Metric, info.MetricFlags));
+            Assert.Equal((GeodesicEngine.Graph, 7ul, 0.5), (info.Engine, info.Seed, info.Delta));
+            Assert.Equal((Side - 1) * Math.Sqrt(2), info.BoundingBoxDiagonal, 1e-6);
+            Assert.Equal(2, info.PatchCounts.Count);
+            Assert.True(info.PatchCounts[0] >= 3 && info.PatchCounts[1] >= 6);
+            Assert.True(info.TableEntries > 0 && info.BorderVertexCount > 0 && info.ErrorSources > 0);
+            Assert.InRange(info.ErrorMean, 0, info.ErrorMax);
+            Assert.InRange(info.ErrorP99, 0, info.ErrorP999);
+            Assert.InRange(Math.Abs(info.ErrorSignedMean), 0, info.ErrorMean);
+            Assert.Equal(info.ErrorMean, info.ErrorMeanAtVertices);
+            Assert.Equal(0ul, info.MetricFingerprint);
+            Assert.Equal(plane.Info.MeshFingerprint, info.MeshFingerprint);
+            Assert.Equal(plane.Info.FormatVersion, info.FormatVersion);
+        }
+
+        [Fact]
+        public void WhatIsSavedIsOpened()
+        {
+            string folder = Path.Combine(Path.GetTempPath(), $"geoidx-{Guid.NewGuid():N}");
+            Directory.CreateDirectory(folder);
+            try
+            {
+                string path = Path.Combine(folder, "Fläche-平面.geoidx");
+                plane.Save(path);
+                using GeodesicIndex opened = GeodesicIndex.Open(path);
+                Assert.Equal(plane.FromSources(5), opened.FromSources(5));
+                Assert.Equal(plane.ToBytes(), File.ReadAllBytes(path));
+            }
+            finally
+            {
+                Directory.Delete(folder, recursive: true);
+            }
+        }
+
+        [Fact]
+        public void StreamsAndBytesAreFiles()
+        {
+            using var stream = new MemoryStream();
+            plane.Save(stream);
+            stream.Position = 0;
+            using GeodesicIndex fromStream = GeodesicIndex.Open(stream);
+            using GeodesicIndex fromBytes = GeodesicIndex.Open(plane.ToBytes());
+            Assert.Equal(plane.Distance(0, 100), fromStream.Distance(0, 100));
+            Assert.Equal(plane.Distance(0, 100), fromBytes.Distance(0, 100));
+        }
+
+        [Fact]
+        public void AnEmbeddedResourceIsOpened()
+        {
+            using Stream resource = typeof(IndexTests).Assembly.GetManifestResourceStream("square.geoidx")!;
+            using GeodesicIndex square = GeodesicIndex.Open(resource);
+            Assert.Equal(4, square.VertexCount);
+            Assert.Equal(Math.Sqrt(2), square.Distance(1, 3), 1e-4);
+        }
+
+        [Fact]
+        public void TheExpectedMeshIsAccepted()
+        {
+            using GeodesicIndex opened = GeodesicIndex.Open(
+                plane.ToBytes(), new OpenOptions { ExpectedMesh = Shapes.Plane(Side) });
+            Assert.Equal(plane.VertexCount, opened.VertexCount);
+        }
+
+        [Fact]
+        public void AnIndexVerifies() => Assert.Empty(GeodesicIndex.Verify(plane.ToBytes()));
+
+        [Fact]
+        public void EveryProblemIsVisited()
+        {
+            byte[] bytes = plane.ToBytes();
+            bytes[bytes.Length - 1] ^= 1;
+            Array.Resize(ref bytes, bytes.Length + 1);
+            IReadOnlyList<GeodesicIssue> issues = GeodesicIndex.Verify(bytes);
+            Assert.Contains(issues, issue => issue.Status == GeodesicStatus.Corrupt);
+            GeodesicIssue wrong = Assert.Single(issues, issue => issue.Status == GeodesicStatus.Checksum);
+            Assert.NotEmpty(wrong.Message);
+            Assert.InRange(wrong.Offset, 1, bytes.Length);
+
+            var visited = new List<GeodesicIssue>();
+            GeodesicStatus first = GeodesicIndex.Verify(bytes, issue =>
+            {
+                visited.Add(issue);
+                return false;
+            });
+            Assert.Equal(issues[0].Status, first);
+            Assert.Single(visited);
+        }
+
+        [Fact]
+        public void AnUnusedVertexIsUnreachable()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(
+                GeodesicMesh.From(new float[] { 0, 0, 0, 1, 0, 0, 1, 1, 0, 9, 9, 9 }, new[] { 0, 1, 2 }));
+            Assert.True(float.IsPositiveInfinity(index.Distance(0, 3)));
+        }
+    }
+}

@@ -1,0 +1,95 @@
+using System;
+using Xunit;
+#if NET
+using System.IO;
+using System.Reflection;
+using System.Runtime.Loader;
+#endif
+
+namespace Geoidx.Tests
+{
+    public class LibraryTests
+    {
+        [Fact]
+        public void TheVersionFits() => Assert.Equal(GeodesicLibrary.ExpectedVersion, GeodesicLibrary.Version);
+
+        [Fact]
+        public void ALoadedLibraryStays()
+        {
+            Assert.NotEmpty(GeodesicLibrary.Describe(GeodesicStatus.Ok));
+            Assert.Throws<InvalidOperationException>(() => GeodesicLibrary.Path = "elsewhere");
+        }
+
+        [Fact]
+        public void EveryStatusHasItsPhrase()
+        {
+            Assert.Equal("success", GeodesicLibrary.Describe(GeodesicStatus.Ok));
+            Assert.Equal("cancelled", GeodesicLibrary.Describe(GeodesicStatus.Cancelled));
+            Assert.NotEmpty(GeodesicLibrary.Describe((GeodesicStatus)(-999)));
+        }
+
+        [Fact]
+        public void AnotherVersionIsRefusedByName()
+        {
+            var refused = Assert.Throws<GeodesicLibraryException>(() => GeodesicLibrary.CheckVersion(990102));
+            Assert.Contains("99.1.2", refused.Message);
+            Assert.Contains(GeodesicLibrary.ExpectedVersion.ToString(), refused.Message);
+        }
+
+#if NET
+        /// <summary>The assembly a second time, bound to another native library.</summary>
+        private sealed class SecondCopy
+        {
+            private readonly Assembly assembly;
+
+            internal SecondCopy(string nativeLibrary)
+            {
+                assembly = new AssemblyLoadContext(null).LoadFromAssemblyPath(typeof(GeodesicIndex).Assembly.Location);
+                Library.GetProperty("Path")!.SetValue(null, nativeLibrary);
+            }
+
+            internal Type Library => assembly.GetType("Geoidx.GeodesicLibrary")!;
+
+            internal Exception Failure(string type, string method, params object?[] arguments)
+            {
+                var types = Array.ConvertAll(arguments, argument => argument?.GetType());
+                MethodInfo called = Array.Find(
+                    assembly.GetType(type)!.GetMethods(),
+                    candidate => candidate.Name == method &&
+                                 candidate.GetParameters().Length == types.Length &&
+                                 (types.Length == 0 || candidate.GetParameters()[0].ParameterType == types[0]))!;
+                return Assert.Throws<TargetInvocationException>(() => called.Invoke(null, arguments)).InnerException!;
+            }
+        }
+
+        private static string Beside(string name) => Path.Combine(AppContext.BaseDirectory, name);
+
+        [Fact]
+        public void ALibraryOfAnotherVersionIsRefused()
+        {
+            Exception refused =
+                new SecondCopy(Beside("libgeoidx-other.so")).Failure("Geoidx.GeodesicLibrary", "get_Version");
+            Assert.Equal(nameof(GeodesicLibraryException), refused.GetType().Name);
+            Assert.Contains("99.1.2", refused.Message);
+        }
+
+        [Fact]
+        public void AMissingLibraryIsNamed()
+        {
+            Exception refused = new SecondCopy("/no/such/library.so").Failure("Geoidx.GeodesicLibrary", "get_Version");
+            Assert.Equal(nameof(GeodesicLibraryException), refused.GetType().Name);
+            Assert.Contains("/no/such/library.so", refused.Message);
+        }
+
+        [Fact]
+        public void ADefectOfTheLibraryIsInternal()
+        {
+            Exception failure =
+                new SecondCopy(Beside("libgeoidx-failing.so")).Failure("Geoidx.GeodesicIndex", "Open", "a file", null);
+            Assert.Equal(nameof(GeodesicException), failure.GetType().Name);
+            Assert.Equal("the detail", failure.Message);
+            Assert.Equal("Internal", failure.GetType().GetProperty("Status")!.GetValue(failure)!.ToString());
+        }
+#endif
+    }
+}

@@ -1,0 +1,131 @@
+using System;
+using System.IO;
+using System.Linq;
+using System.Runtime.CompilerServices;
+using System.Threading;
+using System.Threading.Tasks;
+using Xunit;
+
+namespace Geoidx.Tests
+{
+    public class LifetimeTests
+    {
+        [Fact]
+        public void DisposeReturnsAllMemory()
+        {
+            var allocator = new CountingAllocator();
+            GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(9), new BuildOptions { Allocator = allocator });
+            GeodesicIndex opened = GeodesicIndex.Open(index.ToBytes(), new OpenOptions { Allocator = allocator });
+            GeodesicQuery query = opened.CreateQuery();
+            query.Distance(0, 3);
+            Assert.True(allocator.Bytes > 0);
+            opened.Dispose();
+            index.Dispose();
+            Assert.True(allocator.Bytes > 0);
+            query.Dispose();
+            query.Dispose();
+            Assert.Equal(0, allocator.Bytes);
+        }
+
+        [Fact]
+        public void TheFinalizerReturnsAllMemory()
+        {
+            var allocator = new CountingAllocator();
+            var thread = new Thread(() => Abandon(allocator));
+            thread.Start();
+            thread.Join();
+            Assert.True(SpinWait.SpinUntil(() => IsFreedByCollection(allocator), TimeSpan.FromSeconds(20)));
+        }
+
+        [Fact]
+        public void NothingAnswersAfterDispose()
+        {
+            GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
+            GeodesicQuery query = index.CreateQuery();
+            var solver = new GeodesicSolver(Shapes.Square());
+            query.Dispose();
+            index.Dispose();
+            solver.Dispose();
+            var floats = new float[4];
+            var doubles = new double[1];
+            Action[] calls =
+            {
+                () => index.Distance(0, 1),
+                () => index.Distances((0, 1)),
+                () => index.FromSources(0),
+                () => index.FromEachSource(0),
+                () => index.CreateQuery(),
+                () => index.Save("never.geoidx"),
+                () => index.Save(new MemoryStream()),
+                () => index.ToBytes(),
+                () => query.Distance(0, 1),
+                () => query.FromSources(new[] { 0 }, floats),
+                () => query.FromSourcesWithin(new[] { 0 }, 1, floats),
+                () => query.FromEachSource(new[] { 0 }, floats),
+                () => query.Prepare(0),
+                () => query.FromPrepared(0),
+                () => query.SetThreads(1),
+                () => solver.Distance(0, 1),
+                () => solver.FromSources(0),
+                () => solver.Distances(new[] { 0 }, new[] { 1 }, doubles),
+                () => solver.PointDistances(new SurfacePoint[1], new SurfacePoint[1], doubles),
+            };
+            foreach (Action call in calls) Assert.Throws<ObjectDisposedException>(call);
+        }
+
+        [Fact]
+        public async Task EightTasksAskOneIndex()
+        {
+            const int side = 30;
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(side));
+            var random = new Random(1);
+            VertexPair[] pairs = Enumerable.Range(0, 300)
+                .Select(_ => new VertexPair(random.Next(side * side), random.Next(side * side)))
+                .ToArray();
+            float[] expected = index.Distances(pairs);
+            float[] field = index.FromSources(7);
+            await Task.WhenAll(Enumerable.Range(0, 8).Select(_ => Task.Run(() =>
+            {
+                using GeodesicQuery query = index.CreateQuery();
+                for (int i = 0; i < pairs.Length; i++)
+                {
+                    Assert.Equal(expected[i], index.Distance(pairs[i].Source, pairs[i].Target));
+                    Assert.Equal(expected[i], query.Distance(pairs[i].Source, pairs[i].Target));
+                }
+                Assert.Equal(field, index.FromSources(7));
+            })));
+        }
+
+        [Fact]
+        public async Task TasksBuildSaveAndOpen()
+        {
+            string path = Path.GetTempFileName();
+            try
+            {
+                using GeodesicIndex index = await GeodesicIndex.BuildAsync(Shapes.Plane(9));
+                await index.SaveAsync(path);
+                using GeodesicIndex opened = await GeodesicIndex.OpenAsync(path);
+                Assert.Equal(index.Distance(0, 80), opened.Distance(0, 80));
+            }
+            finally
+            {
+                File.Delete(path);
+            }
+        }
+
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        private static void Abandon(CountingAllocator allocator)
+        {
+            GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(9), new BuildOptions { Allocator = allocator });
+            index.CreateQuery().Distance(0, 3);
+            Assert.True(allocator.Bytes > 0);
+        }
+
+        private static bool IsFreedByCollection(CountingAllocator allocator)
+        {
+            GC.Collect();
+            GC.WaitForPendingFinalizers();
+            return allocator.Bytes == 0;
+        }
+    }
+}

@@ -1,0 +1,15 @@
+/* Has geoidx's names, but cannot open an index. */
+#include "geoidx.h"
+
+uint32_t geoidx_version(void) { return FAKE_VERSION; }
+
+const char* geoidx_last_error(void) { return "the detail"; }
+
+void geoidx_open_options_init(geoidx_open_options* options) { (void)options; }
+
+geoidx_status geoidx_open(const char* utf8_path, const geoidx_open_options* options, geoidx** out) {
+    (void)utf8_path;
+    (void)options;
+    *out = 0;
+    return GEOIDX_ERROR_INTERNAL;
+}
