@@ -1,0 +1,85 @@
+using System;
+using System.IO;
+using System.Threading;
+using UnityEditor;
+using UnityEngine;
+
+namespace Geoidx.Editor
+{
+    /// <summary>Builds the index of a selected mesh, as an asset beside it, behind a progress bar.</summary>
+    public static class GeodesicIndexMenu
+    {
+        private const string Command = "Assets/Build Geodesic Index";
+
+        /// <summary>
+        /// Builds the index of a mesh and saves it to a path of the project, which should end in .bytes. The build
+        /// stops when the user cancels it.
+        /// </summary>
+        /// <returns>Whether the index was built; not when the user cancelled.</returns>
+        public static bool Build(Mesh mesh, string path, BuildOptions? options = null)
+        {
+            using var cancellation = new CancellationTokenSource();
+            options ??= new BuildOptions();
+            options.StageProgress = new ProgressBar(mesh.name, cancellation);
+            try
+            {
+                using GeodesicIndex index =
+                    GeodesicIndex.Build(mesh.ToGeodesicMesh(), options, null, cancellation.Token);
+                index.Save(path);
+                AssetDatabase.ImportAsset(path);
+                return true;
+            }
+            catch (OperationCanceledException)
+            {
+                return false;
+            }
+            finally
+            {
+                EditorUtility.ClearProgressBar();
+            }
+        }
+
+        [MenuItem(Command)]
+        private static void BuildSelected()
+        {
+            Mesh? mesh = SelectedMesh();
+            if (mesh != null) Build(mesh, PathBeside(mesh));
+        }
+
+        [MenuItem(Command, true)]
+        private static bool CanBuildSelected() => SelectedMesh() != null;
+
+        private static Mesh? SelectedMesh()
+        {
+            if (!(Selection.activeObject is GameObject selected)) return Selection.activeObject as Mesh;
+            MeshFilter filter = selected.GetComponentInChildren<MeshFilter>();
+            return filter == null ? null : filter.sharedMesh;
+        }
+
+        private static string PathBeside(Mesh mesh)
+        {
+            string asset = AssetDatabase.GetAssetPath(mesh);
+            bool isInProject = asset.StartsWith("Assets/", StringComparison.Ordinal);
+            string folder = isInProject ? Path.GetDirectoryName(asset)! : "Assets";
+            return AssetDatabase.GenerateUniqueAssetPath($"{folder.Replace('\\', '/')}/{mesh.name}.geoidx.bytes");
+        }
+
+        private sealed class ProgressBar : IProgress<BuildStage>
+        {
+            private readonly string mesh;
+            private readonly CancellationTokenSource cancellation;
+
+            internal ProgressBar(string mesh, CancellationTokenSource cancellation)
+            {
+                this.mesh = mesh;
+                this.cancellation = cancellation;
+            }
+
+            public void Report(BuildStage stage)
+            {
+                if (EditorUtility.DisplayCancelableProgressBar($"Geodesic index of {mesh}", stage.Name, stage.Fraction))
+                    cancellation.Cancel();
+            }
+        }
+    }
+}

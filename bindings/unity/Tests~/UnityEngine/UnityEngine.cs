@@ -1,0 +1,102 @@
+#nullable disable
+using System;
+
+// As much of UnityEngine as the package uses, with the same names and signatures.
+
+namespace UnityEngine
+{
+    public struct Vector3
+    {
+        public float x;
+        public float y;
+        public float z;
+
+        public Vector3(float x, float y, float z)
+        {
+            this.x = x;
+            this.y = y;
+            this.z = z;
+        }
+    }
+
+    public struct Color
+    {
+        public float r;
+        public float g;
+        public float b;
+        public float a;
+
+        public Color(float r, float g, float b)
+        {
+            this.r = r;
+            this.g = g;
+            this.b = b;
+            a = 1;
+        }
+
+        public static Color red => new Color(1, 0, 0);
+
+        public static Color blue => new Color(0, 0, 1);
+
+        public static Color grey => new Color(0.5f, 0.5f, 0.5f);
+
+        public static Color Lerp(Color a, Color b, float t) =>
+            new Color(a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t);
+    }
+
+    public class Object
+    {
+        public string name { get; set; } = "";
+    }
+
+    public sealed class Mesh : Object
+    {
+        public Vector3[] vertices { get; set; }
+
+        public int[] triangles { get; set; }
+
+        public Color[] colors { get; set; }
+    }
+
+    public class TextAsset : Object
+    {
+        public virtual byte[] bytes { get; protected set; }
+    }
+
+    public sealed class GameObject : Object
+    {
+        public MeshFilter Filter { get; set; }
+
+        public T GetComponentInChildren<T>() => (T)(object)Filter;
+    }
+
+    public class Component : Object
+    {
+        public GameObject gameObject { get; set; }
+
+        public T GetComponent<T>() => gameObject.GetComponentInChildren<T>();
+    }
+
+    public class Behaviour : Component
+    {
+    }
+
+    public class MonoBehaviour : Behaviour
+    {
+    }
+
+    public sealed class MeshFilter : Component
+    {
+        public Mesh mesh { get; set; }
+
+        public Mesh sharedMesh => mesh;
+    }
+
+    [AttributeUsage(AttributeTargets.Class)]
+    public sealed class RequireComponent : Attribute
+    {
+        public RequireComponent(Type requiredComponent)
+        {
+        }
+    }
+}

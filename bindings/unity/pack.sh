@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# pack.sh FOLDER: assembles the Unity package in FOLDER/package and packs it as FOLDER/com.geoidx-VERSION.tgz. The C# of
+# ../csharp goes in, and those native libraries that are in ../csharp/runtimes.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+out=$1
+package=$out/package
+rm -rf "$package"
+mkdir -p "$package"
+cp -R "$here"/{package.json,README.md,Editor,Samples~} "$package"
+mkdir -p "$package/Runtime/Geoidx"
+cp "$here"/Runtime/{*.cs,*.asmdef,csc.rsp} "$package/Runtime"
+
+(cd "$here/../csharp/Geoidx" && find . -name '*.cs' -not -path './obj/*' -not -path './bin/*' \
+    -not -name '*.LibraryImport.cs' -exec cp --parents {} "$package/Runtime/Geoidx" \;)
+
+for meta in "$here"/Runtime/Plugins/*/*.meta; do
+    plugin=$(basename "$(dirname "$meta")")/$(basename "$meta" .meta)
+    native=$here/../csharp/runtimes/${plugin%/*}/native/${plugin#*/}
+    [ -f "$native" ] || continue
+    mkdir -p "$package/Runtime/Plugins/${plugin%/*}"
+    cp "$native" "$meta" "$package/Runtime/Plugins/${plugin%/*}"
+done
+
+importer_of() {
+    if [ -d "$1" ]; then printf 'folderAsset: yes\nDefaultImporter:\n'; return; fi
+    case $1 in
+    *.cs) printf 'MonoImporter:\n  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n  icon: {instanceID: 0}\n' ;;
+    *.asmdef) printf 'AssemblyDefinitionImporter:\n' ;;
+    */package.json) printf 'PackageManifestImporter:\n' ;;
+    *.md) printf 'TextScriptImporter:\n' ;;
+    *) printf 'DefaultImporter:\n' ;;
+    esac
+}
+
+# An asset's identity is made from its place in the package, so that it stays the same from release to release.
+write_meta() {
+    local place=${1#"$package"/}
+    {
+        printf 'fileFormatVersion: 2\nguid: %s\n' "$(printf 'com.geoidx/%s' "$place" | md5sum | cut -c1-32)"
+        importer_of "$1"
+        printf '  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n'
+    } >"$1.meta"
+}
+
+find "$package" -mindepth 1 -not -name '*.meta' -not -path "$package/Samples~*" | while read -r asset; do
+    [ -e "$asset.meta" ] || write_meta "$asset"
+done
+
+version=$(sed -n 's/.*"version": "\(.*\)".*/\1/p' "$here/package.json")
+tar -C "$out" --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -cf - package |
+    gzip -n >"$out/com.geoidx-$version.tgz"
