@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# Builds and tests bindings/csharp and bindings/unity into build/csharp, against the libgeoidx.so in the folder that
+# GEOIDX_NATIVE names (default: build/release/src). Without .NET or Mono, what needs them is skipped, which is said.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+if ! command -v dotnet >/dev/null; then
+    echo "SKIPPED: .NET SDK is missing"
+    exit 0
+fi
+
+GEOIDX_NATIVE=$(realpath -m "${GEOIDX_NATIVE:-build/release/src}")
+if [ ! -e "$GEOIDX_NATIVE/libgeoidx.so" ]; then
+    echo "there is no $GEOIDX_NATIVE/libgeoidx.so: build the shared library, or set GEOIDX_NATIVE" >&2
+    exit 1
+fi
+export GEOIDX_NATIVE DOTNET_NOLOGO=1 DOTNET_CLI_TELEMETRY_OPTOUT=1 MSBUILDDISABLENODEREUSE=1
+unset GEOIDX_LIBRARY
+out=$PWD/build/csharp
+csharp=bindings/csharp
+mono_tests=$out/artifacts/bin/Geoidx.Tests.Mono/release/Geoidx.Tests.dll
+quiet=(--nologo -v quiet)
+
+fill_runtimes() {
+    local architecture
+    case $(uname -m) in
+    x86_64) architecture=x64 ;;
+    aarch64) architecture=arm64 ;;
+    *) echo "unknown machine $(uname -m)" >&2 && exit 1 ;;
+    esac
+    mkdir -p "$csharp/runtimes/linux-$architecture/native"
+    cp -L "$GEOIDX_NATIVE/libgeoidx.so" "$csharp/runtimes/linux-$architecture/native"
+}
+
+test_package() {
+    rm -rf "$out/packages" "$out/consumer-packages"
+    dotnet pack "$csharp/Geoidx" -c Release --no-build "${quiet[@]}" -o "$out/packages"
+    dotnet build "$csharp/Geoidx.Consumer" -c Release --force "${quiet[@]}"
+    dotnet "$out/artifacts/bin/Geoidx.Consumer/release/Geoidx.Consumer.dll"
+}
+
+check_identities() {
+    local twice
+    twice=$(grep -rh --include='*.meta' '^guid: ' "$1" | sort | uniq -d)
+    [ -z "$twice" ] || { echo "assets of the Unity package share an identity: $twice" >&2 && exit 1; }
+}
+
+# The assembly that Mono and Unity take, on .NET.
+test_netstandard_on_dotnet() {
+    dotnet exec --runtimeconfig "$out/artifacts/bin/Geoidx.Tests/release/Geoidx.Tests.runtimeconfig.json" "$mono_tests"
+}
+
+compile_unity() {
+    export GEOIDX_UNITY_OUT=$out/unity
+    mkdir -p "$GEOIDX_UNITY_OUT"
+    bindings/unity/pack.sh "$GEOIDX_UNITY_OUT"
+    check_identities "$GEOIDX_UNITY_OUT/package"
+    dotnet build bindings/unity/Tests~/Program "${quiet[@]}"
+    cp "$GEOIDX_NATIVE/libgeoidx.so" "$GEOIDX_UNITY_OUT/tests/bin/Program/debug"
+}
+
+refuses_another_version() {
+    local message
+    message=$(GEOIDX_LIBRARY=$(dirname "$mono_tests")/libgeoidx-other.so mono "$mono_tests" version) && return 1
+    grep -q 'has version 99.1.2' <<<"$message"
+}
+
+test_under_mono() {
+    mono "$mono_tests"
+    refuses_another_version
+    mono "$GEOIDX_UNITY_OUT/tests/bin/Program/debug/Program.dll"
+}
+
+fill_runtimes
+dotnet build "$csharp/Geoidx.slnx" -c Release "${quiet[@]}"
+dotnet test "$csharp/Geoidx.Tests" -c Release --no-build "${quiet[@]}"
+echo "netstandard2.1 on .NET:"
+test_netstandard_on_dotnet
+dotnet "$out/artifacts/bin/Geoidx.Bench/release/Geoidx.Bench.dll"
+test_package
+compile_unity
+if command -v mono >/dev/null; then
+    echo "netstandard2.1 on Mono:"
+    test_under_mono
+else
+    echo "SKIPPED: Mono is missing: the Unity package is compiled, but not run"
+fi
