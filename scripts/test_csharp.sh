@@ -52,7 +52,6 @@ test_netstandard_on_dotnet() {
 
 compile_unity() {
     export GEOIDX_UNITY_OUT=$out/unity
-    mkdir -p "$GEOIDX_UNITY_OUT"
     bindings/unity/pack.sh "$GEOIDX_UNITY_OUT"
     check_identities "$GEOIDX_UNITY_OUT/package"
     dotnet build bindings/unity/Tests~/Program "${quiet[@]}"

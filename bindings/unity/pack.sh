@@ -3,7 +3,8 @@
 # ../csharp goes in, and those native libraries that are in ../csharp/runtimes.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-out=$1
+mkdir -p "$1"
+out=$(cd "$1" && pwd)
 package=$out/package
 rm -rf "$package"
 mkdir -p "$package"
@@ -11,8 +12,8 @@ cp -R "$here"/{package.json,README.md,Editor,Samples~} "$package"
 mkdir -p "$package/Runtime/Geoidx"
 cp "$here"/Runtime/{*.cs,*.asmdef,csc.rsp} "$package/Runtime"
 
-(cd "$here/../csharp/Geoidx" && find . -name '*.cs' -not -path './obj/*' -not -path './bin/*' \
-    -not -name '*.LibraryImport.cs' -exec cp --parents {} "$package/Runtime/Geoidx" \;)
+(cd "$here/../csharp/Geoidx" &&
+    find . -name '*.cs' -not -name '*.LibraryImport.cs' -exec cp --parents -t "$package/Runtime/Geoidx" {} +)
 
 for meta in "$here"/Runtime/Plugins/*/*.meta; do
     plugin=$(basename "$(dirname "$meta")")/$(basename "$meta" .meta)
