@@ -10,6 +10,7 @@ packages=(
     clang-14 libclang-rt-14-dev clang-format-14
     glmark2-data abigail-tools
     python3-numpy python3-venv python3-pip python3-setuptools python3-wheel mypy
+    mono-devel
 )
 
 is_installed() { dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed; }

@@ -8,6 +8,7 @@ namespace Geoidx
     public static class GeodesicLibrary
     {
         private const uint Expected = 100; // geoidx_version() of the header these sources are written for
+        private const uint ExpectedAbi = 0; // its GEOIDX_ABI_VERSION
 
         private static readonly object Gate = new object();
         private static volatile bool isLoaded;
@@ -65,6 +66,7 @@ namespace Geoidx
                 if (isLoaded) return;
                 loadedVersion = LoadAndAskVersion(path ?? Environment.GetEnvironmentVariable("GEOIDX_LIBRARY"));
                 CheckVersion(loadedVersion);
+                CheckAbi(AskAbi());
                 isLoaded = true;
             }
         }
@@ -78,6 +80,13 @@ namespace Geoidx
             throw new GeodesicLibraryException(
                 $"The native library has version {loaded}, this assembly needs version {expected}: " +
                 "their binary interfaces differ.");
+        }
+
+        private static void CheckAbi(uint abi)
+        {
+            if (abi == ExpectedAbi) return;
+            throw new GeodesicLibraryException(
+                $"The native library has the binary interface {abi}, this assembly needs {ExpectedAbi}.");
         }
 
         private static uint LoadAndAskVersion(string? file)
@@ -97,6 +106,9 @@ namespace Geoidx
 
         [MethodImpl(MethodImplOptions.NoInlining)]
         private static uint AskVersion() => NativeMethods.geoidx_version();
+
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        private static uint AskAbi() => NativeMethods.geoidx_abi_version();
 
         [MethodImpl(MethodImplOptions.NoInlining)]
         private static string StatusText(GeodesicStatus status) =>

@@ -3,6 +3,8 @@
 
 uint32_t geoidx_version(void) { return FAKE_VERSION; }
 
+uint32_t geoidx_abi_version(void) { return GEOIDX_ABI_VERSION; }
+
 const char* geoidx_last_error(void) { return "the detail"; }
 
 void geoidx_open_options_init(geoidx_open_options* options) { (void)options; }

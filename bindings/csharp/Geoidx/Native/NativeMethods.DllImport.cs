@@ -12,6 +12,9 @@ namespace Geoidx
         internal static extern uint geoidx_version();
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern uint geoidx_abi_version();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern IntPtr geoidx_status_string(GeodesicStatus status);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

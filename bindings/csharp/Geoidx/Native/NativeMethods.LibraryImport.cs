@@ -12,6 +12,9 @@ namespace Geoidx
         internal static partial uint geoidx_version();
 
         [LibraryImport(Library)]
+        internal static partial uint geoidx_abi_version();
+
+        [LibraryImport(Library)]
         internal static partial IntPtr geoidx_status_string(GeodesicStatus status);
 
         [LibraryImport(Library)]
