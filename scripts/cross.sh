@@ -25,8 +25,10 @@ install_packages() {
 fetch_source() {
     local folder=$cross/sources/$1 parts=$cross/sources/parts
     [ -d "$folder" ] && return
+    rm -rf "$cross/sources/fetch-$1"
     mkdir -p "$parts" "$cross/sources/fetch-$1"
-    sed -n '/^Types:/,/^$/p' /etc/apt/sources.list.d/debian.sources | sed 's/^Types:.*/Types: deb-src/' >"$parts/debian.sources"
+    awk -v RS= -v ORS='\n\n' '!/security/' /etc/apt/sources.list.d/debian.sources |
+        sed 's/^Types:.*/Types: deb-src/' >"$parts/debian.sources"
     local apt=(-o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$parts")
     "${as_root[@]}" apt-get "${apt[@]}" -o APT::Get::List-Cleanup=0 update -qq
     (cd "$cross/sources/fetch-$1" && apt-get "${apt[@]}" source -qq "$1")
