@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/index/coarse_tables.h"
-#include "src/index/middle_tables.h"
+#include "src/index/derived_tables.h"
 #include "src/partition/random.h"
 #include "src/query/query.h"
 
@@ -100,10 +99,7 @@ void calibrate(Index& index, std::span<const uint32_t> vertex_of_number,
     for (uint32_t p = 0; p < index.first_leaf(); ++p)
         index.overlay_tables.quantum[p] =
             static_cast<float>(double{index.overlay_tables.quantum[p]} / (1 + share));
-    // What opening the file derives from the quanta.
-    take_over_border_codes(index);
-    make_coarse_tables(index);
-    make_middle_tables(index);
+    derive_tables(index);
 }
 
 MeasuredError measure_error(Index& index, std::span<const uint32_t> vertex_of_number,

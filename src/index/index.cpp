@@ -77,20 +77,6 @@ uint16_t Index::border_code(uint32_t patch, uint32_t i, uint32_t j) const {
     return static_cast<uint16_t>(std::min(steps, double{OverlayTables::LARGEST}));
 }
 
-void take_over_border_codes(Index& index) {
-    OverlayTables& tables = index.overlay_tables;
-    for (uint32_t patch = 1; patch < index.first_leaf(); ++patch)
-        for (uint32_t child = index.child_begin[patch]; child < index.child_begin[patch + 1]; ++child) {
-            const uint32_t* overlay_position = index.overlay_position.data() + index.border_begin[child];
-            const uint32_t* ring = tables.rings.position.data() + tables.rings.begin[child];
-            uint16_t* code = tables.outer_tables.data() + index.outer_row(child, 0);
-            for (uint32_t i = 0; i < index.border_size(patch); ++i)
-                for (uint32_t k = 0; k < index.ring_size(child); ++k, ++code)
-                    if (const uint32_t j = overlay_position[ring[k]]; j < index.border_size(patch) && i != j)
-                        *code = index.border_code(patch, std::max(i, j), std::min(i, j));
-        }
-}
-
 namespace {
 
 void derive_owners(Index& index) {

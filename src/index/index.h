@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory_resource>
@@ -141,6 +142,11 @@ struct Index {
                    : static_cast<uint32_t>(overlay_tables.samples_of(patch).size());
     }
     bool is_labelled_whole(uint32_t patch) const { return label_size(patch) == border_size(patch); }
+    uint32_t largest_inner_size() const {
+        uint32_t largest = 0;
+        for (uint32_t p = 0; p < patch_count(); ++p) largest = std::max(largest, inner_size(p));
+        return largest;
+    }
     // The patch that a vertex lies inside of so: its owner or its leaf.
     uint32_t entry(uint32_t number) const { return is_border(number) ? owner[number] : leaf_of(number); }
 
@@ -197,10 +203,6 @@ void allocate_tables(Index& index);
 
 // Likewise those of the overlay engine, when the rings are laid out.
 void allocate_overlay_tables(Index& index);
-
-// Takes the codes of two vertices on the border of an inner patch from the tables of its parent, as they are
-// read from a file, into those of its children.
-void take_over_border_codes(Index& index);
 
 // Fills what is derived; throws Error CORRUPT where a border vertex is on the border of a patch but not in
 // its parent's overlay, or in the overlay of a patch, but on no border of its children.

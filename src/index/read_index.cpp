@@ -4,11 +4,10 @@
 #include <string>
 
 #include "format/bytes.h"
-#include "src/index/coarse_tables.h"
+#include "src/index/derived_tables.h"
 #include "src/index/folded_triangle.h"
 #include "src/index/index_file.h"
 #include "src/index/index_sections.h"
-#include "src/index/middle_tables.h"
 #include "src/index/rings.h"
 #include "src/index/table_rows.h"
 
@@ -259,8 +258,6 @@ std::vector<uint16_t> overlay_square(const Index& index, uint32_t patch, std::sp
     const auto set = [&](size_t i, size_t j, uint16_t code) {
         square[i * size + j] = square[j * size + i] = code;
     };
-    for (uint32_t i = 0; i < border; ++i)
-        for (uint32_t j = 0; j < i; ++j) set(i, j, index.border_code(patch, i, j));
     size_t next = 0;
     for (uint32_t i = 0; i < owned; ++i)
         for (uint32_t j = 0; j < border; ++j) set(size_t{border} + i, j, code_of(values[next++]));
@@ -307,8 +304,7 @@ void read_overlay_tables(const format::Container& container, Index& index) {
     allocate_overlay_tables(index);
     place_overlay_codes(overlay_values, index);
     place_crossing_codes(crossing_values, index);
-    make_coarse_tables(index);
-    make_middle_tables(index);
+    derive_tables(index);
     for_each_internal_pair(index, [&](uint64_t place, size_t k) {
         index.overlay_tables.internal_tables[place] = code_of(internal_values[k]);
     });

@@ -27,13 +27,6 @@ template <size_t BYTES>
 }
 
 template <size_t BYTES>
-[[gnu::always_inline]] inline float least_of(const Floats<BYTES>& floats) {
-    NearFloats four;
-    fold(floats, four);
-    return std::min(std::min(four[0], four[1]), std::min(four[2], four[3]));
-}
-
-template <size_t BYTES>
 [[gnu::always_inline]] inline void look(const SeenBorder& border, Sight& sight) {
     Floats<BYTES> nearest{}, shortest{}, distance, length;
     nearest += INFINITE;

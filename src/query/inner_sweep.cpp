@@ -23,11 +23,8 @@ InnerSweep::InnerSweep(const Index& index, size_t sources, std::pmr::memory_reso
     const size_t room = (SweptBorder::whole_blocks(rings_.largest_size()) + BLOCK) * sources;
     for (Array<float>* distances : {&distance_, &middle_distance_}) distances->resize(room);
     for (Array<int16_t>* codes : {&code_, &middle_}) codes->resize(room);
-    codes_ = {code_.data(), middle_.data(), nullptr};
-    uint32_t most_rows = 0;
-    for (uint32_t p = 0; p < index.patch_count(); ++p) most_rows = std::max(most_rows, index.inner_size(p));
-    near_rows_.resize(most_rows);
-    near_inside_.resize(most_rows);
+    near_rows_.resize(index.largest_inner_size());
+    near_inside_.resize(near_rows_.size());
 }
 
 float InnerSweep::see(uint32_t patch, const float* distances) {
@@ -43,7 +40,7 @@ float InnerSweep::see(uint32_t patch, const float* distances) {
             std::copy_n(distances + size_t{vertex[k]} * MOST_SOURCES, MOST_SOURCES,
                         distance_.data() + k * MOST_SOURCES);
     std::fill_n(distance_.data() + places * sources_, BLOCK * sources_, INFINITE);
-    codes_.nearest = nearest_.data();
+    codes_ = {code_.data(), middle_.data(), nearest_.data()};
     (sources_ == 1 ? kernel_.see : kernel_.see_each)(border_, codes_, middle_distance_.data());
     return *std::min_element(nearest_.begin(), nearest_.begin() + static_cast<std::ptrdiff_t>(sources_));
 }

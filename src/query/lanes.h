@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -134,6 +135,13 @@ template <class Wide, class Part>
     split(wide, parts);
     least = parts[0];
     for (size_t i = 1; i < PARTS; ++i) lower(least, parts[i]);
+}
+
+template <size_t BYTES>
+[[gnu::always_inline]] inline float least_of(const Floats<BYTES>& floats) {
+    NearFloats four;
+    fold(floats, four);
+    return std::min(std::min(four[0], four[1]), std::min(four[2], four[3]));
 }
 
 }

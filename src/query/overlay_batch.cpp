@@ -15,9 +15,7 @@ OverlayBatch::OverlayBatch(const Index& index, std::pmr::memory_resource* memory
     : index_(index), sweep_(index, SOURCES, memory), out_(memory),
       sources_inside_(index.patch_count(), memory) {
     static_assert(SOURCES <= 8 * sizeof(sources_inside_[0]));
-    uint32_t most = 0;
-    for (uint32_t p = 0; p < index.patch_count(); ++p) most = std::max(most, index.inner_size(p));
-    out_.resize(most * SOURCES);
+    out_.resize(index.largest_inner_size() * SOURCES);
 }
 
 void OverlayBatch::sweep(std::span<const uint32_t> sources, OverlayMsad& climber,

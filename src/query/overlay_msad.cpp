@@ -17,12 +17,6 @@ constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
 void lower(float& distance, float candidate) { distance = std::min(distance, candidate); }
 
-uint32_t most_inside(const Index& index) {
-    uint32_t most = 0;
-    for (uint32_t p = 0; p < index.patch_count(); ++p) most = std::max(most, index.inner_size(p));
-    return most;
-}
-
 }
 
 OverlayMsad::OverlayMsad(const Index& index, std::pmr::memory_resource* memory)
@@ -38,7 +32,7 @@ OverlayMsad::OverlayMsad(const Index& index, std::pmr::memory_resource* memory)
 void OverlayMsad::set_threads(uint32_t count) {
     while (descents_.size() > count) descents_.pop_back();
     while (descents_.size() < count)
-        descents_.push_back({index_, most_inside(index_), descents_.get_allocator().resource()});
+        descents_.push_back({index_, index_.largest_inner_size(), descents_.get_allocator().resource()});
 }
 
 void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance) {

@@ -45,7 +45,7 @@ struct See {
         Distances nearest[VECTORS];
         measure_middles(border, middle_distance, nearest);
         if constexpr (COUNT == 1) {
-            const float least = least_of(nearest[0]);
+            const float least = least_of<BYTES>(nearest[0]);
             nearest[0] = Distances{} + least;
             *codes.nearest = least;
         } else {
@@ -56,12 +56,6 @@ struct See {
     }
 
 private:
-    [[gnu::always_inline]] static float least_of(const Distances& distances) {
-        NearFloats four;
-        fold(distances, four);
-        return std::min(std::min(four[0], four[1]), std::min(four[2], four[3]));
-    }
-
     // nearest: of places and middles.
     [[gnu::always_inline]] static void measure_middles(const SweptBorder& border, float* middle_distance,
                                                        Distances* nearest) {

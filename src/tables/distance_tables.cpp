@@ -25,13 +25,11 @@ uint16_t code_of(float distance, float quantum) {
     return static_cast<uint16_t>(std::min(code, double{OverlayTables::LARGEST}));
 }
 
-// Parents come before their children: of two vertices on the parent's border its own outer table knows.
 void encode_outer(const DistanceTables& tables, uint32_t patch, Index& index) {
-    const uint32_t parent = index.parent[patch], border = index.border_size(parent);
+    const uint32_t parent = index.parent[patch];
     const size_t size = index.overlay_size(parent);
     const float quantum = index.overlay_tables.quantum[parent];
     fill_outer_table(index, patch, [&](uint32_t i, uint32_t j) {
-        if (i < border && j < border) return index.border_code(parent, i, j);
         return code_of(tables.overlay[parent][i * size + j], quantum);
     });
 }

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "src/index/coarse_tables.h"
-#include "src/index/middle_tables.h"
+#include "src/index/derived_tables.h"
 #include "src/tables/closure.h"
 #include "src/tables/distance_tables.h"
 #include "src/tables/measuring.h"
@@ -109,8 +108,7 @@ void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> vertex_of_n
     for (uint32_t p = 1; p < index.first_leaf(); ++p)
         if (!exact[p]) close_from_above(p, index, workers, tables);
     quantize(tables, index);
-    make_coarse_tables(index);
-    make_middle_tables(index);
+    derive_tables(index);
 }
 
 }
