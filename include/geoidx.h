@@ -316,8 +316,8 @@ GEOIDX_API geoidx_status geoidx_sssd_batch(const geoidx* index, const uint32_t* 
                                            uint64_t pair_count, float* distances);
 
 /* Multiple sources, all destinations: distances[v] is the distance from v to the nearest of 1 or more
- * sources. distance_count must be the mesh's vertex_count. By GEOIDX_ENGINE_OVERLAY, between two sources that
- * are a few edges apart distances can be up to a third too short. */
+ * sources. distance_count must be the mesh's vertex_count. Neither the order of the sources nor repetitions
+ * change a bit. */
 GEOIDX_API geoidx_status geoidx_msad(const geoidx* index, const uint32_t* sources, uint32_t source_count,
                                      float* distances, uint32_t distance_count);
 

@@ -64,11 +64,12 @@ void describe(const Intake& intake, const geoidx_build_options& options, Index& 
     index.delta = options.delta;
 }
 
-void fill_tables(const Mesh& mesh, std::span<const uint32_t> vertex_of_number,
+void fill_tables(const Mesh& mesh, const Hierarchy& hierarchy, std::span<const uint32_t> vertex_of_number,
                  const geoidx_build_options& options, Workers& workers, Index& index) {
     if (options.engine == GEOIDX_ENGINE_GRAPH) return fill_graph_tables(index, vertex_of_number, workers);
     const bool unfold = (index.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
-    fill_overlay_tables(mesh, vertex_of_number, {options.exact_vertices, unfold, TABLES_END}, workers, index);
+    fill_overlay_tables(mesh, hierarchy.leaf_of_face, vertex_of_number,
+                        {options.exact_vertices, unfold, TABLES_END}, workers, index);
 }
 
 ProgressFunction progress_function(const geoidx_build_options& options) {
@@ -97,7 +98,7 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
                                                  options.delta / 100 * intake.bounding_box_diagonal, workers);
     const auto vertex_of_number = lay_out(intake, hierarchy, leaves_at_vertex, is_border, workers, index);
     workers.begin_stage("tables", options.engine == GEOIDX_ENGINE_OVERLAY ? 0.88 : TABLES_END);
-    fill_tables(intake.mesh, vertex_of_number, options, workers, index);
+    fill_tables(intake.mesh, hierarchy, vertex_of_number, options, workers, index);
     workers.begin_stage("calibration", 0.95);
     calibrate(index, vertex_of_number, intake.id_of_vertex, workers);
     workers.begin_stage("labels", 0.97);

@@ -142,9 +142,18 @@ struct Index {
                    : static_cast<uint32_t>(overlay_tables.samples_of(patch).size());
     }
     bool is_labelled_whole(uint32_t patch) const { return label_size(patch) == border_size(patch); }
+    bool is_within(uint32_t patch, uint32_t ancestor) const {
+        while (patch != NONE && patch > ancestor) patch = parent[patch];
+        return patch == ancestor;
+    }
     uint32_t largest_inner_size() const {
         uint32_t largest = 0;
         for (uint32_t p = 0; p < patch_count(); ++p) largest = std::max(largest, inner_size(p));
+        return largest;
+    }
+    uint32_t largest_overlay_size() const {
+        uint32_t largest = 0;
+        for (uint32_t p = 0; p < first_leaf(); ++p) largest = std::max(largest, overlay_size(p));
         return largest;
     }
     // The patch that a vertex lies inside of so: its owner or its leaf.

@@ -5,6 +5,7 @@
 
 #include "src/index/index.h"
 #include "src/query/crossing.h"
+#include "src/query/ring_segments.h"
 
 namespace geodesic {
 
@@ -16,14 +17,12 @@ public:
     // Begins with `count` places from `first` on, counted over all rings: their distances are to be written
     // to the result. `quantum` is that of the rows to be added.
     std::span<float> begin(const Rings& rings, size_t first, size_t count, float quantum) {
-        border_ = {count,
-                   code_.data(),
-                   distance_.data(),
-                   rings.segment_length.data() + first,
-                   rings.half_inverse.data() + first,
-                   foot_.data(),
-                   height_.data(),
-                   quantum};
+        return begin(rings, first, count, quantum, segments_from(rings, first));
+    }
+    std::span<float> begin(const Rings& rings, size_t first, size_t count, float quantum,
+                           const RingSegments& segments) {
+        border_ = {count,        code_.data(),   distance_.data(), segments.length, segments.half_inverse,
+                   foot_.data(), height_.data(), quantum};
         is_own_ = rings.is_own.data() + first;
         return std::span(distance_).first(count);
     }
@@ -33,6 +32,7 @@ public:
 
     // If finish() returned true, as CrossingKernel has them.
     bool is_near() const { return sight_.is_near(); }
+    float reach() const { return sight_.reach; }
     void cross(Rows rows, float* distances, uint16_t* winners = nullptr) const {
         kernel_.cross(border_, rows, distances, winners);
     }

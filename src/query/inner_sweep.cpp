@@ -18,21 +18,21 @@ static_assert(OverlayTables::PADDING >= BLOCK && Rings::PADDING >= BLOCK,
 
 InnerSweep::InnerSweep(const Index& index, size_t sources, std::pmr::memory_resource* memory)
     : index_(index), rings_(index.overlay_tables.rings), kernel_(sweep_kernels().back()), sources_(sources),
-      distance_(memory), middle_distance_(memory), code_(memory), middle_(memory), near_field_(index, memory),
-      near_rows_(memory), near_inside_(memory) {
+      distance_(memory), middle_distance_(memory), code_(memory), middle_(memory), field_(index, memory),
+      rows_(memory), inside_(memory) {
     const size_t room = (SweptBorder::whole_blocks(rings_.largest_size()) + BLOCK) * sources;
     for (Array<float>* distances : {&distance_, &middle_distance_}) distances->resize(room);
     for (Array<int16_t>* codes : {&code_, &middle_}) codes->resize(room);
-    near_rows_.resize(index.largest_inner_size());
-    near_inside_.resize(near_rows_.size());
+    rows_.resize(index.largest_inner_size());
+    inside_.resize(rows_.size());
 }
 
-float InnerSweep::see(uint32_t patch, const float* distances) {
+float InnerSweep::see(uint32_t patch, const float* distances, const RingSegments& segments) {
     patch_ = patch;
-    const uint32_t first = rings_.begin[patch], places = rings_.size(patch);
-    border_ = {places, distance_.data(), rings_.segment_length.data() + first,
-               index_.overlay_tables.quantum[patch]};
-    const uint32_t* vertex = rings_.vertex.data() + first;
+    segments_ = segments;
+    const uint32_t places = rings_.size(patch);
+    border_ = {places, distance_.data(), segments.length, index_.overlay_tables.quantum[patch]};
+    const uint32_t* vertex = rings_.vertex.data() + rings_.begin[patch];
     if (sources_ == 1)
         four_at_a_time(places, [&](size_t k) { distance_[k] = distances[vertex[k]]; });
     else
@@ -55,18 +55,33 @@ void InnerSweep::cross(float* inside) {
         if (nearest_[i] <= tables.near[patch_]) cross_near(i, inside);
 }
 
-void InnerSweep::cross_near(size_t source, float* inside) {
-    const uint32_t count = index_.inner_size(patch_), places = rings_.size(patch_);
-    const auto border = near_field_.begin(rings_, rings_.begin[patch_], places, border_.quantum);
+void InnerSweep::cross(float* inside, uint16_t* winners) {
+    see_from(0);
+    field_.cross(inner_rows(), inside, winners);
+    field_.cross_near(inner_rows(), inside);
+}
+
+// Returns whether it reaches any of the border.
+bool InnerSweep::see_from(size_t source) {
+    const uint32_t places = rings_.size(patch_);
+    const auto border = field_.begin(rings_, rings_.begin[patch_], places, border_.quantum, segments_);
     for (size_t k = 0; k < places; ++k) border[k] = distance_[k * sources_ + source];
-    if (!near_field_.finish() || !near_field_.is_near()) return;
+    return field_.finish();
+}
+
+Rows InnerSweep::inner_rows() {
+    const uint32_t count = index_.inner_size(patch_), places = rings_.size(patch_);
     const uint16_t* row = index_.overlay_tables.inner_tables.data() + index_.inner_row(patch_, 0);
-    for (size_t r = 0; r < count; ++r) {
-        near_rows_[r] = row + r * places;
-        near_inside_[r] = inside[r * sources_ + source];
-    }
-    near_field_.cross_near({near_rows_.data(), count}, near_inside_.data());
-    for (size_t r = 0; r < count; ++r) inside[r * sources_ + source] = near_inside_[r];
+    for (size_t r = 0; r < count; ++r) rows_[r] = row + r * places;
+    return {rows_.data(), count};
+}
+
+void InnerSweep::cross_near(size_t source, float* inside) {
+    if (!see_from(source) || !field_.is_near()) return;
+    const Rows rows = inner_rows();
+    for (size_t r = 0; r < rows.size(); ++r) inside_[r] = inside[r * sources_ + source];
+    field_.cross_near(rows, inside_.data());
+    for (size_t r = 0; r < rows.size(); ++r) inside[r * sources_ + source] = inside_[r];
 }
 
 }

@@ -18,11 +18,11 @@ OverlayBatch::OverlayBatch(const Index& index, std::pmr::memory_resource* memory
     out_.resize(index.largest_inner_size() * SOURCES);
 }
 
-void OverlayBatch::sweep(std::span<const uint32_t> sources, OverlayMsad& climber,
+void OverlayBatch::sweep(std::span<const uint32_t> sources, OverlaySsad& climber,
                          std::span<float> distances) {
     std::ranges::fill(distances, INFINITE);
     for (size_t i = 0; i < SOURCES; ++i)
-        climber.climb(sources.subspan(std::min(i, sources.size() - 1), 1), {distances.data() + i, SOURCES});
+        climber.climb(sources[std::min(i, sources.size() - 1)], {distances.data() + i, SOURCES});
     mark_patches_around(sources);
     for (uint32_t p = 1; p < index_.patch_count(); ++p) descend(p, distances);
 }

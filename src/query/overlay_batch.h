@@ -4,7 +4,7 @@
 
 #include "src/index/index.h"
 #include "src/query/inner_sweep.h"
-#include "src/query/overlay_msad.h"
+#include "src/query/overlay_ssad.h"
 
 namespace geodesic {
 
@@ -18,7 +18,7 @@ public:
 
     // distances[number * SOURCES + i] from the i-th source, of which there are 1 to SOURCES, the last one
     // repeated. climber: for the way up.
-    void sweep(std::span<const uint32_t> sources, OverlayMsad& climber, std::span<float> distances);
+    void sweep(std::span<const uint32_t> sources, OverlaySsad& climber, std::span<float> distances);
 
 private:
     void mark_patches_around(std::span<const uint32_t> sources);

@@ -4,6 +4,7 @@
 
 #include "src/query/overlay_batch.h"
 #include "src/query/overlay_msad.h"
+#include "src/query/overlay_ssad.h"
 #include "src/query/overlay_sssd.h"
 
 namespace geodesic {
@@ -13,7 +14,7 @@ namespace geodesic {
 class OverlayQuery {
 public:
     OverlayQuery(const Index& index, std::pmr::memory_resource* memory)
-        : pairs_(index, memory), sweeps_(index, memory), batch_(index, memory),
+        : pairs_(index, memory), field_(index, memory), nearest_(index, memory), batch_(index, memory),
           vertex_count_(index.vertex_count()), prepared_distance_(memory) {}
 
     // Symmetric bit for bit if low < high.
@@ -23,30 +24,37 @@ public:
     void prepare(uint32_t source) {
         prepared_ = source;
         prepared_distance_.resize(vertex_count_);
-        sweeps_.sweep_borders(source, pairs_.prepared_level(), prepared_distance_);
+        field_.sweep_borders(source, pairs_.prepared_level(), prepared_distance_);
     }
     float prepared_sssd(uint32_t target) {
         return pairs_.distance_from(prepared_, prepared_distance_, target);
     }
 
     // Of msad().
-    void set_threads(uint32_t count) { sweeps_.set_threads(count); }
+    void set_threads(uint32_t count) {
+        field_.set_threads(count);
+        nearest_.set_threads(count);
+    }
 
     // distance[number], of every vertex; those of patches beyond the radius may be infinite.
     void msad(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
-        sweeps_.sweep(sources, radius, distance);
+        if (sources.size() == 1)
+            field_.sweep(sources.front(), radius, distance);
+        else
+            nearest_.sweep(sources, radius, distance);
     }
 
     // distances[number * FIELDS_AT_ONCE + i], of each source by itself, of which there are 1 to so many. With
     // fewer than FEWEST_AT_ONCE it is faster to ask for each.
     static constexpr size_t FIELDS_AT_ONCE = OverlayBatch::SOURCES, FEWEST_AT_ONCE = 8;
     void ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
-        batch_.sweep(sources, sweeps_, distances);
+        batch_.sweep(sources, field_, distances);
     }
 
 private:
     OverlaySssd pairs_;
-    OverlayMsad sweeps_;
+    OverlaySsad field_;
+    OverlayMsad nearest_;
     OverlayBatch batch_;
     size_t vertex_count_;
     uint32_t prepared_ = NONE;

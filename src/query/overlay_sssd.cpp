@@ -152,10 +152,9 @@ float OverlaySssd::distance(uint32_t low, uint32_t high) {
 float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, uint32_t target) {
     const uint32_t entry = index_.entry(target);
     if (entry < index_.level_begin[prepared_level_]) return known[target];
-    uint32_t patch = entry, around = index_.entry(source);
+    uint32_t patch = entry;
     while (patch >= index_.level_begin[prepared_level_ + 1]) patch = index_.parent[patch];
-    while (around > patch) around = index_.parent[around];
-    if (around != patch) return distance_over(patch, known, target);
+    if (!index_.is_within(index_.entry(source), patch)) return distance_over(patch, known, target);
     const uint32_t top = lowest_common_patch(index_, index_.entry(source), index_.entry(target));
     if (top >= index_.first_leaf() || index_.entry(target) == top) return known[target];
     climb(target, top, to_);

@@ -21,7 +21,7 @@ public:
     float distance(uint32_t low, uint32_t high);
 
     // From a source whose distances to the borders of all patches down to prepared_level() are known, by
-    // number, as OverlayMsad::sweep_borders() gives them.
+    // number, as OverlaySsad::sweep_borders() gives them.
     float distance_from(uint32_t source, std::span<const float> known, uint32_t target);
     uint32_t prepared_level() const { return prepared_level_; }
 

@@ -136,6 +136,8 @@ void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<f
     sources_.clear();
     for (uint32_t id : source_ids)
         if (const uint32_t source = number_of(id); source != NONE) sources_.push_back(source);
+    std::ranges::sort(sources_); // so that answers do not depend on their order
+    sources_.erase(std::unique(sources_.begin(), sources_.end()), sources_.end());
     const auto by_number = std::span(distance_).first(index_.vertex_count());
     std::visit([&](auto& engine) { engine.msad(sources_, radius, by_number); }, engine_);
     write_by_id(distances);

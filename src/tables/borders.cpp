@@ -30,8 +30,8 @@ uint32_t common_ancestor(const Hierarchy& hierarchy, std::span<const uint32_t> l
     return first;
 }
 
-std::vector<uint32_t> walk_boundary(const Mesh& mesh, std::span<const uint32_t> faces,
-                                    const std::vector<uint8_t>& inside) {
+std::vector<std::vector<uint32_t>> walk_boundary(const Mesh& mesh, std::span<const uint32_t> faces,
+                                                 const std::vector<uint8_t>& inside) {
     std::map<uint32_t, std::set<uint32_t>> neighbours; // over boundary edges not walked yet
     for (uint32_t f : faces)
         for (uint32_t e : mesh.face_edges[f]) {
@@ -42,19 +42,30 @@ std::vector<uint32_t> walk_boundary(const Mesh& mesh, std::span<const uint32_t> 
             neighbours[mesh.edges[e][0]].insert(mesh.edges[e][1]);
             neighbours[mesh.edges[e][1]].insert(mesh.edges[e][0]);
         }
-    std::vector<uint32_t> walk;
     std::set<uint32_t> visited;
-    for (const auto& [start, unused] : neighbours) {
-        for (uint32_t v = start; visited.insert(v).second;) {
+    const auto walk_from = [&](uint32_t v) {
+        std::vector<uint32_t> walk;
+        const auto next = [&] {
+            return std::ranges::find_if(neighbours[v], [&](uint32_t n) { return !visited.contains(n); });
+        };
+        for (auto n = next(); n != neighbours[v].end(); n = next()) {
+            v = *n;
+            visited.insert(v);
             walk.push_back(v);
-            for (uint32_t next : neighbours[v])
-                if (!visited.contains(next)) {
-                    v = next;
-                    break;
-                }
         }
+        return walk;
+    };
+    std::vector<std::vector<uint32_t>> walks;
+    for (const auto& [start, unused] : neighbours) {
+        if (!visited.insert(start).second) continue;
+        const auto forth = walk_from(start);
+        auto walk = walk_from(start); // back, if it is no ring
+        std::ranges::reverse(walk);
+        walk.push_back(start);
+        walk.insert(walk.end(), forth.begin(), forth.end());
+        walks.push_back(std::move(walk));
     }
-    return walk;
+    return walks;
 }
 
 }

@@ -15,9 +15,11 @@ ListOfLists<uint32_t> leaves_at_vertices(const Mesh& mesh, const Hierarchy& hier
 // leaves.
 uint32_t common_ancestor(const Hierarchy& hierarchy, std::span<const uint32_t> leaves);
 
-// The vertices on the boundary of a patch, given by its faces, walked along it ring by ring from the smallest
-// vertex. `inside[f]` tells whether face f is in the patch.
-std::vector<uint32_t> walk_boundary(const Mesh& mesh, std::span<const uint32_t> faces,
-                                    const std::vector<uint8_t>& inside);
+// The vertices on the boundary of a patch, given by its faces, each once: ring by ring, from its smallest
+// vertex to the smaller of its neighbours; where rings touch, a walk through one may take a part of another,
+// and what is left of that is a walk from its one end to its other. `inside[f]` tells whether face f is in
+// the patch.
+std::vector<std::vector<uint32_t>> walk_boundary(const Mesh& mesh, std::span<const uint32_t> faces,
+                                                 const std::vector<uint8_t>& inside);
 
 }

@@ -72,25 +72,25 @@ std::vector<ListOfLists<uint32_t>> faces_by_level(const Hierarchy& hierarchy) {
     return levels;
 }
 
-bool is_within(const Hierarchy& hierarchy, uint32_t patch, uint32_t ancestor) {
-    while (patch != NONE && patch > ancestor) patch = hierarchy.parent[patch];
-    return patch == ancestor;
-}
-
 // The border of a patch: its vertices that lie on no deeper owner's overlay only, along the boundary; those
 // where the patch merely touches another come last.
-std::vector<uint32_t> border_of_patch(const Mesh& mesh, const Hierarchy& hierarchy, uint32_t patch,
-                                      std::span<const uint32_t> faces, std::vector<uint8_t>& inside,
-                                      const std::vector<uint32_t>& number, const Index& index) {
+std::vector<uint32_t> border_of_patch(const Mesh& mesh, uint32_t patch, std::span<const uint32_t> faces,
+                                      std::vector<uint8_t>& inside, const std::vector<uint32_t>& number,
+                                      const Index& index) {
     const auto on_border = [&](uint32_t v) {
-        return index.is_border(number[v]) && !is_within(hierarchy, index.owner[number[v]], patch);
+        return index.is_border(number[v]) && !index.is_within(index.owner[number[v]], patch);
     };
     for (uint32_t f : faces) inside[f] = 1;
-    const auto walk = walk_boundary(mesh, faces, inside);
+    auto walks = walk_boundary(mesh, faces, inside);
     for (uint32_t f : faces) inside[f] = 0;
     std::vector<uint32_t> border, touching;
-    for (uint32_t v : walk)
-        if (on_border(v)) border.push_back(number[v]);
+    for (auto& walk : walks) {
+        // So that what is left of a ring, if a part of it is none of the border, is in one piece.
+        if (const auto other = std::ranges::find_if_not(walk, on_border); other != walk.end())
+            std::rotate(walk.begin(), other, walk.end());
+        for (uint32_t v : walk)
+            if (on_border(v)) border.push_back(number[v]);
+    }
     for (uint32_t f : faces)
         for (uint32_t v : mesh.faces[f])
             if (on_border(v)) touching.push_back(number[v]);
@@ -112,8 +112,7 @@ void lay_out_borders(const Mesh& mesh, const Hierarchy& hierarchy, const std::ve
         workers.run(1, [&](FieldSolver&, size_t) {
             std::vector<uint8_t> inside(mesh.face_count(), 0);
             for (uint32_t i = 0; i < faces[l].size(); ++i)
-                borders[first + i] =
-                    border_of_patch(mesh, hierarchy, first + i, faces[l][i], inside, number, index);
+                borders[first + i] = border_of_patch(mesh, first + i, faces[l][i], inside, number, index);
         });
     }
     index.border_begin.assign(1, 0);

@@ -88,19 +88,28 @@ private:
     DistanceTables& tables_;
 };
 
+// Whether squares of distances, from the length of a segment to that of thousands, are floats.
+bool can_be_squared(const BorderSegments& segments) {
+    constexpr float SHORTEST = 1e-16f, LONGEST = 1e14f;
+    const float longest = segments.length.empty() ? 0 : *std::ranges::max_element(segments.length);
+    return longest >= SHORTEST && longest <= LONGEST;
 }
 
-void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> vertex_of_number,
-                         const OverlayOptions& options, Workers& workers, Index& index) {
+}
+
+void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
+                         std::span<const uint32_t> vertex_of_number, const OverlayOptions& options,
+                         Workers& workers, Index& index) {
     DistanceTables tables(index);
     const auto exact = exact_patches(index, options.exact_vertices);
     ExactTables filler(index, vertex_of_number, exact, tables);
     workers.run(index.vertex_count(), [&](FieldSolver& solver, size_t number) {
         filler.fill(solver, static_cast<uint32_t>(number));
     });
-    lay_out_rings(options.unfold ? find_segments(mesh, vertex_of_number, tables, index)
-                                 : BorderSegments(index.border.size()),
-                  index);
+    BorderSegments segments(index.border.size());
+    if (options.unfold) segments = find_segments(mesh, leaf_of_face, vertex_of_number, tables, index);
+    if (!can_be_squared(segments)) segments = BorderSegments(index.border.size());
+    lay_out_rings(segments, index);
     allocate_overlay_tables(index);
     workers.begin_stage("closure", options.stage_end, closure_rows(index, exact));
     for (uint32_t p = index.first_leaf(); p-- > 0;)

@@ -17,7 +17,8 @@ struct OverlayOptions {
 // and leaves are the metric's, those of larger ones are put together from their children's, and then
 // shortened by paths that leave the patch. Besides the index it takes 4 bytes a table entry, and 4 more an
 // entry of one table at a time. vertex_of_number: the mesh vertex of each number.
-void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> vertex_of_number,
-                         const OverlayOptions& options, Workers& workers, Index& index);
+void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
+                         std::span<const uint32_t> vertex_of_number, const OverlayOptions& options,
+                         Workers& workers, Index& index);
 
 }

@@ -8,10 +8,20 @@ namespace {
 
 class SegmentFinder {
 public:
-    SegmentFinder(const Mesh& mesh, std::span<const uint32_t> vertex_of_number, const DistanceTables& tables,
+    SegmentFinder(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
+                  std::span<const uint32_t> vertex_of_number, const DistanceTables& tables,
                   const Index& index, BorderSegments& segments)
-        : neighbours_(edges_among_borders(mesh, vertex_of_number, index)), tables_(tables), index_(index),
-          segments_(segments) {}
+        : mesh_(mesh), leaf_of_face_(leaf_of_face), tables_(tables), index_(index), segments_(segments),
+          edges_(index.border_vertex_count()) {
+        std::vector<uint32_t> number(mesh.vertex_count());
+        for (uint32_t n = 0; n < vertex_of_number.size(); ++n) number[vertex_of_number[n]] = n;
+        for (uint32_t e = 0; e < mesh.edges.size(); ++e) {
+            const uint32_t a = number[mesh.edges[e][0]], b = number[mesh.edges[e][1]];
+            if (!index.is_border(a) || !index.is_border(b)) continue;
+            edges_[a].push_back({b, e});
+            edges_[b].push_back({a, e});
+        }
+    }
 
     // Rings follow each other in a border; the last vertex of each may be joined to its first.
     void find(uint32_t patch) {
@@ -25,31 +35,28 @@ public:
     }
 
 private:
-    static ListOfLists<uint32_t>
-    edges_among_borders(const Mesh& mesh, std::span<const uint32_t> vertex_of_number, const Index& index) {
-        std::vector<uint32_t> number(mesh.vertex_count());
-        for (uint32_t n = 0; n < vertex_of_number.size(); ++n) number[vertex_of_number[n]] = n;
-        std::vector<uint32_t> from, to;
-        for (const auto& edge : mesh.edges) {
-            const uint32_t a = number[edge[0]], b = number[edge[1]];
-            if (!index.is_border(a) || !index.is_border(b)) continue;
-            from.insert(from.end(), {a, b});
-            to.insert(to.end(), {b, a});
-        }
-        ListOfLists<uint32_t> lists = group_by(from, index.border_vertex_count());
-        for (uint32_t& item : lists.items) item = to[item];
-        return lists;
-    }
+    struct Edge {
+        uint32_t other_end, edge;
+    };
 
     bool join(uint32_t patch, uint32_t i, uint32_t j) {
         const uint32_t first = index_.border_begin[patch];
-        const auto neighbours = neighbours_[index_.border[first + i]];
-        if (std::ranges::find(neighbours, index_.border[first + j]) == neighbours.end()) return false;
-        const float length = length_of(index_.border[first + i], index_.border[first + j]);
+        const uint32_t a = index_.border[first + i], b = index_.border[first + j];
+        if (std::ranges::none_of(
+                edges_[a], [&](const Edge& edge) { return edge.other_end == b && parts(edge.edge, patch); }))
+            return false;
+        const float length = length_of(a, b);
         if (!(length > 0)) return false;
         segments_.next[first + i] = j;
         segments_.length[first + i] = length;
         return true;
+    }
+
+    // Whether an edge lies between a patch and others.
+    bool parts(uint32_t edge, uint32_t patch) const {
+        const auto is_inside = [&](uint32_t face) { return index_.is_within(leaf_of_face_[face], patch); };
+        const auto faces = mesh_.edge_faces[edge];
+        return std::ranges::any_of(faces, is_inside) && !std::ranges::all_of(faces, is_inside);
     }
 
     // Both ends lie on the border of a leaf on one side of the edge.
@@ -65,18 +72,21 @@ private:
         return 0;
     }
 
-    ListOfLists<uint32_t> neighbours_; // of border vertices: border vertices at the other ends of edges
+    const Mesh& mesh_;
+    std::span<const uint32_t> leaf_of_face_;
     const DistanceTables& tables_;
     const Index& index_;
     BorderSegments& segments_;
+    std::vector<std::vector<Edge>> edges_; // per border vertex: to other border vertices
 };
 
 }
 
-BorderSegments find_segments(const Mesh& mesh, std::span<const uint32_t> vertex_of_number,
-                             const DistanceTables& tables, const Index& index) {
+BorderSegments find_segments(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
+                             std::span<const uint32_t> vertex_of_number, const DistanceTables& tables,
+                             const Index& index) {
     BorderSegments segments(index.border.size());
-    SegmentFinder finder(mesh, vertex_of_number, tables, index, segments);
+    SegmentFinder finder(mesh, leaf_of_face, vertex_of_number, tables, index, segments);
     for (uint32_t p = 1; p < index.patch_count(); ++p) finder.find(p);
     return segments;
 }

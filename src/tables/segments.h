@@ -9,8 +9,10 @@
 
 namespace geodesic {
 
-// Which neighbours on a border an edge of the mesh joins, and how long it is by the tables above the leaves.
-BorderSegments find_segments(const Mesh& mesh, std::span<const uint32_t> vertex_of_number,
-                             const DistanceTables& tables, const Index& index);
+// Which neighbours on a patch's border an edge joins that lies between the patch and others, and how long it
+// is by the tables above the leaves.
+BorderSegments find_segments(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
+                             std::span<const uint32_t> vertex_of_number, const DistanceTables& tables,
+                             const Index& index);
 
 }

@@ -19,10 +19,16 @@ namespace {
 using Faces = std::vector<uint32_t>;
 using Edge = std::array<uint32_t, 2>;
 
-std::vector<uint32_t> walk(const Mesh& mesh, const Faces& faces) {
+std::vector<std::vector<uint32_t>> walks(const Mesh& mesh, const Faces& faces) {
     std::vector<uint8_t> inside(mesh.face_count(), 0);
     for (uint32_t f : faces) inside[f] = 1;
     return walk_boundary(mesh, faces, inside);
+}
+
+std::vector<uint32_t> walk(const Mesh& mesh, const Faces& faces) {
+    std::vector<uint32_t> all;
+    for (const auto& walk : walks(mesh, faces)) all.insert(all.end(), walk.begin(), walk.end());
+    return all;
 }
 
 // Edges with one face of the patch only.
@@ -108,6 +114,26 @@ TEST_CASE("walk_boundary: rings that touch in a vertex are walked through, each 
     CHECK(std::set(order.begin(), order.end()).size() == order.size());
     CHECK(order.size() == 10); // 3 * 4 corners, two of them shared
     CHECK(order.front() == 10);
+}
+
+// Of the middle ring the shared vertices are taken; what is left of it begins at an end, not at its smallest
+// vertex.
+TEST_CASE("walk_boundary: what is left of a ring is one walk, from end to end") {
+    const Mesh mesh = mesh_of(grid(8, 8, 1, 1));
+    Faces faces; // two squares of 2 x 2 and 3 x 3 cells that share a corner, 40
+    for (uint32_t y = 2; y < 7; ++y)
+        for (uint32_t x = 2; x < 7; ++x)
+            if ((x < 4 && y < 4) || (x >= 4 && y >= 4))
+                for (uint32_t k : {0u, 1u}) faces.push_back(2 * (x + y * 8) + k);
+    const auto boundary = boundary_of(mesh, faces);
+    size_t vertices = 0;
+    for (const auto& walk : walks(mesh, faces)) {
+        vertices += walk.size();
+        for (size_t i = 0; i + 1 < walk.size(); ++i)
+            CHECK(boundary.contains({std::min(walk[i], walk[i + 1]), std::max(walk[i], walk[i + 1])}));
+    }
+    CHECK(vertices == 8 + 12 - 1);
+    CHECK(walks(mesh, faces).size() == 2);
 }
 
 TEST_CASE("leaves_at_vertices: the leaves of the faces around, ascending") {

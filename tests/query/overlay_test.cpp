@@ -229,6 +229,25 @@ TEST_CASE("overlay: exact distances, crossing borders between vertices") {
         }
 }
 
+// Borders end at the rim of the mesh, which is where they lose a segment most easily.
+TEST_CASE("overlay: straight lines on a plane, from everywhere to everywhere") {
+    const TestMesh mesh = grid(40, 30, 0.25);
+    const uint32_t count = mesh.vertex_count();
+    for (uint32_t levels : {0u, 3u}) {
+        CAPTURE(levels);
+        const auto index = build(mesh, overlay_options(GEOIDX_METRIC_EXACT, levels, 400));
+        Differences errors;
+        for (uint32_t source = 0; source < count; ++source) {
+            const auto field = msad(index.get(), source, count);
+            for (uint32_t target = 0; target < count; ++target)
+                errors.add(double{field[target]}, mesh.straight(source, target));
+        }
+        CHECK(errors.reached_wrongly == 0);
+        CHECK(errors.mean() < 3e-4);
+        CHECK(errors.largest < 0.1);
+    }
+}
+
 // The same distances, told to be locally Euclidean or not.
 TEST_CASE("overlay: only a metric that unfolds crosses borders between vertices") {
     const TestMesh mesh = grid(40, 40, 0.25);

@@ -224,7 +224,9 @@ class Verify(unittest.TestCase):
             damaged[offset] ^= 1
         issues = geoidx.verify(damaged)
         self.assertGreater(len(issues), 1)
-        self.assertEqual({issue.status for issue in issues}, {Status.CHECKSUM})
+        statuses = {issue.status for issue in issues}
+        self.assertIn(Status.CHECKSUM, statuses)
+        self.assertLessEqual(statuses, {Status.CHECKSUM, Status.CORRUPT})  # of data, of what says where it is
         self.assertTrue(all(0 < issue.offset < len(damaged) for issue in issues))
         self.assertEqual(geoidx.verify(damaged, most=1), issues[:1])
 

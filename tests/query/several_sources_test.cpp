@@ -1,0 +1,82 @@
+// MSAD of several sources, whose distances meet between the vertices of borders.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tests/query/query_cases.h"
+
+using namespace geodesic::test;
+
+namespace {
+
+geoidx_build_options overlay_options() {
+    auto options = build_options(GEOIDX_METRIC_EXACT, 3);
+    options.engine = GEOIDX_ENGINE_OVERLAY;
+    return options;
+}
+
+// So many vertices around a random one.
+std::vector<uint32_t> cluster(const TestMesh& mesh, uint32_t count, std::mt19937& random) {
+    const uint32_t center = static_cast<uint32_t>(random() % mesh.vertex_count());
+    std::vector<uint32_t> vertices(mesh.vertex_count());
+    for (uint32_t v = 0; v < vertices.size(); ++v) vertices[v] = v;
+    std::ranges::sort(vertices, {}, [&](uint32_t v) { return mesh.straight(center, v); });
+    vertices.resize(8 * count);
+    std::ranges::shuffle(vertices, random);
+    vertices.resize(count);
+    return vertices;
+}
+
+struct Errors {
+    double sum = 0, least = 0, largest = 0;
+    uint64_t count = 0;
+    void add(double answer, double expected) {
+        if (expected == 0 && answer == 0) return;
+        const double error = (answer - expected) / expected;
+        sum += std::abs(error);
+        least = std::min(least, error);
+        largest = std::max(largest, error);
+        ++count;
+    }
+    double mean() const { return sum / static_cast<double>(count); }
+};
+
+}
+
+TEST_CASE("several sources: the nearest straight line on a plane") {
+    const TestMesh mesh = grid(61, 51, 0.25);
+    const uint32_t count = mesh.vertex_count();
+    const auto index = build(mesh, overlay_options());
+    std::mt19937 random(5);
+    for (uint32_t source_count : {2u, 5u, 20u, 100u}) {
+        CAPTURE(source_count);
+        Errors errors;
+        for (int round = 0; round < 20; ++round) {
+            const auto sources = cluster(mesh, source_count, random);
+            const auto field = msad(index.get(), sources, count);
+            for (uint32_t v = 0; v < count; ++v) {
+                double nearest = INFINITY;
+                for (uint32_t source : sources) nearest = std::min(nearest, mesh.straight(source, v));
+                errors.add(double{field[v]}, nearest);
+            }
+        }
+        CHECK(errors.mean() < 1e-3);
+        CHECK(errors.least > -0.01);
+        CHECK(errors.largest < 0.1);
+    }
+}
+
+TEST_CASE("several sources: order and repetition change no bit") {
+    for (const auto& [name, made] : mesh_zoo()) {
+        const TestMesh& mesh = made;
+        CAPTURE(mesh.vertex_count());
+        const uint32_t count = mesh.vertex_count();
+        const auto index = build(mesh, overlay_options());
+        const std::vector<uint32_t> sources{count / 2, 0, count - 1, count / 3};
+        const auto field = msad(index.get(), sources, count);
+        const std::vector<uint32_t> shuffled{count / 3, 0, 0, count - 1, count / 2, 0, count / 3};
+        CHECK(field == msad(index.get(), shuffled, count));
+        const std::vector<uint32_t> thrice{0, 0, 0};
+        CHECK(msad(index.get(), thrice, count) == msad(index.get(), 0, count));
+    }
+}
