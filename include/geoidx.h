@@ -21,7 +21,10 @@
  * at once. A `geoidx_query` and a `geoidx_solver` are one thread's scratch: use each from one thread at a
  * time. Nothing may be in use by another thread while it is closed.
  * - Structs begin with struct_size, set by the matching *_init function or to sizeof(the struct). A shorter
- *   struct from an older caller is accepted; the fields it lacks take their defaults.
+ *   struct from an older caller is accepted; the fields it lacks take their defaults. The functions *_init
+ *   live in this header, since only the caller knows how long its struct is; who cannot include it calls
+ *   *_init_sized, which fills the first struct_size bytes, and nothing if these are fewer than 4. NULL is
+ *   fine.
  */
 #ifndef GEOIDX_H
 #define GEOIDX_H
@@ -124,7 +127,10 @@ typedef struct geoidx_mesh {
     uint32_t reserved;         /* not read */
 } geoidx_mesh;
 
-GEOIDX_API void geoidx_mesh_init(geoidx_mesh* mesh);
+GEOIDX_API void geoidx_mesh_init_sized(geoidx_mesh* mesh, uint32_t struct_size);
+static inline void geoidx_mesh_init(geoidx_mesh* mesh) {
+    geoidx_mesh_init_sized(mesh, (uint32_t)sizeof(geoidx_mesh));
+}
 
 enum {
     GEOIDX_METRIC_EXACT = 0,    /* exact polyhedral geodesic distance */
@@ -214,7 +220,10 @@ typedef struct geoidx_build_options {
     uint32_t reserved; /* not read */
 } geoidx_build_options;
 
-GEOIDX_API void geoidx_build_options_init(geoidx_build_options* options);
+GEOIDX_API void geoidx_build_options_init_sized(geoidx_build_options* options, uint32_t struct_size);
+static inline void geoidx_build_options_init(geoidx_build_options* options) {
+    geoidx_build_options_init_sized(options, (uint32_t)sizeof(geoidx_build_options));
+}
 
 typedef struct geoidx_open_options {
     uint32_t struct_size;
@@ -224,7 +233,10 @@ typedef struct geoidx_open_options {
     geoidx_allocator allocator;
 } geoidx_open_options;
 
-GEOIDX_API void geoidx_open_options_init(geoidx_open_options* options);
+GEOIDX_API void geoidx_open_options_init_sized(geoidx_open_options* options, uint32_t struct_size);
+static inline void geoidx_open_options_init(geoidx_open_options* options) {
+    geoidx_open_options_init_sized(options, (uint32_t)sizeof(geoidx_open_options));
+}
 
 /* What an index is. Errors are of MSAD against the metric itself, |d - exact| / exact over all targets of
  * `error_sources` seeded random sources, measured when the index was built. */

@@ -126,26 +126,19 @@ uint32_t geoidx_version(void) {
     return GEOIDX_VERSION_MAJOR * 10000 + GEOIDX_VERSION_MINOR * 100 + GEOIDX_VERSION_PATCH;
 }
 
-void geoidx_mesh_init(geoidx_mesh* mesh) {
-    if (!mesh) return;
-    *mesh = {};
-    mesh->struct_size = sizeof *mesh;
+void geoidx_mesh_init_sized(geoidx_mesh* mesh, uint32_t struct_size) { init_sized(mesh, struct_size, {}); }
+
+void geoidx_build_options_init_sized(geoidx_build_options* options, uint32_t struct_size) {
+    geoidx_build_options defaults{};
+    defaults.lloyd_iterations = 4;
+    defaults.points_per_edge = 12;
+    defaults.engine = GEOIDX_ENGINE_OVERLAY;
+    defaults.exact_vertices = 400;
+    init_sized(options, struct_size, defaults);
 }
 
-void geoidx_build_options_init(geoidx_build_options* options) {
-    if (!options) return;
-    *options = {};
-    options->struct_size = sizeof *options;
-    options->lloyd_iterations = 4;
-    options->points_per_edge = 12;
-    options->engine = GEOIDX_ENGINE_OVERLAY;
-    options->exact_vertices = 400;
-}
-
-void geoidx_open_options_init(geoidx_open_options* options) {
-    if (!options) return;
-    *options = {};
-    options->struct_size = sizeof *options;
+void geoidx_open_options_init_sized(geoidx_open_options* options, uint32_t struct_size) {
+    init_sized(options, struct_size, {});
 }
 
 geoidx_status geoidx_build(const geoidx_mesh* mesh, const geoidx_build_options* options, geoidx** out) {

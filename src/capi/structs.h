@@ -8,6 +8,14 @@
 
 namespace geodesic {
 
+// As much of a struct as its caller knows of.
+template <class Struct>
+void init_sized(Struct* out, uint32_t struct_size, Struct defaults) {
+    if (!out || struct_size < sizeof(uint32_t)) return;
+    defaults.struct_size = std::min<uint32_t>(struct_size, sizeof(Struct));
+    std::memcpy(out, &defaults, defaults.struct_size);
+}
+
 // A whole struct from one that an older caller may have made shorter: what it lacks keeps its default.
 template <class Struct>
 Struct whole(const Struct& given, void (*init)(Struct*)) {

@@ -1,5 +1,6 @@
 // What geoidx.h promises about arguments, statuses, structs and errors.
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -44,6 +45,29 @@ TEST_CASE("the numbers of statuses and enumerations stay as released") {
     CHECK(GEOIDX_METRIC_EXACT == 0);
     CHECK(GEOIDX_METRIC_EDGES == 1);
     CHECK(GEOIDX_METRIC_CALLBACK == 2);
+}
+
+// Of an older caller, whose struct ends earlier, only that much may be written.
+TEST_CASE("init functions write no more than the caller's struct") {
+    const auto check = [](auto init_sized, auto whole) {
+        init_sized(nullptr, sizeof whole);
+        init_sized(&whole, sizeof whole);
+        for (uint32_t size = 0; size <= sizeof whole + 8; ++size) {
+            CAPTURE(size);
+            std::array<unsigned char, sizeof whole + 8> room, expected;
+            room.fill(0xAB);
+            expected.fill(0xAB);
+            if (const uint32_t filled = std::min<uint32_t>(size, sizeof whole); filled >= 4) {
+                std::memcpy(expected.data(), &whole, filled);
+                std::memcpy(expected.data(), &filled, sizeof filled);
+            }
+            init_sized(reinterpret_cast<decltype(whole)*>(room.data()), size);
+            CHECK(room == expected);
+        }
+    };
+    check(geoidx_mesh_init_sized, geoidx_mesh{});
+    check(geoidx_build_options_init_sized, geoidx_build_options{});
+    check(geoidx_open_options_init_sized, geoidx_open_options{});
 }
 
 TEST_CASE("init functions set struct_size and defaults, and bear NULL") {

@@ -23,6 +23,10 @@ static const char* (*const last_error)(void) = geoidx_last_error;
 static void (*const mesh_init)(geoidx_mesh*) = geoidx_mesh_init;
 static void (*const build_options_init)(geoidx_build_options*) = geoidx_build_options_init;
 static void (*const open_options_init)(geoidx_open_options*) = geoidx_open_options_init;
+static void (*const mesh_init_sized)(geoidx_mesh*, uint32_t) = geoidx_mesh_init_sized;
+static void (*const build_options_init_sized)(geoidx_build_options*,
+                                              uint32_t) = geoidx_build_options_init_sized;
+static void (*const open_options_init_sized)(geoidx_open_options*, uint32_t) = geoidx_open_options_init_sized;
 static geoidx_status (*const build)(const geoidx_mesh*, const geoidx_build_options*, geoidx**) = geoidx_build;
 static geoidx_status (*const save)(const geoidx*, const char*) = geoidx_save;
 static geoidx_status (*const save_memory)(const geoidx*, void*, uint64_t, uint64_t*) = geoidx_save_memory;
@@ -81,6 +85,7 @@ static void make_grid(geoidx_mesh* mesh) {
             triangles[t + 1][2] = a + SIDE;
         }
     mesh_init(mesh);
+    mesh_init_sized(mesh, mesh->struct_size);
     mesh->positions = positions;
     mesh->vertex_count = COUNT;
     mesh->triangles = triangles[0];
@@ -134,6 +139,7 @@ static int check_memory(const geoidx* index) {
     EXPECT(verify(bytes, size, count_issue, &issues) == GEOIDX_OK && issues == 0);
     EXPECT(verify(bytes, size - 1, count_issue, &issues) == GEOIDX_ERROR_TRUNCATED && issues > 0);
     open_options_init(&options);
+    open_options_init_sized(&options, options.struct_size);
     EXPECT(open_memory(bytes, size, &options, &opened) == GEOIDX_OK);
     free(bytes);
     failed = check_queries(opened);
@@ -175,6 +181,7 @@ int geoidx_header_test(void) {
     EXPECT(strcmp(status_string(GEOIDX_OK), status_string(GEOIDX_ERROR_IO)) != 0);
     make_grid(&mesh);
     build_options_init(&options);
+    build_options_init_sized(&options, options.struct_size);
     options.level_count = 1;
     options.patches[0] = 4;
     EXPECT(build(&mesh, NULL, NULL) == GEOIDX_ERROR_INVALID_ARGUMENT && strlen(last_error()) > 0);

@@ -3,7 +3,7 @@
 import inspect
 import sysconfig
 import unittest
-from ctypes import byref
+from ctypes import byref, sizeof
 from importlib import metadata
 from pathlib import Path
 
@@ -34,7 +34,7 @@ class Packaging(unittest.TestCase):
 
     def test_defaults_are_those_of_the_library(self):
         defaults = _native.BuildOptions()
-        _native.library.geoidx_build_options_init(byref(defaults))
+        _native.library.geoidx_build_options_init_sized(byref(defaults), sizeof(defaults))
         names = {name for name, _ in defaults._fields_}
         parameters = inspect.signature(geoidx.Index.build).parameters
         for name in names & set(parameters) - {"metric", "patches", "progress", "allocator"}:

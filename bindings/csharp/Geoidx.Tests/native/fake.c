@@ -7,7 +7,10 @@ uint32_t geoidx_abi_version(void) { return GEOIDX_ABI_VERSION; }
 
 const char* geoidx_last_error(void) { return "the detail"; }
 
-void geoidx_open_options_init(geoidx_open_options* options) { (void)options; }
+void geoidx_open_options_init_sized(geoidx_open_options* options, uint32_t struct_size) {
+    (void)options;
+    (void)struct_size;
+}
 
 geoidx_status geoidx_open(const char* utf8_path, const geoidx_open_options* options, geoidx** out) {
     (void)utf8_path;

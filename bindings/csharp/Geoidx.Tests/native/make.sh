@@ -25,7 +25,8 @@ facts() {
                    struct, field, struct, field, struct, field
         } }'
     grep -oE 'GEOIDX_[A-Z_]+ = ' <<<"$flat" | awk '{ printf "printf(\"constant %s %%d\\n\", %s);\n", $1, $1 }'
-    grep -oE 'geoidx_[a-z_]+\(' <<<"$flat" | awk '{ sub(/\(/, ""); printf "printf(\"function %s\\n\");\n", $1 }'
+    grep -oE 'visibility\("default"\)\)\)[^(]*\(' <<<"$flat" | # what is exported, not what is inline
+        grep -oE 'geoidx_[a-z_]+\($' | awk '{ sub(/\(/, ""); printf "printf(\"function %s\\n\");\n", $1 }'
 }
 
 {

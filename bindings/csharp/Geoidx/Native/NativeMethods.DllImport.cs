@@ -21,13 +21,13 @@ namespace Geoidx
         internal static extern IntPtr geoidx_last_error();
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        internal static extern void geoidx_mesh_init(void* mesh);
+        internal static extern void geoidx_mesh_init_sized(void* mesh, uint struct_size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        internal static extern void geoidx_build_options_init(void* options);
+        internal static extern void geoidx_build_options_init_sized(void* options, uint struct_size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        internal static extern void geoidx_open_options_init(void* options);
+        internal static extern void geoidx_open_options_init_sized(void* options, uint struct_size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_build(

@@ -21,13 +21,13 @@ namespace Geoidx
         internal static partial IntPtr geoidx_last_error();
 
         [LibraryImport(Library)]
-        internal static partial void geoidx_mesh_init(void* mesh);
+        internal static partial void geoidx_mesh_init_sized(void* mesh, uint struct_size);
 
         [LibraryImport(Library)]
-        internal static partial void geoidx_build_options_init(void* options);
+        internal static partial void geoidx_build_options_init_sized(void* options, uint struct_size);
 
         [LibraryImport(Library)]
-        internal static partial void geoidx_open_options_init(void* options);
+        internal static partial void geoidx_open_options_init_sized(void* options, uint struct_size);
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_build(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ctypes import byref
+from ctypes import byref, sizeof
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,7 @@ class MeshView:
         self.vertices = positions(vertices)
         self.faces = id_rows(faces, "faces", 3, BadMeshError)
         self.struct = _native.Mesh()
-        library.geoidx_mesh_init(byref(self.struct))
+        library.geoidx_mesh_init_sized(byref(self.struct), sizeof(self.struct))
         self._point_to_vertices()
         self.struct.triangles = address(self.faces)
         self.struct.triangle_count = len(self.faces)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ctypes import byref, pointer
+from ctypes import byref, pointer, sizeof
 from enum import IntEnum
 from typing import Sequence
 
@@ -27,7 +27,7 @@ class BuildOptions:
 
     def __init__(self, metric: MetricLike, weld_tolerance: float, progress: Progress | None = None) -> None:
         self.struct = _native.BuildOptions()
-        library.geoidx_build_options_init(byref(self.struct))
+        library.geoidx_build_options_init_sized(byref(self.struct), sizeof(self.struct))
         self.struct.weld_tolerance = weld_tolerance
         metric = as_metric(metric)
         self._arrays = metric.fill(self.struct)
@@ -46,7 +46,7 @@ class OpenOptions:
 
     def __init__(self, expected_mesh: MeshView | None, allocator: Allocator | None) -> None:
         self.struct = _native.OpenOptions()
-        library.geoidx_open_options_init(byref(self.struct))
+        library.geoidx_open_options_init_sized(byref(self.struct), sizeof(self.struct))
         if expected_mesh:
             self._mesh = expected_mesh
             self.struct.expected_mesh = pointer(expected_mesh.struct)
