@@ -8,15 +8,13 @@ namespace geodesic {
 namespace {
 
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
-constexpr size_t BLOCK = SeenBorder::BLOCK;
-static_assert(OverlayTables::PADDING >= BLOCK && Rings::PADDING >= BLOCK,
-              "the last row of a table is read in whole blocks");
+constexpr size_t BLOCK = SeenCodes::BLOCK;
 
 }
 
 BorderField::BorderField(const Index& index, std::pmr::memory_resource* memory)
     : kernel_(crossing_kernels().back()),
-      distance_(SeenBorder::whole_blocks(index.overlay_tables.rings.largest_size()) + BLOCK, memory),
+      distance_(SeenCodes::whole_blocks(index.overlay_tables.rings.largest_size()) + BLOCK, memory),
       code_(distance_.size(), memory), foot_(distance_.size(), memory), height_(distance_.size(), memory) {}
 
 bool BorderField::finish() {

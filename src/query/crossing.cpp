@@ -57,12 +57,12 @@ template <size_t BYTES>
         Numbers own;
         std::memcpy(&own, is_own + k, sizeof own);
         const Numbers number =
-            __builtin_convertvector(steps < largest ? steps : largest, Numbers) + SeenBorder::NEAREST;
+            __builtin_convertvector(steps < largest ? steps : largest, Numbers) + SeenCodes::NEAREST;
         const Codes codes = __builtin_convertvector(
-            distance < INFINITE ? number & own : Numbers{} + SeenBorder::NOT_SEEN, Codes);
+            distance < INFINITE ? number & own : Numbers{} + SeenCodes::NOT_SEEN, Codes);
         std::memcpy(code + k, &codes, sizeof codes);
     }
-    std::fill(code + border.places, code + SeenBorder::whole_blocks(border.places), SeenBorder::NOT_SEEN);
+    std::fill(code + border.places, code + SeenCodes::whole_blocks(border.places), SeenCodes::NOT_SEEN);
 }
 
 template <size_t BYTES>

@@ -2,22 +2,18 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
+
+#include "src/query/seen_codes.h"
 
 namespace geodesic {
 
 // The border of a patch as seen from a source, by the places of its ring: what a kernel reads.
 struct SeenBorder {
-    // Codes count from the nearest place's, which has the smallest number, so that sums with table entries
-    // fit; a place that is not reached has NOT_SEEN, and so have those behind the last up to whole blocks.
-    static constexpr int16_t NEAREST = std::numeric_limits<int16_t>::min(), NOT_SEEN = 0;
-    static constexpr size_t BLOCK = 32;
-    static constexpr size_t whole_blocks(size_t places) { return (places + BLOCK - 1) / BLOCK * BLOCK; }
     static constexpr uint16_t NO_PLACE = 0xffff; // a winner where there is no way
 
     size_t places;
-    const int16_t* code;
+    const int16_t* code;                // of SeenCodes
     const float* distance;              // infinity behind the last place, too, up to whole blocks
     const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
     const float *foot, *height;         // of the source, seen from the segment

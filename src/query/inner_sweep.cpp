@@ -10,9 +10,7 @@ namespace geodesic {
 namespace {
 
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
-constexpr size_t BLOCK = SweptBorder::BLOCK;
-static_assert(OverlayTables::PADDING >= BLOCK && Rings::PADDING >= BLOCK,
-              "the last row of a table is read in whole blocks");
+constexpr size_t BLOCK = SeenCodes::BLOCK;
 
 }
 
@@ -20,7 +18,7 @@ InnerSweep::InnerSweep(const Index& index, size_t sources, std::pmr::memory_reso
     : index_(index), rings_(index.overlay_tables.rings), kernel_(sweep_kernels().back()), sources_(sources),
       distance_(memory), middle_distance_(memory), code_(memory), middle_(memory), field_(index, memory),
       rows_(memory), inside_(memory) {
-    const size_t room = (SweptBorder::whole_blocks(rings_.largest_size()) + BLOCK) * sources;
+    const size_t room = (SeenCodes::whole_blocks(rings_.largest_size()) + BLOCK) * sources;
     for (Array<float>* distances : {&distance_, &middle_distance_}) distances->resize(room);
     for (Array<int16_t>* codes : {&code_, &middle_}) codes->resize(room);
     rows_.resize(index.largest_inner_size());

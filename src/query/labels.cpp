@@ -39,7 +39,7 @@ void lay_out_labels(Index& index) {
     if (size > heads + MOST_PER_ENTRY * entries)
         throw Error(GEOIDX_ERROR_LIMIT, "labels would take " + std::to_string(size) +
                                             " numbers, for tables of " + std::to_string(entries));
-    tables.labels.assign(size, SeenBorder::NOT_SEEN);
+    tables.labels.assign(size, SeenCodes::NOT_SEEN);
 }
 
 // Distances from the labelled vertices of a patch's border to all that lies inside of its descendants,

@@ -23,9 +23,6 @@ struct Missing {
 // A key is a sum, and below it a place: the least one is the first place with the least sum.
 constexpr int32_t PLACE_BITS = 16, PLACE_MASK = 0xffff;
 
-// Sums from here on may be of places that are not seen, or of no way.
-constexpr int32_t NO_SUM = SeenBorder::NEAREST + OverlayTables::UNREACHED;
-
 // Of each 16 bytes the keys of the four low places, and of the four high ones.
 template <size_t BYTES, size_t... I>
 [[gnu::always_inline]] inline void
@@ -130,7 +127,7 @@ int32_t find_place(const SeenBorder& border, const uint16_t* row, const SumOf& s
     float least = INFINITE;
     int32_t nearest = SeenBorder::NO_PLACE;
     for (size_t k = 0; k < border.places; ++k) {
-        if (border.code[k] == SeenBorder::NOT_SEEN || row[k] == OverlayTables::UNREACHED) continue;
+        if (border.code[k] == SeenCodes::NOT_SEEN || row[k] == OverlayTables::UNREACHED) continue;
         const float sum = sum_of(k);
         if (sum >= least) continue;
         least = sum;
@@ -155,11 +152,11 @@ inline int32_t choose_place(const SeenBorder& border, const uint16_t* row) {
 template <class FindOne>
 [[gnu::always_inline]] inline Missing take_places(int32_t* keys, size_t count, const FindOne& find_one) {
     Missing missing;
-    int32_t most = NO_SUM * (1 << PLACE_BITS) - 1;
+    int32_t most = SeenCodes::NO_SUM * (1 << PLACE_BITS) - 1;
     for (size_t r = 0; r < count; ++r) most = std::max(most, keys[r]);
-    if (most >= NO_SUM * (1 << PLACE_BITS)) [[unlikely]]
+    if (most >= SeenCodes::NO_SUM * (1 << PLACE_BITS)) [[unlikely]]
         for (size_t r = 0; r < count; ++r) {
-            if (keys[r] < NO_SUM * (1 << PLACE_BITS)) continue;
+            if (keys[r] < SeenCodes::NO_SUM * (1 << PLACE_BITS)) continue;
             keys[r] = find_one(r);
             if (keys[r] != SeenBorder::NO_PLACE) continue;
             keys[r] = Rings::REACH;

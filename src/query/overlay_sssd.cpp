@@ -65,7 +65,7 @@ OverlaySssd::OverlaySssd(const Index& index, std::pmr::memory_resource* memory)
     rows_.reserve(from_window_.size());
     samples_of_first_.resize(samples_.size());
     code_of_first_.resize(samples_.size());
-    code_.resize(index.overlay_tables.coarse_rings.largest_size() + SeenBorder::BLOCK);
+    code_.resize(index.overlay_tables.coarse_rings.largest_size() + SeenCodes::BLOCK);
     for (End* end : {&from_, &to_}) {
         end->borders.reserve(index.level_count());
         end->distance.resize(samples_.size());
@@ -381,8 +381,8 @@ void OverlaySssd::spread(const Label& label, uint32_t patch, std::span<int16_t> 
     const uint32_t first = rings.begin[patch], places = rings.size(patch);
     const uint32_t* code_at = (label.is_whole ? rings.position : tables_.coarse_samples).data() + first;
     for (uint32_t k = 0; k < places; ++k)
-        out[k] = rings.is_own[first + k] ? label.codes[code_at[k]] : SeenBorder::NOT_SEEN;
-    std::ranges::fill(out.subspan(places, SeenBorder::BLOCK), SeenBorder::NOT_SEEN);
+        out[k] = rings.is_own[first + k] ? label.codes[code_at[k]] : SeenCodes::NOT_SEEN;
+    std::ranges::fill(out.subspan(places, SeenCodes::BLOCK), SeenCodes::NOT_SEEN);
 }
 
 // The samples of the first border, by the quantum of the second one's rows.

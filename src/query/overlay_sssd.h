@@ -85,9 +85,9 @@ private:
         bool is_whole;
 
         float distance(uint32_t i) const {
-            const auto steps = static_cast<uint32_t>(codes[i] - SeenBorder::NEAREST);
-            return codes[i] == SeenBorder::NOT_SEEN ? std::numeric_limits<float>::infinity()
-                                                    : static_cast<float>(nearest + steps) * quantum;
+            const auto steps = static_cast<uint32_t>(codes[i] - SeenCodes::NEAREST);
+            return codes[i] == SeenCodes::NOT_SEEN ? std::numeric_limits<float>::infinity()
+                                                   : static_cast<float>(nearest + steps) * quantum;
         }
     };
     Label label_of(uint32_t vertex, uint32_t patch) const;

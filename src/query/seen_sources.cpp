@@ -16,7 +16,7 @@ constexpr float GAP = std::numeric_limits<float>::quiet_NaN();
 
 SeenSources::SeenSources(const Index& index, std::pmr::memory_resource* memory)
     : rings_(index.overlay_tables.rings), source_(memory), length_(memory), half_inverse_(memory) {
-    const size_t room = SweptBorder::whole_blocks(rings_.largest_size()) + SweptBorder::BLOCK;
+    const size_t room = SeenCodes::whole_blocks(rings_.largest_size()) + SeenCodes::BLOCK;
     source_.resize(room);
     length_.resize(room, GAP);
     half_inverse_.resize(room, GAP);
@@ -43,8 +43,8 @@ void SeenSources::leave_gaps(uint32_t places) {
         length_[k] = sees_one ? all_segments_.length[k] : GAP;
         half_inverse_[k] = sees_one ? all_segments_.half_inverse[k] : GAP;
     }
-    std::fill_n(length_.begin() + places, SweptBorder::BLOCK, GAP);
-    std::fill_n(half_inverse_.begin() + places, SweptBorder::BLOCK, GAP);
+    std::fill_n(length_.begin() + places, SeenCodes::BLOCK, GAP);
+    std::fill_n(half_inverse_.begin() + places, SeenCodes::BLOCK, GAP);
 }
 
 }

@@ -23,14 +23,14 @@ public:
     uint32_t nearest() const { return nearest_; }
 
     int16_t code(float distance) const {
-        if (distance == INFINITE) return SeenBorder::NOT_SEEN;
+        if (distance == INFINITE) return SeenCodes::NOT_SEEN;
         const float steps = std::clamp(distance * scale_ - static_cast<float>(nearest_) + 0.5f, 0.f, MOST);
-        return static_cast<int16_t>(SeenBorder::NEAREST + static_cast<int32_t>(steps));
+        return static_cast<int16_t>(SeenCodes::NEAREST + static_cast<int32_t>(steps));
     }
 
 private:
     static constexpr float INFINITE = std::numeric_limits<float>::infinity();
-    static constexpr float MOST = SeenBorder::NOT_SEEN - 2 - SeenBorder::NEAREST;
+    static constexpr float MOST = SeenCodes::NOT_SEEN - 2 - SeenCodes::NEAREST;
 
     float scale_;
     uint32_t nearest_ = 0;

@@ -14,9 +14,6 @@ namespace {
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 constexpr size_t SOURCES = SweepKernel::SOURCES;
 
-// Sums of codes from here on may be of places that are not seen, or of no way.
-constexpr int NO_SUM = SweptCodes::NEAREST + OverlayTables::UNREACHED;
-
 template <size_t BYTES>
 using Sums = typename Lanes<BYTES>::Codes;
 
@@ -85,8 +82,8 @@ private:
         Distances distance;
         load(distances, distance);
         const Distances steps = (distance - nearest) * scale + 0.5f;
-        codes = __builtin_convertvector(steps < largest ? steps : largest, Numbers) + SweptCodes::NEAREST;
-        codes = distance < INFINITE ? codes : Numbers{} + SweptCodes::NOT_SEEN;
+        codes = __builtin_convertvector(steps < largest ? steps : largest, Numbers) + SeenCodes::NEAREST;
+        codes = distance < INFINITE ? codes : Numbers{} + SeenCodes::NOT_SEEN;
     }
 
     [[gnu::always_inline]] static void encode(const SweptBorder& border, const float* distances,
@@ -108,8 +105,8 @@ private:
                     store(pairs, codes + k * COUNT + 2 * v * LANES);
                 }
         }
-        std::fill(codes + places_filled * COUNT, codes + SweptBorder::whole_blocks(border.places) * COUNT,
-                  SweptCodes::NOT_SEEN);
+        std::fill(codes + places_filled * COUNT, codes + SeenCodes::whole_blocks(border.places) * COUNT,
+                  SeenCodes::NOT_SEEN);
     }
 };
 
@@ -137,7 +134,7 @@ template <class Narrow, class Wide>
 [[gnu::always_inline]] inline void decode(const Narrow& sums, float quantum, const Wide& nearest,
                                           float* distances) {
     using Numbers = typename VectorOf<int32_t, sizeof(Wide)>::Type;
-    const Numbers steps = __builtin_convertvector(sums, Numbers) - SweptCodes::NEAREST;
+    const Numbers steps = __builtin_convertvector(sums, Numbers) - SeenCodes::NEAREST;
     const Wide distance = nearest + __builtin_convertvector(steps, Wide) * quantum;
     store(distance, distances);
 }
@@ -209,9 +206,9 @@ struct Sweep {
         using EightFloats = Floats<ROWS * sizeof(float)>;
         const EightFloats nearest = EightFloats{} + *codes.nearest;
         decode(sums, border.quantum, nearest, distances);
-        if (any(sums >= static_cast<int16_t>(NO_SUM))) [[unlikely]]
+        if (any(sums >= static_cast<int16_t>(SeenCodes::NO_SUM))) [[unlikely]]
             for (size_t r = 0; r < ROWS; ++r)
-                if (sums[r] >= NO_SUM)
+                if (sums[r] >= SeenCodes::NO_SUM)
                     distances[r] = way_over_places(border, 1, border.distance, rows.codes + row_begin[r]);
     }
 
@@ -278,9 +275,9 @@ struct SweepEach {
             Floats<BYTES> nearest;
             load(codes.nearest + i % VECTORS * LANES, nearest);
             decode(sums, border.quantum, nearest, distances + first * SOURCES + i * LANES);
-            if (any(sums >= NO_SUM)) [[unlikely]]
+            if (any(sums >= SeenCodes::NO_SUM)) [[unlikely]]
                 for (size_t lane = 0; lane < LANES; ++lane)
-                    if (sums[lane] >= NO_SUM)
+                    if (sums[lane] >= SeenCodes::NO_SUM)
                         sweep_one(border, codes, rows, first * SOURCES + i * LANES + lane, distances);
         }
     }

@@ -2,30 +2,23 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 
-#include "src/index/overlay_tables.h"
+#include "src/query/seen_codes.h"
 
 namespace geodesic {
 
 // A ring, and the distances of sources from its places: infinity behind the last one, up to whole blocks.
 struct SweptBorder {
-    static constexpr size_t BLOCK = 32;
-    static constexpr size_t whole_blocks(size_t places) { return (places + BLOCK - 1) / BLOCK * BLOCK; }
-
     size_t places;
     const float* distance;
     const float* length; // of the segment to the next place; NaN: a gap
     float quantum;       // of the rows
 };
 
-// The distances as codes, from the places and from the middles of the segments that begin at them. They count
-// from the nearest, which has the smallest number, so that sums with table entries fit; what is not reached
-// has NOT_SEEN, and so has what is behind the last place up to whole blocks.
+// The distances as codes of SeenCodes, from the places and from the middles of the segments that begin at
+// them.
 struct SweptCodes {
-    static constexpr int16_t NEAREST = std::numeric_limits<int16_t>::min(), NOT_SEEN = 0;
-
     int16_t *code, *middle;
     float* nearest; // per source; infinity: none is reached, and its codes say nothing
 };

@@ -130,8 +130,8 @@ TEST_CASE("crossing: the first place with the least sum wins, by every kernel, a
             FlatBorder border(places, {1, -1}, points, random);
             for (uint16_t& code : border.codes) code = static_cast<uint16_t>(random() % (largest + 1));
             for (size_t k = 2; k + 2 < places; ++k)
-                border.code[k] = static_cast<int16_t>(SeenBorder::NEAREST + random() % (largest / 2 + 1));
-            border.code[2 + random() % (places - 4)] = SeenBorder::NEAREST;
+                border.code[k] = static_cast<int16_t>(SeenCodes::NEAREST + random() % (largest / 2 + 1));
+            border.code[2 + random() % (places - 4)] = SeenCodes::NEAREST;
             const SeenBorder seen = border.seen();
             Crossed first;
             for (const CrossingKernel& kernel : crossing_kernels()) {
@@ -201,12 +201,12 @@ TEST_CASE("crossing: what is seen of a border, by every kernel") {
             CHECK(kernel.see(seen, is_own.data(), code.data(), foot.data(), height.data()).nearest ==
                   nearest);
             uint64_t wrong = 0;
-            for (size_t k = 0; k < (places + SeenBorder::BLOCK - 1) / SeenBorder::BLOCK * SeenBorder::BLOCK;
+            for (size_t k = 0; k < (places + SeenCodes::BLOCK - 1) / SeenCodes::BLOCK * SeenCodes::BLOCK;
                  ++k) {
                 const bool is_seen = k < places && is_own[k] && border.to_source[k] < INFINITE;
                 const double steps = (double{border.to_source[k]} - double{nearest}) / double{border.quantum};
-                wrong += is_seen ? std::abs(code[k] - SeenBorder::NEAREST - std::min(steps, 32766.0)) > 0.51
-                                 : code[k] != SeenBorder::NOT_SEEN;
+                wrong += is_seen ? std::abs(code[k] - SeenCodes::NEAREST - std::min(steps, 32766.0)) > 0.51
+                                 : code[k] != SeenCodes::NOT_SEEN;
             }
             for (size_t k = 0; k + 1 < places; ++k) {
                 if (border.to_source[k] == INFINITE || border.to_source[k + 1] == INFINITE) continue;

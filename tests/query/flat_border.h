@@ -38,15 +38,15 @@ struct FlatBorder {
         for (const Point& target : targets)
             for (const Point& at : border) longest = std::max(longest, geodesic_distance(target, at));
         quantum = static_cast<float>(longest / OverlayTables::LARGEST);
-        const size_t room = (places / SeenBorder::BLOCK + 2) * SeenBorder::BLOCK;
-        code.assign(room, SeenBorder::NOT_SEEN);
+        const size_t room = (places / SeenCodes::BLOCK + 2) * SeenCodes::BLOCK;
+        code.assign(room, SeenCodes::NOT_SEEN);
         for (auto* values : {&to_source, &length, &half_inverse, &foot, &height}) values->assign(room, 0);
         double nearest = longest;
         for (const Point& at : border) nearest = std::min(nearest, geodesic_distance(source, at));
         for (size_t k = 0; k < places; ++k) {
             to_source[k] = static_cast<float>(geodesic_distance(source, border[k]));
             code[k] = static_cast<int16_t>(
-                SeenBorder::NEAREST +
+                SeenCodes::NEAREST +
                 std::lround(std::min((double{to_source[k]} - nearest) / double{quantum}, 32766.0)));
             const Point next = border[std::min(k + 1, places - 1)];
             const Point along{next.x - border[k].x, next.y - border[k].y};
@@ -57,8 +57,8 @@ struct FlatBorder {
             height[k] = static_cast<float>(std::abs(seen.x * along.y - seen.y * along.x) / double{length[k]});
         }
         // The ends are there to be neighbours only.
-        for (size_t k : {size_t{0}, size_t{1}, places - 2, places - 1}) code[k] = SeenBorder::NOT_SEEN;
-        codes.assign(targets.size() * places + SeenBorder::BLOCK, 0);
+        for (size_t k : {size_t{0}, size_t{1}, places - 2, places - 1}) code[k] = SeenCodes::NOT_SEEN;
+        codes.assign(targets.size() * places + SeenCodes::BLOCK, 0);
         for (size_t r = 0; r < targets.size(); ++r)
             for (size_t k = 0; k < places; ++k)
                 codes[r * places + k] = static_cast<uint16_t>(
@@ -70,7 +70,7 @@ struct FlatBorder {
     static double geodesic_distance(Point a, Point b) { return test::distance(a, b); }
 
     SeenBorder seen() const {
-        return {rows.size() > 1 ? static_cast<size_t>(rows[1] - rows[0]) : codes.size() - SeenBorder::BLOCK,
+        return {rows.size() > 1 ? static_cast<size_t>(rows[1] - rows[0]) : codes.size() - SeenCodes::BLOCK,
                 code.data(),
                 to_source.data(),
                 length.data(),

@@ -24,11 +24,11 @@ struct Plane {
         for (const Point& target : targets)
             for (const Point& at : border) longest = std::max(longest, distance(target, at));
         quantum = static_cast<float>(longest / OverlayTables::LARGEST);
-        length.assign(places + SweptBorder::BLOCK, 1);
+        length.assign(places + SeenCodes::BLOCK, 1);
         for (size_t k = 0; k + 1 < places; ++k)
             length[k] = static_cast<float>(distance(border[k], border[k + 1]));
         length[places - 1] = NAN;
-        codes.assign(targets.size() * places + SweptBorder::BLOCK, 0);
+        codes.assign(targets.size() * places + SeenCodes::BLOCK, 0);
         middles = codes;
         for (size_t r = 0; r < targets.size(); ++r)
             for (size_t k = 0; k < places; ++k) {
@@ -78,7 +78,7 @@ struct Plane {
 // Distances by row, of `count` sources from `first` on, side by side.
 std::vector<float> sweep(const SweepKernel& kernel, const Plane& plane, size_t first, size_t count) {
     const size_t places = plane.border.size();
-    const size_t room = (SweptBorder::whole_blocks(places) + SweptBorder::BLOCK) * count;
+    const size_t room = (SeenCodes::whole_blocks(places) + SeenCodes::BLOCK) * count;
     std::vector<float> from(room, INFINITE), middle_from(room, 12345);
     std::vector<int16_t> code(room, -77), middle(room, -77);
     for (size_t k = 0; k < places; ++k)
