@@ -130,7 +130,8 @@ TEST_CASE("crossing: the first place with the least sum wins, by every kernel, a
             FlatBorder border(places, {1, -1}, points, random);
             for (uint16_t& code : border.codes) code = static_cast<uint16_t>(random() % (largest + 1));
             for (size_t k = 2; k + 2 < places; ++k)
-                border.code[k] = static_cast<int16_t>(SeenCodes::NEAREST + random() % (largest / 2 + 1));
+                border.code[k] = static_cast<int16_t>(SeenCodes::NEAREST +
+                                                      static_cast<int32_t>(random() % (largest / 2 + 1)));
             border.code[2 + random() % (places - 4)] = SeenCodes::NEAREST;
             const SeenBorder seen = border.seen();
             Crossed first;
