@@ -14,6 +14,7 @@ constexpr float INFINITE = std::numeric_limits<float>::infinity();
 constexpr uint32_t REACH = Rings::REACH;
 
 constexpr size_t WAYS = 3;               // that are measured
+constexpr float BESIDE = 1;              // spacings of samples: an end so near to a border lies at it
 constexpr float WORTH_MEASURING = 1.05f; // how long over samples, compared to the shortest
 
 // Asks for memory that is going to be read soon.
@@ -142,11 +143,25 @@ float OverlaySssd::distance(uint32_t low, uint32_t high) {
         climb(low, top, from_);
         return meet(FromEnd{*this, from_, patch}, to_);
     }
-    const uint32_t position = index_.position_at_owner(low_is_there ? low : high);
+    const uint32_t there = low_is_there ? low : high;
+    if (const float known = distance_on_border(there, patch, to_.vertex); known < INFINITE) return known;
+    const uint32_t position = index_.position_at_owner(there);
     const uint16_t* row = tables_.outer_tables.data() + index_.outer_row(patch, position);
     const uint32_t first = tables_.rings.begin[patch];
     const auto of_place = [&](uint32_t k) { return tables_.distance(row[k - first], top); };
     return meet(FromVertex<decltype(of_place)>{tables_, patch, of_place}, to_);
+}
+
+// To a vertex on the border of a patch that another one lies in; infinite if it is not there, or not known.
+float OverlaySssd::distance_on_border(uint32_t border_vertex, uint32_t patch, uint32_t vertex) const {
+    for (const BorderPlace& at : index_.places_of(border_vertex)) {
+        if (at.patch != patch) continue;
+        if (patch == index_.entry(vertex))
+            return distances_from(vertex)(tables_.rings.begin[patch] +
+                                          tables_.place_of_slot[index_.border_begin[patch] + at.position]);
+        if (index_.is_labelled_whole(patch)) return label_of(vertex, patch).distance(at.position);
+    }
+    return INFINITE;
 }
 
 float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, uint32_t target) {
@@ -158,8 +173,12 @@ float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, 
     const uint32_t top = lowest_common_patch(index_, index_.entry(source), index_.entry(target));
     if (top >= index_.first_leaf() || index_.entry(target) == top) return known[target];
     climb(target, top, to_);
+    const uint32_t waiting = to_.borders.back().patch;
+    if (index_.entry(source) == top)
+        if (const float direct = distance_on_border(source, waiting, target); direct < INFINITE)
+            return direct;
     const auto of_place = [&](uint32_t k) { return known[tables_.rings.vertex[k]]; };
-    return meet(FromVertex<decltype(of_place)>{tables_, to_.borders.back().patch, of_place}, to_);
+    return meet(FromVertex<decltype(of_place)>{tables_, waiting, of_place}, to_);
 }
 
 // Into a patch with all vertices of its border labelled, from a source outside.
@@ -204,15 +223,41 @@ float OverlaySssd::meet(const From& from, End& to) {
         for (auto& kept : ways)
             if (way < kept) std::swap(way, kept);
     }
+    const auto is_worth_measuring = [&](const auto& way) {
+        return way.first < INFINITE && way.first <= ways[0].first * WORTH_MEASURING;
+    };
     float shortest = INFINITE;
-    for (const auto& [length, place] : ways)
-        if (length < INFINITE && length <= ways[0].first * WORTH_MEASURING)
-            shortest = std::min(shortest, measure_over(from, to, place - rings.begin[border.patch]));
+    uint32_t beside = place_beside(distance, to);
+    for (const auto& way : ways) {
+        if (!is_worth_measuring(way)) continue;
+        shortest = std::min(shortest, measure_over(from, to, way.second - rings.begin[border.patch]));
+        if (way.second == beside) beside = NONE;
+    }
+    if (beside != NONE)
+        shortest = std::min(shortest, measure_over(from, to, beside - rings.begin[border.patch]));
     if (shortest > tables_.near[border.patch]) return shortest;
     const float reach = shortest + 2 * tables_.sample_spacing[border.patch];
     from.trace_near(reach);
     trace_near(to, reach);
     return std::min(shortest, measure(from, to));
+}
+
+// That of the sample, in the coarse ring where `to` waits, beside which one of the ends lies, or NONE: the
+// way begins near there, though others may be shorter by what samples tell.
+uint32_t OverlaySssd::place_beside(std::span<const float> from_distance, const End& to) const {
+    const uint32_t patch = to.borders.back().patch;
+    float least = BESIDE * tables_.sample_spacing[patch];
+    uint32_t sample = NONE;
+    for (uint32_t i = 0; i < from_distance.size(); ++i) {
+        const float nearer = std::min(from_distance[i], to.distance[i]);
+        if (nearer >= least) continue;
+        least = nearer;
+        sample = i;
+    }
+    if (sample == NONE) return NONE;
+    uint32_t k = tables_.coarse_rings.begin[patch] + REACH;
+    while (tables_.coarse_samples[k] != sample) ++k;
+    return k;
 }
 
 // The way over one of these samples, by its place in the coarse ring.

@@ -62,6 +62,7 @@ private:
         bool is_near = false; // to the other end: borders are straightened over any segment
     };
 
+    float distance_on_border(uint32_t border_vertex, uint32_t patch, uint32_t vertex) const;
     float distance_over(uint32_t patch, std::span<const float> known, uint32_t target) const;
 
     // How the other end is seen from the border where `to` waits: one that climbed, too, or a vertex whose
@@ -71,6 +72,7 @@ private:
     struct FromVertex;
     template <class From>
     float meet(const From& from, End& to);
+    uint32_t place_beside(std::span<const float> from_distance, const End& to) const;
     template <class From>
     float measure_over(const From& from, End& to, uint32_t place);
     template <class From>

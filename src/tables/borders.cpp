@@ -30,15 +30,13 @@ uint32_t common_ancestor(const Hierarchy& hierarchy, std::span<const uint32_t> l
     return first;
 }
 
-std::vector<std::vector<uint32_t>> walk_boundary(const Mesh& mesh, std::span<const uint32_t> faces,
-                                                 const std::vector<uint8_t>& inside) {
-    std::map<uint32_t, std::set<uint32_t>> neighbours; // over boundary edges not walked yet
+std::vector<std::vector<uint32_t>> walk_border(const Mesh& mesh, std::span<const uint32_t> faces,
+                                               const std::vector<uint8_t>& inside) {
+    std::map<uint32_t, std::set<uint32_t>> neighbours; // over edges between the patch and others
     for (uint32_t f : faces)
         for (uint32_t e : mesh.face_edges[f]) {
             const auto sides = mesh.edge_faces[e];
-            if (sides.size() > 1 &&
-                std::all_of(sides.begin(), sides.end(), [&](uint32_t g) { return inside[g]; }))
-                continue;
+            if (std::all_of(sides.begin(), sides.end(), [&](uint32_t g) { return inside[g]; })) continue;
             neighbours[mesh.edges[e][0]].insert(mesh.edges[e][1]);
             neighbours[mesh.edges[e][1]].insert(mesh.edges[e][0]);
         }

@@ -15,11 +15,11 @@ ListOfLists<uint32_t> leaves_at_vertices(const Mesh& mesh, const Hierarchy& hier
 // leaves.
 uint32_t common_ancestor(const Hierarchy& hierarchy, std::span<const uint32_t> leaves);
 
-// The vertices on the boundary of a patch, given by its faces, each once: ring by ring, from its smallest
-// vertex to the smaller of its neighbours; where rings touch, a walk through one may take a part of another,
-// and what is left of that is a walk from its one end to its other. `inside[f]` tells whether face f is in
-// the patch.
-std::vector<std::vector<uint32_t>> walk_boundary(const Mesh& mesh, std::span<const uint32_t> faces,
-                                                 const std::vector<uint8_t>& inside);
+// The vertices of edges between a patch, given by its faces, and others, each once, along these edges: ring
+// by ring, from its smallest vertex to the smaller of its neighbours, or from one end to the other, where a
+// ring is broken by the boundary of the mesh, or by another ring that touches it and was walked before.
+// `inside[f]` tells whether face f is in the patch.
+std::vector<std::vector<uint32_t>> walk_border(const Mesh& mesh, std::span<const uint32_t> faces,
+                                               const std::vector<uint8_t>& inside);
 
 }

@@ -81,7 +81,7 @@ std::vector<uint32_t> border_of_patch(const Mesh& mesh, uint32_t patch, std::spa
         return index.is_border(number[v]) && !index.is_within(index.owner[number[v]], patch);
     };
     for (uint32_t f : faces) inside[f] = 1;
-    auto walks = walk_boundary(mesh, faces, inside);
+    auto walks = walk_border(mesh, faces, inside);
     for (uint32_t f : faces) inside[f] = 0;
     std::vector<uint32_t> border, touching;
     for (auto& walk : walks) {

@@ -248,6 +248,25 @@ TEST_CASE("overlay: straight lines on a plane, from everywhere to everywhere") {
     }
 }
 
+// Where triangles are long and narrow, borders zigzag so much that their samples tell little.
+TEST_CASE("overlay: SSSD on a stretched plane") {
+    TestMesh mesh = grid(50, 50, 0.2);
+    for (size_t i = 0; i < mesh.positions.size(); i += 3) mesh.positions[i] *= 8;
+    const uint32_t count = mesh.vertex_count();
+    const auto index = build(mesh, overlay_options(GEOIDX_METRIC_EXACT, 0, 400));
+    const QueryHandle query = query_of(index.get());
+    Differences errors;
+    for (uint32_t source = 0; source < count; source += 7)
+        for (uint32_t target = 0; target < count; ++target) {
+            float distance = 0;
+            require_success(geoidx_query_sssd(query.get(), source, target, &distance));
+            errors.add(double{distance}, mesh.straight(source, target));
+        }
+    CHECK(errors.reached_wrongly == 0);
+    CHECK(errors.mean() < 1e-4);
+    CHECK(errors.largest < 0.05);
+}
+
 // The same distances, told to be locally Euclidean or not.
 TEST_CASE("overlay: only a metric that unfolds crosses borders between vertices") {
     const TestMesh mesh = grid(40, 40, 0.25);
