@@ -6,24 +6,25 @@
 namespace geodesic {
 
 NearSources::NearSources(const Index& index, std::pmr::memory_resource* memory)
-    : index_(index), reach_(memory), entries_(memory), first_entry_(memory) {}
+    : index_(index), longest_segment_(memory), entries_(memory), first_entry_(memory) {}
 
 void NearSources::clear() {
     const Rings& rings = index_.overlay_tables.rings;
-    if (reach_.empty()) {
-        reach_.resize(index_.patch_count());
+    if (longest_segment_.empty()) {
+        longest_segment_.resize(index_.patch_count());
         for (uint32_t p = 0; p < index_.patch_count(); ++p)
             for (uint32_t k = rings.begin[p]; k < rings.begin[p + 1]; ++k)
-                reach_[p] = std::fmax(reach_[p], OverlayTables::NEAR * rings.segment_length[k]);
-        longest_reach_ = *std::ranges::max_element(reach_);
+                longest_segment_[p] = std::fmax(longest_segment_[p], rings.segment_length[k]);
+        longest_reach_ = OverlayTables::NEAR * *std::ranges::max_element(longest_segment_);
     }
     entries_.clear();
     first_entry_.assign(index_.patch_count(), NONE);
 }
 
-void NearSources::add_near(const NearVertex& vertex) {
+void NearSources::add_near(const NearVertex& vertex, float nearest) {
     for (const BorderPlace& place : index_.places_of(vertex.border_vertex)) {
-        if (vertex.distance > reach_[place.patch]) continue;
+        const float segment = longest_segment_[place.patch];
+        if (vertex.distance > std::min(OverlayTables::NEAR * segment, nearest + 2 * segment)) continue;
         entries_.push_back({vertex, first_entry_[place.patch]});
         first_entry_[place.patch] = static_cast<uint32_t>(entries_.size() - 1);
     }

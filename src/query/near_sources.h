@@ -21,9 +21,11 @@ public:
     NearSources(const Index& index, std::pmr::memory_resource* memory);
 
     void clear();
-    // To the borders that it lies on and is near to.
-    void add(const NearVertex& vertex) {
-        if (vertex.distance <= longest_reach_) add_near(vertex);
+    // To the borders that it lies on and is near to; `nearest`: the vertex's distance from any source, so
+    // far. What is farther by two segments is left out: where it crosses one, another source is nearer to
+    // both ends.
+    void add(const NearVertex& vertex, float nearest) {
+        if (vertex.distance <= longest_reach_) add_near(vertex, nearest);
     }
 
     // Appends what lies on the border of a patch.
@@ -35,10 +37,10 @@ private:
         uint32_t next; // on the same border
     };
 
-    void add_near(const NearVertex& vertex);
+    void add_near(const NearVertex& vertex, float nearest);
 
     const Index& index_;
-    Array<float> reach_; // per patch
+    Array<float> longest_segment_; // per patch
     float longest_reach_ = 0;
     Array<Entry> entries_;
     Array<uint32_t> first_entry_; // per patch
@@ -62,13 +64,20 @@ public:
     // After reserve(). Lowers the distances over near segments of the patch's border, on which these lie;
     // found(source, row, distance) for every distance that is near, lower or not.
     template <class Found>
-    void cross(uint32_t patch, Array<NearVertex>& vertices, const Targets& targets, const Found& found) {
+    void cross(uint32_t patch, Array<NearVertex>& vertices, const Targets& targets,
+               const uint32_t* nearest_source, const Found& found) {
         std::ranges::sort(vertices, {}, &NearVertex::source);
         for (std::span<const NearVertex> left = vertices; !left.empty();) {
             const uint32_t source = left.front().source;
             const auto count = static_cast<size_t>(
                 std::ranges::upper_bound(left, source, {}, &NearVertex::source) - left.begin());
-            cross_from_one(patch, left.first(count), targets);
+            const auto of_source = left.first(count);
+            left = left.subspan(count);
+            if (std::ranges::none_of(of_source, [&](const NearVertex& v) {
+                    return nearest_source[v.border_vertex] == source;
+                }))
+                continue;
+            cross_from_one(patch, of_source, targets);
             for (size_t r = 0; r < targets.rows.size(); ++r) {
                 if (!(way_[r] < INFINITE)) continue;
                 found(source, r, way_[r]);
@@ -76,7 +85,6 @@ public:
                 targets.distance[r] = way_[r];
                 targets.source[r] = source;
             }
-            left = left.subspan(count);
         }
     }
 

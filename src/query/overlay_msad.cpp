@@ -50,6 +50,7 @@ void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::sp
     std::ranges::fill(sources_below_, 0u);
     source_count_ = static_cast<uint32_t>(sources.size());
     for (uint32_t source : sources) start_from(source, distance);
+    for (uint32_t source : sources) look_around(source, distance);
     for (uint32_t p = index_.patch_count() - 1; p > 0; --p)
         if (sources_below_[p]) {
             ascend(p, distance);
@@ -61,13 +62,17 @@ void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::sp
 
 void OverlayMsad::start_from(uint32_t source, std::span<float> distance) {
     for_each_way_from(index_, source, [&](uint32_t number, float way) {
-        const bool is_border = index_.is_border(number);
-        if (is_border) top_.near_sources.add({source, number, way});
         if (way >= distance[number]) return;
         distance[number] = way;
-        if (is_border) nearest_source_[number] = source;
+        if (index_.is_border(number)) nearest_source_[number] = source;
     });
     ++sources_below_[index_.entry(source)];
+}
+
+void OverlayMsad::look_around(uint32_t source, std::span<const float> distance) {
+    for_each_way_from(index_, source, [&](uint32_t number, float way) {
+        if (index_.is_border(number)) top_.near_sources.add({source, number, way}, distance[number]);
+    });
 }
 
 // To the overlay of the parent. The child's border keeps its own distances.
@@ -98,7 +103,7 @@ void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distanc
     SeenSources& seen = scratch.seen;
     seen.see(patch, distance.data(), nearest_source_.data());
     const float nearest = scratch.sweep.see(patch, distance.data(), seen.segments());
-    if (!(nearest < INFINITE) || nearest > radius) return;
+    if (!(nearest < INFINITE) || nearest > radius + tables_.near[patch]) return;
     float* const inside = scratch.inside.data();
     if (seen.are_several() && patch < index_.first_leaf()) {
         scratch.sweep.cross(inside, scratch.winners.data());
@@ -123,7 +128,7 @@ void OverlayMsad::cross_near(uint32_t patch, bool from_inside, const NearCrossin
                              const VertexOf& vertex_of, Scratch& scratch) const {
     const auto learn = [&](uint32_t source, size_t row, float distance) {
         if (const uint32_t number = vertex_of(row); index_.is_border(number))
-            scratch.near_sources.add({source, number, distance});
+            scratch.near_sources.add({source, number, distance}, targets.distance[row]);
     };
     if (!scratch.seen.are_several()) {
         if (!from_inside && patch >= index_.first_leaf()) return;
@@ -138,7 +143,7 @@ void OverlayMsad::cross_near(uint32_t patch, bool from_inside, const NearCrossin
     std::erase_if(vertices, [&](const NearVertex& v) {
         return index_.is_within(index_.entry(v.source), patch) != from_inside;
     });
-    scratch.near.cross(patch, vertices, targets, learn);
+    scratch.near.cross(patch, vertices, targets, nearest_source_.data(), learn);
 }
 
 }

@@ -41,6 +41,7 @@ private:
     };
 
     void start_from(uint32_t source, std::span<float> distance);
+    void look_around(uint32_t source, std::span<const float> distance);
     void ascend(uint32_t child, std::span<float> distance);
     void descend(uint32_t patch, float radius, std::span<float> distance, Scratch& scratch);
     template <class VertexOf>

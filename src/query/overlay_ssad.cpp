@@ -66,7 +66,8 @@ void OverlaySsad::ascend(uint32_t child, DistanceField distance) {
 void OverlaySsad::descend(uint32_t patch, float radius, std::span<float> distance, InnerSweep& sweep) const {
     if (is_around_source_[patch] || index_.inner_size(patch) == 0) return;
     const float nearest = sweep.see(patch, distance.data());
-    if (nearest < INFINITE && nearest <= radius) sweep.cross(distance.data() + index_.first_inner(patch));
+    if (nearest < INFINITE && nearest <= radius + index_.overlay_tables.near[patch])
+        sweep.cross(distance.data() + index_.first_inner(patch));
 }
 
 }

@@ -72,6 +72,11 @@ void quantize(const DistanceTables& tables, Index& index) {
         uint16_t* out = codes.internal_tables.data() + index.internal_table_begin[leaf - index.first_leaf()];
         for (float distance : internal) *out++ = code_of(distance, quantum);
     }
+    // Labels of what lies deeper count in steps of this quantum, also where all borders meet in one vertex.
+    for (uint32_t p = index.patch_count() - 1; p > 0; --p) {
+        float& of_parent = codes.quantum[index.parent[p]];
+        if (longest(tables.overlay[index.parent[p]]) == 0) of_parent = std::max(of_parent, codes.quantum[p]);
+    }
     for (uint32_t p = 1; p < index.patch_count(); ++p) {
         encode_outer(tables, p, index);
         encode_inner(tables, p, index);

@@ -79,6 +79,40 @@ TEST_CASE("batch: within a radius distances are the same, beyond it there are no
     }
 }
 
+// Vertices close to edges are nearer to what lies across than the ends and the middle of the edge are.
+TEST_CASE("batch: within a radius shorter than the edges") {
+    TestMesh mesh = grid(12, 12);
+    const std::vector<uint32_t> triangles = mesh.triangles;
+    mesh.triangles.clear();
+    for (size_t t = 0; t < triangles.size(); t += 3) {
+        const uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
+        const bool is_below = t % 2 == 0; // the diagonal of its cell, which begins at a
+        const auto close = [&](size_t axis) {
+            const auto at = [&](uint32_t v) { return mesh.positions[3 * v + axis]; };
+            return 0.74 * at(a) + 0.01 * at(is_below ? b : c) + 0.25 * at(is_below ? c : b);
+        };
+        const uint32_t inside = mesh.add_vertex(close(0), close(1), 0);
+        mesh.add_triangle(a, b, inside);
+        mesh.add_triangle(b, c, inside);
+        mesh.add_triangle(c, a, inside);
+    }
+    auto options = build_options(GEOIDX_METRIC_EXACT, 3);
+    options.engine = GEOIDX_ENGINE_OVERLAY;
+    const auto index = build(mesh, options);
+    const QueryHandle query = query_of(index.get());
+    const uint32_t count = mesh.vertex_count();
+    std::vector<float> within(count);
+    uint64_t wrong = 0;
+    for (uint32_t source = 0; source < count; ++source) {
+        const auto all = msad(index.get(), source, count);
+        for (float radius : {0.02f, 0.1f, 0.2f, 0.4f}) {
+            require_success(geoidx_query_msad_within(query.get(), &source, 1, radius, within.data(), count));
+            for (uint32_t v = 0; v < count; ++v) wrong += within[v] != (all[v] <= radius ? all[v] : INFINITY);
+        }
+    }
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("batch: threads change no bit") {
     for (const QueryCase& test : cases_of_both_engines()) {
         CAPTURE(test.name);

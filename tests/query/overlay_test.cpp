@@ -229,6 +229,44 @@ TEST_CASE("overlay: exact distances, crossing borders between vertices") {
         }
 }
 
+// All that is known of the way from one to the other is that vertex, whose table has no distance but 0.
+TEST_CASE("overlay: two surfaces that share one vertex") {
+    TestMesh mesh = grid(8, 8);
+    const TestMesh other = grid(8, 8);
+    const uint32_t shared = mesh.vertex_count() - 1, first = mesh.vertex_count() - 1;
+    for (uint32_t v = 1; v < other.vertex_count(); ++v)
+        mesh.add_vertex(7 + other.positions[3 * v], 7 + other.positions[3 * v + 1], 0);
+    for (size_t t = 0; t < other.triangles.size(); t += 3) {
+        const auto moved = [&](size_t k) {
+            return other.triangles[t + k] == 0 ? shared : first + other.triangles[t + k];
+        };
+        mesh.add_triangle(moved(0), moved(1), moved(2));
+    }
+    const uint32_t count = mesh.vertex_count();
+    for (uint32_t levels : {1u, 2u, 3u}) {
+        CAPTURE(levels);
+        auto options = overlay_options(GEOIDX_METRIC_EXACT, levels, 400);
+        options.patches[0] = 2;
+        const auto index = build(mesh, options);
+        const QueryHandle query = query_of(index.get());
+        Differences pairs, prepared;
+        for (uint32_t source = 0; source <= shared; ++source) {
+            require_success(geoidx_query_prepare(query.get(), source));
+            for (uint32_t target = shared; target < count; ++target) {
+                const double expected = mesh.straight(source, shared) + mesh.straight(shared, target);
+                float distance = 0;
+                require_success(geoidx_query_prepared(query.get(), &target, 1, &distance));
+                prepared.add(double{distance}, expected);
+                pairs.add(double{sssd(index.get(), source, target)}, expected);
+            }
+        }
+        for (const Differences& errors : {pairs, prepared}) {
+            CHECK(errors.reached_wrongly == 0);
+            CHECK(errors.largest < 0.1);
+        }
+    }
+}
+
 // Borders end at the rim of the mesh, which is where they lose a segment most easily.
 TEST_CASE("overlay: straight lines on a plane, from everywhere to everywhere") {
     const TestMesh mesh = grid(40, 30, 0.25);
