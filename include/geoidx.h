@@ -23,8 +23,8 @@
  * - Structs begin with struct_size, set by the matching *_init function or to sizeof(the struct). A shorter
  *   struct from an older caller is accepted; the fields it lacks take their defaults. The functions *_init
  *   live in this header, since only the caller knows how long its struct is; who cannot include it calls
- *   *_init_sized, which fills the first struct_size bytes, and nothing if these are fewer than 4. NULL is
- *   fine.
+ *   *_init_sized, which fills the first struct_size bytes, at most the whole struct, and nothing if these are
+ *   fewer than 4. NULL is fine.
  */
 #ifndef GEOIDX_H
 #define GEOIDX_H
@@ -128,9 +128,7 @@ typedef struct geoidx_mesh {
 } geoidx_mesh;
 
 GEOIDX_API void geoidx_mesh_init_sized(geoidx_mesh* mesh, uint32_t struct_size);
-static inline void geoidx_mesh_init(geoidx_mesh* mesh) {
-    geoidx_mesh_init_sized(mesh, (uint32_t)sizeof(geoidx_mesh));
-}
+static inline void geoidx_mesh_init(geoidx_mesh* mesh) { geoidx_mesh_init_sized(mesh, sizeof(geoidx_mesh)); }
 
 enum {
     GEOIDX_METRIC_EXACT = 0,    /* exact polyhedral geodesic distance */
@@ -153,7 +151,8 @@ typedef geoidx_status (*geoidx_metric_fn)(void* user, uint32_t source, const uin
                                           uint32_t target_count, double* distances);
 
 /* Progress of a build: fraction 0 .. 1, never falling, and a short name of the stage. Return 0 to cancel.
- * Called from the thread that called geoidx_build only, at least a few times a second. */
+ * Called from the thread that called geoidx_build only, at least a few times a second once the first stages
+ * are over, which take some seconds a million vertices. */
 typedef int32_t (*geoidx_progress_fn)(void* user, float fraction, const char* stage);
 
 /* How an index answers. */
@@ -222,7 +221,7 @@ typedef struct geoidx_build_options {
 
 GEOIDX_API void geoidx_build_options_init_sized(geoidx_build_options* options, uint32_t struct_size);
 static inline void geoidx_build_options_init(geoidx_build_options* options) {
-    geoidx_build_options_init_sized(options, (uint32_t)sizeof(geoidx_build_options));
+    geoidx_build_options_init_sized(options, sizeof(geoidx_build_options));
 }
 
 typedef struct geoidx_open_options {
@@ -235,7 +234,7 @@ typedef struct geoidx_open_options {
 
 GEOIDX_API void geoidx_open_options_init_sized(geoidx_open_options* options, uint32_t struct_size);
 static inline void geoidx_open_options_init(geoidx_open_options* options) {
-    geoidx_open_options_init_sized(options, (uint32_t)sizeof(geoidx_open_options));
+    geoidx_open_options_init_sized(options, sizeof(geoidx_open_options));
 }
 
 /* What an index is. Errors are of MSAD against the metric itself, |d - exact| / exact over all targets of

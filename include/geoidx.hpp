@@ -45,6 +45,11 @@ std::uint32_t count_of(std::span<T> values) {
     return static_cast<std::uint32_t>(values.size());
 }
 
+inline const char* path_of(const std::string& utf8_path) {
+    if (utf8_path.find('\0') != std::string::npos) throw std::invalid_argument("the path holds a NUL");
+    return utf8_path.c_str();
+}
+
 }
 
 // A mesh of the caller's arrays, which must outlive it: x, y, z of each vertex, three ids a triangle.
@@ -93,7 +98,7 @@ public:
 
     static index open(const std::string& utf8_path, const geoidx_open_options* options = nullptr) {
         geoidx* opened = nullptr;
-        check(geoidx_open(utf8_path.c_str(), options, &opened));
+        check(geoidx_open(detail::path_of(utf8_path), options, &opened));
         return index(opened);
     }
 
@@ -103,7 +108,7 @@ public:
         return index(opened);
     }
 
-    void save(const std::string& utf8_path) const { check(geoidx_save(get(), utf8_path.c_str())); }
+    void save(const std::string& utf8_path) const { check(geoidx_save(get(), detail::path_of(utf8_path))); }
 
     std::vector<std::byte> bytes() const {
         std::uint64_t size = 0;
@@ -238,6 +243,7 @@ public:
                    std::span<double> distances) {
         if (targets.size() != distances.size())
             throw std::invalid_argument("there must be a distance for each target");
+        if (targets.empty()) return;
         check(geoidx_solver_distances(get(), sources.data(), detail::count_of(sources), targets.data(),
                                       detail::count_of(targets), distances.data()));
     }
@@ -252,6 +258,7 @@ public:
                    std::span<const geoidx_surface_point> targets, std::span<double> distances) {
         if (targets.size() != distances.size())
             throw std::invalid_argument("there must be a distance for each target");
+        if (targets.empty()) return;
         check(geoidx_solver_point_distances(get(), sources.data(), detail::count_of(sources), targets.data(),
                                             detail::count_of(targets), distances.data()));
     }

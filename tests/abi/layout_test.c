@@ -1,5 +1,6 @@
-/* The layout of every struct of geoidx.h on 64-bit machines, as other languages declare it: laid down by
- * hand, since a change breaks programs that exist. C11, for static assertions. */
+/* The layout of every struct of geoidx.h on 64-bit machines, and the number of every constant, as other
+ * languages declare them: laid down by hand, since a change breaks programs that exist. C11, for static
+ * assertions. */
 #include <assert.h>
 #include <stddef.h>
 
@@ -7,6 +8,33 @@
 
 #define FIELD(type, field, offset) static_assert(offsetof(type, field) == (offset), #type "." #field)
 #define SIZE(type, size) static_assert(sizeof(type) == (size), #type)
+#define NUMBER(constant, number) static_assert((constant) == (number), #constant)
+
+NUMBER(GEOIDX_OK, 0);
+NUMBER(GEOIDX_ERROR_INVALID_ARGUMENT, -1);
+NUMBER(GEOIDX_ERROR_IO, -2);
+NUMBER(GEOIDX_ERROR_NOT_AN_INDEX, -3);
+NUMBER(GEOIDX_ERROR_TRUNCATED, -4);
+NUMBER(GEOIDX_ERROR_CORRUPT, -5);
+NUMBER(GEOIDX_ERROR_CHECKSUM, -6);
+NUMBER(GEOIDX_ERROR_UNSUPPORTED_VERSION, -7);
+NUMBER(GEOIDX_ERROR_MESH_MISMATCH, -8);
+NUMBER(GEOIDX_ERROR_LIMIT, -9);
+NUMBER(GEOIDX_ERROR_OUT_OF_MEMORY, -10);
+NUMBER(GEOIDX_ERROR_CANCELLED, -11);
+NUMBER(GEOIDX_ERROR_BAD_MESH, -12);
+NUMBER(GEOIDX_ERROR_CALLBACK, -13);
+NUMBER(GEOIDX_ERROR_INTERNAL, -14);
+NUMBER(GEOIDX_POSITION_FLOAT, 0);
+NUMBER(GEOIDX_POSITION_DOUBLE, 1);
+NUMBER(GEOIDX_METRIC_EXACT, 0);
+NUMBER(GEOIDX_METRIC_EDGES, 1);
+NUMBER(GEOIDX_METRIC_CALLBACK, 2);
+NUMBER(GEOIDX_METRIC_WEIGHTED, 3);
+NUMBER(GEOIDX_METRIC_UNFOLDABLE, 1);
+NUMBER(GEOIDX_ENGINE_GRAPH, 0);
+NUMBER(GEOIDX_ENGINE_OVERLAY, 1);
+NUMBER(GEOIDX_MAX_LEVELS, 8);
 
 FIELD(geoidx_allocator, allocate, 0);
 FIELD(geoidx_allocator, release, 8);

@@ -31,11 +31,19 @@ cmake --build consumer >/dev/null
 for program in consumer_c consumer_cpp consumer_cpp_static; do
     expect "$program by find_package" "$(consumer/$program)" 1.41421
 done
+# Of projects that know no C++, and that have the sources inside of theirs.
+cmake -S "$here/c_only" -B c_only -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+cmake --build c_only >/dev/null
+expect "a C project with the static library" "$(c_only/consumer_c_static)" 1.41421
+cmake -S "$here/subdirectory" -B subdirectory -DGEOIDX_SOURCE="$here/../.." >/dev/null
+[ -e subdirectory/geoidx/tests ] && fail "a project with the sources inside builds the tests"
+
 readelf -d consumer/consumer_cpp_static | grep -q 'libgeoidx' && fail "the static program needs the shared library"
 
 # The packages.
 (cd "$build" && cpack -B "$work/packages" >/dev/null 2>&1) || fail cpack
 grep -q 'include/geoidx.h$' <<<"$(tar -tzf packages/*.tar.gz)" || fail "no header in the .tar.gz"
+grep -q 'THIRD-PARTY-NOTICES.txt$' <<<"$(tar -tzf packages/*.tar.gz)" || fail "no notices in the .tar.gz"
 grep -q '/usr/lib/.*libgeoidx.so' <<<"$(dpkg-deb -c packages/*.deb)" || fail "no library in the .deb"
 grep -q 'libc6' <<<"$(dpkg-deb -f packages/*.deb Depends)" || fail "the .deb does not say what it needs"
 echo "installed, linked and packaged: all as expected"
