@@ -20,13 +20,15 @@ if [ ! -e "$library" ]; then
     exit 1
 fi
 
-remove_leftovers() { rm -rf "$package/build" "$package"/src/*.egg-info; }
-trap remove_leftovers EXIT
-remove_leftovers
-
+files_of_package() { find "$package" -not -path '*__pycache__*' | sort; }
+files_before=$(files_of_package)
 "$python" -m venv --clear --system-site-packages "$venv"
 GEOIDX_LIBRARY=$library "$venv/bin/pip" --quiet --disable-pip-version-check \
-    install --no-index --no-build-isolation --no-deps "$package"
+    install --no-index "$package"
+if [ "$(files_of_package)" != "$files_before" ]; then
+    echo "installing has left files in $package" >&2
+    exit 1
+fi
 
 unset GEOIDX_LIBRARY PYTHONPATH
 if [ -x /usr/bin/mypy ]; then

@@ -44,9 +44,10 @@ class Statuses(unittest.TestCase):
         self.raised(Status.INVALID_ARGUMENT, geoidx.InvalidArgumentError, ValueError, index.sssd, 0, 4)
 
     def test_io(self):
-        self.raised(Status.IO, geoidx.FileError, OSError, geoidx.Index.open, "/nonexistent/index.geoidx")
         index = geoidx.Index.build(*SQUARE)
-        self.raised(Status.IO, geoidx.FileError, OSError, index.save, "/nonexistent/index.geoidx")
+        for call in (geoidx.Index.open, index.save):
+            self.raised(Status.IO, geoidx.MissingFileError, FileNotFoundError, call, "/nonexistent/index.geoidx")
+            self.raised(Status.IO, geoidx.FileError, OSError, call, "/dev/null/index.geoidx")
 
     def test_not_an_index(self):
         self.raised(Status.NOT_AN_INDEX, geoidx.NotAnIndexError, ValueError, geoidx.Index.from_bytes, b"solid " * 20)
@@ -188,6 +189,27 @@ class Files(unittest.TestCase):
         for size in (0, 100, len(self.data) - 1, len(self.data)):
             with mock.patch.object(geoidx.Index, "_likely_size", return_value=size):
                 self.assertEqual(self.index.to_bytes(), self.data)
+
+    def assert_like_open(self, path, call):
+        """An OSError as that of Python's own `open`."""
+        with self.assertRaises(OSError) as expected:
+            open(path, "rb")
+        with self.assertRaises(geoidx.FileError) as caught:
+            call(path)
+        copy = pickle.loads(pickle.dumps(caught.exception))
+        for name in ("errno", "strerror", "filename"):
+            for found in (caught.exception, copy):
+                self.assertEqual(getattr(found, name), getattr(expected.exception, name))
+
+    def test_what_the_system_says(self):
+        for path in (self.folder / "missing", b"/dev/null/index"):
+            self.assert_like_open(path, geoidx.Index.open)
+        self.assert_like_open("/nonexistent/index", self.index.save)
+
+    def test_without_a_reason_of_the_system(self):
+        error = error_of(Status.IO, "cannot write 'index': nothing was written", "index")
+        self.assertIs(type(error), geoidx.FileError)
+        self.assertEqual((error.errno, error.strerror, error.filename), (None, None, "index"))
 
     def test_pickle(self):
         self.assert_same(pickle.loads(pickle.dumps(self.index)))

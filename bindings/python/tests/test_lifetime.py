@@ -70,6 +70,17 @@ class Closing(unittest.TestCase):
         gc.collect()
         self.assertFalse(self.memory.blocks)
 
+    def test_an_allocator_that_reaches_what_it_is_for(self):
+        """Everything at once is garbage: the memory is given back while the allocator still works."""
+        blocks = self.memory.blocks
+        self.memory.index = self.index
+        self.memory.queries = [self.index.query() for _ in range(3)]
+        for query in self.memory.queries:
+            query.msad(0)
+        del self.index, self.memory, query
+        gc.collect()
+        self.assertFalse(blocks)
+
     def test_a_query_outlives_its_index(self):
         query = self.index.query()
         expected = query.msad(0)
@@ -107,6 +118,34 @@ class Closing(unittest.TestCase):
             self.assertFalse(self.memory.blocks)
 
 
+class Cycles(unittest.TestCase):
+    """A callback that reaches the object it belongs to is collected with it."""
+
+    class Owner:
+        def metric(self, source, targets):
+            return straight(SQUARE[0], source, targets)
+
+        def progress(self, fraction, stage):
+            return None
+
+    def test_solver(self):
+        owner = self.Owner()
+        owner.solver = geoidx.Solver(*SQUARE, metric=owner.metric)
+        self.assertEqual(owner.solver.distances(0, 1), 1)
+        gone = weakref.ref(owner)
+        del owner
+        gc.collect()
+        self.assertIsNone(gone())
+
+    def test_index(self):
+        owner = self.Owner()
+        owner.index = geoidx.Index.build(*SQUARE, metric=owner.metric, progress=owner.progress)
+        gone = weakref.ref(owner)
+        del owner
+        gc.collect()
+        self.assertIsNone(gone())
+
+
 class UseAfterClose(unittest.TestCase):
     def refused(self, call):
         with self.assertRaisesRegex(ValueError, "closed"):
@@ -117,12 +156,15 @@ class UseAfterClose(unittest.TestCase):
         index.close()
         for call in (
             lambda: index.info,
+            lambda: index.vertex_count,
             lambda: index.sssd(0, 1),
             lambda: index.sssd([0], 1),
             lambda: index.matrix([0]),
+            lambda: index.matrix([]),
             lambda: index.msad(0),
             lambda: index.msad(0, radius=1),
             lambda: index.ssad([0]),
+            lambda: index.ssad([]),
             lambda: index.query(),
             lambda: index.save("never"),
             lambda: index.to_bytes(),
@@ -141,6 +183,7 @@ class UseAfterClose(unittest.TestCase):
             lambda: query.ssad([0]),
             lambda: query.prepare(0),
             lambda: query.prepared([0]),
+            lambda: query.threads,
             lambda: setattr(query, "threads", 2),
         ):
             self.refused(call)
@@ -148,6 +191,7 @@ class UseAfterClose(unittest.TestCase):
     def test_solver(self):
         with geoidx.Solver(*SQUARE) as solver:
             point = geoidx.surface_points(0, [1, 0, 0])
+        self.refused(lambda: solver.vertex_count)
         self.refused(lambda: solver.distances(0))
         self.refused(lambda: solver.point_distances(point, point))
 
@@ -263,19 +307,7 @@ class Threads(unittest.TestCase):
 
 
 class Exit(unittest.TestCase):
-    def test_the_interpreter_ends_with_everything_open(self):
-        """Also while a thread is still inside the library."""
-        program = """
-import threading, geoidx, meshes
-index = geoidx.Index.build(*meshes.hills(40, 40))
-query = index.query()
-solver = geoidx.Solver(*meshes.SQUARE)
-def ask():
-    while True:
-        index.ssad(range(200))
-threading.Thread(target=ask, daemon=True).start()
-index.msad(0)
-"""
+    def assert_ends(self, program):
         here = os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])
         result = subprocess.run(
             [sys.executable, "-B", "-c", program],
@@ -285,6 +317,80 @@ index.msad(0)
             timeout=60,
         )
         self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+
+    def test_the_interpreter_ends_with_everything_open(self):
+        """Also while a thread is still inside the library."""
+        self.assert_ends("""
+import threading, geoidx, meshes
+index = geoidx.Index.build(*meshes.hills(40, 40))
+query = index.query()
+solver = geoidx.Solver(*meshes.SQUARE)
+def ask():
+    while True:
+        index.ssad(range(200))
+threading.Thread(target=ask, daemon=True).start()
+index.msad(0)
+""")
+
+    def test_the_interpreter_ends_while_the_library_calls_python(self):
+        for call in (
+            "geoidx.Index.build(*mesh, metric=metric)",
+            "geoidx.Index.build(*mesh, metric=metric, threads=1)",
+            "geoidx.Index.build(*mesh, metric=metric_by_solver)",
+            "geoidx.Index.build(*meshes.hills(60, 60), progress=progress)",
+            "geoidx.Solver(*mesh, metric=metric).distances(range(900))",
+        ):
+            with self.subTest(call):
+                self.assert_ends(f"""
+import threading, time, geoidx, meshes
+mesh = meshes.plane(30, 30)
+inside = threading.Event()
+def metric(source, targets):
+    inside.set()
+    time.sleep(0.001)
+    return meshes.straight(mesh[0], source, targets)
+def metric_by_solver(source, targets):
+    return geoidx.Solver(*mesh, metric=metric).distances(source, targets)
+def progress(fraction, stage):
+    inside.set()
+    for _ in range(200):
+        time.sleep(0.001)
+def work():
+    while True:
+        {call}
+threading.Thread(target=work, daemon=True).start()
+inside.wait()
+time.sleep(0.05)
+""")
+
+    def test_a_build_at_the_end_of_the_interpreter(self):
+        self.assert_ends("""
+import atexit, functools
+@atexit.register
+def build():
+    metric = functools.partial(meshes.straight, meshes.SQUARE[0])
+    assert abs(geoidx.Index.build(*meshes.SQUARE, metric=metric).sssd(0, 1) - 1) < 1e-3
+import geoidx, meshes
+""")
+
+    def test_a_child_does_not_wait_for_calls_of_its_parent(self):
+        self.assert_ends("""
+import os, sys, threading, time, geoidx, meshes
+inside = threading.Event()
+begin = threading.Event()
+def progress(fraction, stage):
+    inside.set()
+    begin.wait()
+threading.Thread(target=geoidx.Index.build, args=meshes.SQUARE, kwargs={"progress": progress}, daemon=True).start()
+inside.wait()
+child = os.fork()
+started = time.monotonic()
+if child == 0:
+    sys.exit()
+os.waitpid(child, 0)
+assert time.monotonic() - started < 5
+begin.set()
+""")
 
 
 if __name__ == "__main__":

@@ -19,11 +19,16 @@ def taxicab(source: int, targets: NDArray[np.uint32]) -> NDArray[np.float64]:
 def ask(vertices: NDArray[np.float32], faces: NDArray[np.int64]) -> None:
     with geoidx.Index.build(vertices, faces, metric=taxicab, patches=[4, 3], progress=progress) as index:
         distance: float = index.sssd(0, np.int64(1))
+        distances: NDArray[np.float32] = index.sssd(faces[:, 0], faces[:, 1])
+        distances = index.sssd(0, range(9))
+        distances = index.sssd([[0], [1]], 0)
         field: NDArray[np.float32] = index.msad([0, 1], radius=2 * distance)
         index.ssad(3, out=field)
         with index.query(threads=2) as query:
             query.prepare(3)
-            query.prepared(faces)
+            distance = query.prepared(2)
+            distances = query.prepared(faces)
+            distances = query.prepared(2, out=np.empty((), np.float32))
         diagonal: float = index.info.bounding_box_diagonal
         counts: tuple[int, ...] = index.info.patch_count
     solver = geoidx.Solver(vertices, faces, metric=geoidx.Weighted(np.ones(len(faces))))
@@ -31,7 +36,7 @@ def ask(vertices: NDArray[np.float32], faces: NDArray[np.int64]) -> None:
     point: Any = geoidx.surface_points(0, [1, 0, 0])
     solver.point_distances(point, point)
     issues: list[geoidx.Issue] = geoidx.verify("index.geoidx", most=1)
-    print(diagonal, counts, exact, issues)
+    print(distances, diagonal, counts, exact, issues)
 
 
 def status(error: geoidx.Error) -> int:

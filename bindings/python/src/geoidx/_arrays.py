@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, SupportsIndex
+from typing import Any, Sequence, SupportsIndex, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -15,6 +15,9 @@ UINT64_MAX = 0xFFFFFFFFFFFFFFFF
 
 Ids = NDArray[np.uint32]
 Doubles = NDArray[np.float64]
+
+Vertex = Union[int, "np.integer[Any]"]
+Vertices = Union[NDArray[Any], Sequence[Any]]
 
 
 def address(array: NDArray[Any]) -> int:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._arrays import Ids, address, doubles
+from ._ending import DaemonCall
 from ._errors import Status
 
 Progress = Callable[[float, str], Optional[bool]]
@@ -62,6 +63,7 @@ class Callbacks:
     def __init__(self, progress: Progress | None = None, metric: MetricFunction | None = None) -> None:
         self._progress = progress
         self._metric = metric
+        self._call = DaemonCall()
         self._signals = HeldSignals()
         self._raised: BaseException | None = None
 
@@ -73,8 +75,9 @@ class Callbacks:
     @contextmanager
     def calling(self) -> Iterator[None]:
         """Around a native call: raises after it what a callback has raised."""
+        self._call = DaemonCall()
         self._signals = HeldSignals()
-        with self._signals:
+        with self._call, self._signals:
             yield
         raised, self._raised = self._raised, None
         try:
@@ -103,6 +106,8 @@ class Callbacks:
         return True
 
     def _succeeds(self, body: Callable[..., bool], *arguments: Any) -> bool:
+        if self._call.must_stop:
+            return False
         try:
             self._signals.deliver()
             result = body(*arguments)

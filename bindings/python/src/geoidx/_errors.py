@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from enum import IntEnum
+from typing import Any, Union
 
 from ._native import library
+
+Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
 
 class Status(IntEnum):
@@ -57,10 +62,39 @@ class InvalidArgumentError(Error, ValueError):
     status = Status.INVALID_ARGUMENT
 
 
+def _number_of(detail: str) -> int | None:
+    """The errno whose text is at the end of a detail, None where the operating system gave no reason."""
+    reason = detail.rpartition(": ")[2]
+    return next((number for number in errno.errorcode if os.strerror(number) == reason), None)
+
+
 class FileError(Error, OSError):
-    """The operating system refused to open, read, write or rename."""
+    """The operating system refused to open, read, write or rename.
+
+    `filename` is the path as it was given. `errno` and `strerror` are None where the system gave no reason.
+    """
 
     status = Status.IO
+
+    def __init__(self, detail: str, path: Path | None = None) -> None:
+        super().__init__(detail)
+        self.filename = None if path is None else os.fspath(path)
+        number = _number_of(detail)
+        if number is not None:
+            self.errno = number
+            self.strerror = os.strerror(number)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.detail, self.filename)
+
+
+class MissingFileError(FileError, FileNotFoundError):
+    """There is no such file or folder."""
+
+
+def _file_error(detail: str, path: Path | None) -> FileError:
+    missing = _number_of(detail) == errno.ENOENT
+    return MissingFileError(detail, path) if missing else FileError(detail, path)
 
 
 class FormatError(Error, ValueError):
@@ -143,7 +177,6 @@ _ERRORS: dict[int, type[Error]] = {
     error.status: error
     for error in (
         InvalidArgumentError,
-        FileError,
         NotAnIndexError,
         TruncatedError,
         CorruptError,
@@ -160,8 +193,10 @@ _ERRORS: dict[int, type[Error]] = {
 }
 
 
-def error_of(status: int, detail: str) -> Error:
+def error_of(status: int, detail: str, path: Path | None = None) -> Error:
     """The exception for a status; a plain Error for one that only a newer library knows."""
+    if status == Status.IO:
+        return _file_error(detail, path)
     error = _ERRORS.get(status, Error)(detail)
     error.status = status_of(status)
     return error
@@ -173,7 +208,7 @@ def last_error() -> str:
     return text.decode(errors="replace")
 
 
-def check(status: int) -> None:
-    """Raises the exception of a status that is not success."""
+def check(status: int, path: Path | None = None) -> None:
+    """Raises the exception of a status that is not success; `path` is the file that the call was about."""
     if status != Status.OK:
-        raise error_of(status, last_error())
+        raise error_of(status, last_error(), path)

@@ -6,24 +6,46 @@ import threading
 import weakref
 from ctypes import c_void_p
 from types import TracebackType
-from typing import Any, Callable, TypeVar
+from typing import Callable, TypeVar
 
 from ._errors import InvalidArgumentError
 
 Self = TypeVar("Self", bound="Closable")
+Close = Callable[[c_void_p], None]
+
+
+class _Closer:
+    """Closes a native handle with the last reference to this object, and lets go of `needed` after that."""
+
+    def __init__(self, pointer: c_void_p, close: Close, needed: _Closer | None) -> None:
+        weakref.finalize(self, _close, pointer, close, needed).atexit = False
+
+
+def _close(pointer: c_void_p, close: Close, needed: _Closer | None) -> None:
+    close(pointer)
+
+
+def _let_go(closer: _Closer) -> None:
+    """The finalizer's reference ends with this call."""
 
 
 class Handle:
     """Owns a native handle. It is closed with the last reference to this object, of which a call that is under
-    way holds one, too. What is `kept` lives until it has been closed."""
+    way holds one, too.
 
-    def __init__(self, pointer: c_void_p, close: Callable[[c_void_p], None], *kept: Any) -> None:
+    kept: lives until the handle has been closed. It may refer to this object: the cycle is collected, since
+        finalizers, which run before anything in it is torn down, refer to native handles only.
+    needed: a handle that is closed after this one.
+    """
+
+    def __init__(
+        self, pointer: c_void_p, close: Close, *, kept: object = None, needed: Handle | None = None
+    ) -> None:
         self._as_parameter_ = pointer
-        weakref.finalize(self, _close, pointer, close, kept).atexit = False
-
-
-def _close(pointer: c_void_p, close: Callable[[c_void_p], None], kept: Any) -> None:
-    close(pointer)
+        self._kept = kept, needed
+        closer = _Closer(pointer, close, needed._closer() if needed else None)
+        self._closer: weakref.ref[_Closer] = weakref.ref(closer)
+        weakref.finalize(self, _let_go, closer).atexit = False
 
 
 class Closable:

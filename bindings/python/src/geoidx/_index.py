@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 import os
 from ctypes import byref, c_uint64, c_void_p, sizeof
-from typing import Any, Callable, Sequence, Union, overload
+from typing import Any, Callable, Sequence, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _fields, _native
-from ._arrays import UINT64_MAX, address, id_list, ids, output, whole_number
+from ._arrays import UINT64_MAX, Vertex, Vertices, address, id_list, ids, output, whole_number
 from ._callbacks import Progress
-from ._errors import InvalidArgumentError, check
+from ._errors import InvalidArgumentError, Path, check
 from ._fields import Distances
 from ._handle import Closable, Handle
 from ._info import Info, info_of
@@ -23,8 +23,6 @@ from ._native import Allocator, library
 from ._options import BuildOptions, Engine, OpenOptions, as_engine
 from ._query import Query
 
-Vertex = Union[int, "np.integer[Any]"]
-Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
 _PAIRS_AT_ONCE = 1 << 18
 
@@ -116,7 +114,7 @@ class Index(Closable):
         out = c_void_p()
         with options.callbacks.calling():
             status = library.geoidx_build(byref(mesh.struct), byref(struct), byref(out))
-            handle = Handle(out, library.geoidx_close, allocator)
+            handle = Handle(out, library.geoidx_close, kept=allocator)
         check(status)
         return cls(handle)
 
@@ -133,10 +131,11 @@ class Index(Closable):
         expected_mesh: the vertices and faces (same arrays, same numbers) that the index must have been built from,
             else MeshMismatchError.
 
-        Raises FileError, which is an OSError, and FormatError, which is a ValueError.
+        Raises FileError, which is an OSError (MissingFileError, a FileNotFoundError, where there is no such file),
+        and FormatError, which is a ValueError.
         """
         name = _native_path(path)
-        return cls._opened(expected_mesh, allocator, lambda *rest: library.geoidx_open(name, *rest))
+        return cls._opened(expected_mesh, allocator, lambda *rest: library.geoidx_open(name, *rest), path)
 
     @classmethod
     def from_bytes(
@@ -160,17 +159,18 @@ class Index(Closable):
         expected_mesh: tuple[ArrayLike, ArrayLike] | None,
         allocator: Allocator | None,
         call: Callable[..., int],
+        path: Path | None = None,
     ) -> Index:
         options = OpenOptions(MeshView(*expected_mesh) if expected_mesh else None, allocator)
         out = c_void_p()
         status = call(byref(options.struct), byref(out))
-        handle = Handle(out, library.geoidx_close, allocator)
-        check(status)
+        handle = Handle(out, library.geoidx_close, kept=allocator)
+        check(status, path)
         return cls(handle)
 
     def save(self, path: Path) -> None:
         """Writes the index to a file, replacing what is there at once or, on failure (FileError), not at all."""
-        check(library.geoidx_save(self._handle, _native_path(path)))
+        check(library.geoidx_save(self._handle, _native_path(path)), path)
 
     def to_bytes(self) -> bytes:
         """The bytes of the file."""
@@ -197,7 +197,7 @@ class Index(Closable):
         return type(self).from_bytes, (self.to_bytes(),)
 
     def __repr__(self) -> str:
-        return f"<geoidx.Index of {self.vertex_count} vertices{', closed' if self.closed else ''}>"
+        return f"<geoidx.Index of {self._info.vertex_count} vertices{', closed' if self.closed else ''}>"
 
     @property
     def info(self) -> Info:
@@ -208,10 +208,14 @@ class Index(Closable):
     @property
     def vertex_count(self) -> int:
         """n, the number of vertices in the array given to `build`."""
-        return self._info.vertex_count
+        return self.info.vertex_count
 
     @overload
     def sssd(self, a: Vertex, b: Vertex) -> float: ...
+    @overload
+    def sssd(self, a: Vertices, b: ArrayLike) -> Distances: ...
+    @overload
+    def sssd(self, a: ArrayLike, b: Vertices) -> Distances: ...
     @overload
     def sssd(self, a: ArrayLike, b: ArrayLike) -> Distances | float: ...
 
@@ -232,6 +236,7 @@ class Index(Closable):
 
         Where b is a large part of the mesh, `ssad(a)[:, b]` takes less time.
         """
+        handle = self._handle
         rows = id_list(a, "a")
         columns = rows if b is None else id_list(b, "b")
         distances = output(out, (rows.size, columns.size), np.float32)
@@ -241,7 +246,7 @@ class Index(Closable):
             pairs = np.empty(part.shape + (2,), np.uint32)
             pairs[..., 0] = rows[begin : begin + rows_at_once, None]
             pairs[..., 1] = columns
-            _fields.pairwise(library.geoidx_sssd_batch, self._handle, pairs, part)
+            _fields.pairwise(library.geoidx_sssd_batch, handle, pairs, part)
         return distances
 
     def msad(self, sources: ArrayLike, *, radius: float = math.inf, out: Distances | None = None) -> Distances:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from ctypes import byref, c_void_p
-from typing import SupportsIndex
+from typing import SupportsIndex, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _fields
-from ._arrays import address, ids, output, vertex, whole_number
+from ._arrays import Vertex, Vertices, address, ids, output, vertex, whole_number
 from ._errors import check
 from ._fields import Distances
 from ._handle import Closable, Handle, OneThread
@@ -27,7 +27,7 @@ class Query(Closable):
     def __init__(self, index: Handle, vertex_count: int) -> None:
         out = c_void_p()
         status = library.geoidx_query_create(index, byref(out))
-        super().__init__(Handle(out, library.geoidx_query_close, index))
+        super().__init__(Handle(out, library.geoidx_query_close, needed=index))
         check(status)
         self._vertex_count = vertex_count
         self._threads = 1
@@ -36,6 +36,7 @@ class Query(Closable):
     @property
     def threads(self) -> int:
         """How many threads `msad` uses, 1 .. 1024; 0: one per processor. 1 at first. By the graph engine one."""
+        self._handle
         return self._threads
 
     @threads.setter
@@ -69,6 +70,15 @@ class Query(Closable):
         """Keeps what depends on the source, for `prepared`, until the next call."""
         with self._one_thread:
             check(library.geoidx_query_prepare(self._handle, vertex(source)))
+
+    @overload
+    def prepared(self, targets: Vertex) -> float: ...
+    @overload
+    def prepared(self, targets: Vertices, *, out: Distances | None = None) -> Distances: ...
+    @overload
+    def prepared(self, targets: ArrayLike, *, out: Distances) -> Distances: ...
+    @overload
+    def prepared(self, targets: ArrayLike, *, out: Distances | None = None) -> Distances | float: ...
 
     def prepared(self, targets: ArrayLike, *, out: Distances | None = None) -> Distances | float:
         """From the prepared source to each target, in the shape of targets: a float for one vertex.

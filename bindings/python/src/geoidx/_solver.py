@@ -67,13 +67,14 @@ class Solver(Closable):
         self._one_thread = OneThread("solver")
         with self._callbacks.calling():
             status = library.geoidx_solver_create(byref(mesh.struct), byref(options.struct), byref(out))
-            super().__init__(Handle(out, library.geoidx_solver_close, options))
+            super().__init__(Handle(out, library.geoidx_solver_close, kept=options))
         check(status)
         self._vertex_count = len(mesh.vertices)
 
     @property
     def vertex_count(self) -> int:
         """n, the number of vertices in the array given."""
+        self._handle
         return self._vertex_count
 
     def distances(

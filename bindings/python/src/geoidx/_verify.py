@@ -12,6 +12,7 @@ import numpy as np
 from . import _native
 from ._arrays import address
 from ._callbacks import HeldSignals
+from ._ending import DaemonCall
 from ._errors import check, status_of
 from ._native import library
 
@@ -40,9 +41,9 @@ def verify(source: str | os.PathLike[str] | Any, *, most: int | None = None) -> 
 
     def note(user: int, status: int, offset: int, message: bytes) -> bool:
         issues.append(Issue(status_of(status), offset, message.decode(errors="replace")))
-        return len(issues) != most
+        return len(issues) != most and not call.must_stop
 
-    with HeldSignals() as signals:
+    with DaemonCall() as call, HeldSignals() as signals:
         status = library.geoidx_verify(address(data), data.size, _native.IssueFn(note), None)
     signals.deliver()
     if not issues:
