@@ -32,11 +32,35 @@ fill_runtimes() {
     cp -L "$GEOIDX_NATIVE/libgeoidx.so" "$csharp/runtimes/linux-$architecture/native"
 }
 
+say_runtimes() {
+    local library
+    echo "the package has the native libraries:"
+    for library in "$csharp"/runtimes/*/native/*; do
+        echo "  $(basename "$(dirname "$(dirname "$library")")"), built $(date -r "$library" '+%F %R')"
+    done
+    echo "all but that of this machine are what scripts/cross.sh left"
+}
+
+refuses_a_package_without_libraries() {
+    local message
+    message=$(dotnet pack "$csharp/Geoidx" -c Release --no-build --nologo "-p:GeoidxRuntimes=$out/no-runtimes" \
+        -o "$out/empty-packages") && return 1
+    grep -q 'Run scripts/test_csharp.sh' <<<"$message"
+}
+
+check_licences() { # FOLDER
+    cmp LICENSE "$1/LICENSE"
+    cmp THIRD-PARTY-NOTICES.txt "$1/THIRD-PARTY-NOTICES.txt"
+}
+
 test_package() {
     rm -rf "$out/packages" "$out/consumer-packages"
+    refuses_a_package_without_libraries
+    say_runtimes
     dotnet pack "$csharp/Geoidx" -c Release --no-build "${quiet[@]}" -o "$out/packages"
     dotnet build "$csharp/Geoidx.Consumer" -c Release --force "${quiet[@]}"
     dotnet "$out/artifacts/bin/Geoidx.Consumer/release/Geoidx.Consumer.dll"
+    check_licences "$out"/consumer-packages/geoidx/*
 }
 
 check_identities() {
@@ -54,6 +78,7 @@ compile_unity() {
     export GEOIDX_UNITY_OUT=$out/unity
     bindings/unity/pack.sh "$GEOIDX_UNITY_OUT"
     check_identities "$GEOIDX_UNITY_OUT/package"
+    check_licences "$GEOIDX_UNITY_OUT/package"
     dotnet build bindings/unity/Tests~/Program "${quiet[@]}"
     cp "$GEOIDX_NATIVE/libgeoidx.so" "$GEOIDX_UNITY_OUT/tests/bin/Program/debug"
 }
@@ -62,11 +87,24 @@ refuses_another_version() {
     local message
     message=$(GEOIDX_LIBRARY=$(dirname "$mono_tests")/libgeoidx-other.so mono "$mono_tests" version) && return 1
     grep -q 'has version 99.1.2' <<<"$message"
+    grep -q 'from .*/libgeoidx-other.so' <<<"$message"
+}
+
+# A native thread that crashes after Main leaves the exit code alone, but not the output.
+ends_during_a_build() { # leave|unload CALLBACKS
+    local output
+    output=$(mono "$mono_tests" "$@" 2>&1) && [ -z "$output" ] && return
+    printf 'mono does not %s a build with callbacks: %s\n%s\n' "$@" "$output" >&2
+    return 1
 }
 
 test_under_mono() {
     mono "$mono_tests"
     refuses_another_version
+    for callbacks in progress token metric none; do
+        ends_during_a_build leave "$callbacks"
+        ends_during_a_build unload "$callbacks"
+    done
     mono "$GEOIDX_UNITY_OUT/tests/bin/Program/debug/Program.dll"
 }
 

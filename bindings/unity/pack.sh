@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # pack.sh FOLDER: assembles the Unity package in FOLDER/package and packs it as FOLDER/com.geoidx-VERSION.tgz. The C# of
-# ../csharp goes in, and those native libraries that are in ../csharp/runtimes.
+# ../csharp goes in, those native libraries that are in ../csharp/runtimes, and the licences.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$1"
@@ -9,6 +9,7 @@ package=$out/package
 rm -rf "$package"
 mkdir -p "$package"
 cp -R "$here"/{package.json,README.md,Editor,Samples~} "$package"
+cp "$here"/../../{LICENSE,THIRD-PARTY-NOTICES.txt} "$package"
 mkdir -p "$package/Runtime/Geoidx"
 cp "$here"/Runtime/{*.cs,*.asmdef,csc.rsp} "$package/Runtime"
 

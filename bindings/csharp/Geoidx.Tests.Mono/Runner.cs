@@ -9,12 +9,18 @@ namespace Geoidx.Tests
 {
     /// <summary>
     /// Runs the tests of this assembly where xunit's own runner does not: exit code 0 when all pass. With the argument
-    /// "version" it says which native library it finds instead.
+    /// "version" it says which native library it finds instead; "leave" and "unload" are those of
+    /// <see cref="Endings"/>.
     /// </summary>
     internal static class Runner
     {
-        private static int Main(string[] arguments) =>
-            arguments.FirstOrDefault() == "version" ? PrintVersion() : RunTests();
+        private static int Main(string[] arguments) => arguments.FirstOrDefault() switch
+        {
+            "version" => PrintVersion(),
+            "leave" => Endings.Leave(arguments[1]),
+            "unload" => Endings.Unload(arguments[1]),
+            _ => RunTests(),
+        };
 
         private static int PrintVersion()
         {

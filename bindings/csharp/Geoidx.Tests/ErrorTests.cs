@@ -89,6 +89,50 @@ namespace Geoidx.Tests
             Assert.Throws<ArgumentNullException>(() => GeodesicIndex.Open((string)null!));
             Assert.Throws<ArgumentNullException>(() => GeodesicIndex.Open((System.IO.Stream)null!));
             Assert.Throws<ArgumentNullException>(() => new GeodesicSolver(null!));
+            Assert.Throws<ArgumentNullException>(() => GeodesicMesh.From<float>(null!, new int[3]));
+            Assert.Throws<ArgumentNullException>(() => GeodesicMesh.From(new float[9], null!));
+            Assert.Throws<ArgumentNullException>(() => GeodesicIndex.Verify(new byte[1], null!));
+        }
+
+        [Fact]
+        public void NullIsNoListOfVertices()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
+            using var solver = new GeodesicSolver(Shapes.Square());
+            Assert.Throws<ArgumentNullException>(() => index.Distances(null!));
+            Assert.Throws<ArgumentNullException>(() => index.FromSources((int[])null!));
+            Assert.Throws<ArgumentNullException>(() => index.FromEachSource((int[])null!));
+            Assert.Throws<ArgumentNullException>(() => solver.FromSources((int[])null!));
+        }
+
+        [Fact]
+        public void NegativeNumbersAreOutOfRange()
+        {
+            BuildOptions[] refused =
+            {
+                new BuildOptions { Threads = -1 },
+                new BuildOptions { LevelCount = -1 },
+                new BuildOptions { LloydIterations = -1 },
+                new BuildOptions { PointsPerEdge = -1 },
+                new BuildOptions { ExactVertices = -1 },
+                new BuildOptions { Patches = new[] { 2, -1 } },
+            };
+            foreach (BuildOptions options in refused)
+                Assert.Throws<ArgumentOutOfRangeException>(() => GeodesicIndex.Build(Shapes.Square(), options));
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
+            using GeodesicQuery query = index.CreateQuery();
+            Assert.Throws<ArgumentOutOfRangeException>(() => query.SetThreads(-1));
+        }
+
+        [Fact]
+        public void HalfASurrogatePairIsNoPath()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
+            foreach (string path in new[] { "half\ud83d.geoidx", "half\ude00.geoidx" })
+            {
+                Assert.Throws<ArgumentException>(() => index.Save(path));
+                Assert.Throws<ArgumentException>(() => GeodesicIndex.Open(path));
+            }
         }
 
         [Fact]

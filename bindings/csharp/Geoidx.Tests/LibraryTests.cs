@@ -1,8 +1,8 @@
 using System;
-using Xunit;
-#if NET
 using System.IO;
 using System.Reflection;
+using Xunit;
+#if NET
 using System.Runtime.Loader;
 #endif
 
@@ -31,12 +31,23 @@ namespace Geoidx.Tests
         [Fact]
         public void AnotherVersionIsRefusedByName()
         {
-            var refused = Assert.Throws<GeodesicLibraryException>(() => GeodesicLibrary.CheckVersion(990102));
+            var refused = Assert.Throws<GeodesicLibraryException>(() => GeodesicLibrary.CheckVersion(990102, "a file"));
             Assert.Contains("99.1.2", refused.Message);
             Assert.Contains(GeodesicLibrary.ExpectedVersion.ToString(), refused.Message);
         }
 
+        [Fact]
+        public void AnAssemblyFromMemoryFindsTheLibrary()
+        {
+            Assembly assembly = Assembly.Load(File.ReadAllBytes(typeof(GeodesicIndex).Assembly.Location));
+            Assert.Empty(assembly.Location);
+            Type library = assembly.GetType("Geoidx.GeodesicLibrary")!;
+            Assert.Equal(GeodesicLibrary.Version, library.GetProperty("Version")!.GetValue(null));
+        }
+
 #if NET
+        private delegate object VerifyFunction(ReadOnlySpan<byte> data);
+
         /// <summary>The assembly a second time, bound to another native library.</summary>
         private sealed class SecondCopy
         {
@@ -45,10 +56,17 @@ namespace Geoidx.Tests
             internal SecondCopy(string nativeLibrary)
             {
                 assembly = new AssemblyLoadContext(null).LoadFromAssemblyPath(typeof(GeodesicIndex).Assembly.Location);
-                Library.GetProperty("Path")!.SetValue(null, nativeLibrary);
+                Path = nativeLibrary;
             }
 
-            internal Type Library => assembly.GetType("Geoidx.GeodesicLibrary")!;
+            internal string Path
+            {
+                set => Library.GetProperty("Path")!.SetValue(null, value);
+            }
+
+            internal Type Index => assembly.GetType("Geoidx.GeodesicIndex")!;
+
+            private Type Library => assembly.GetType("Geoidx.GeodesicLibrary")!;
 
             internal Exception Failure(string type, string method, params object?[] arguments)
             {
@@ -67,10 +85,15 @@ namespace Geoidx.Tests
         [Fact]
         public void ALibraryOfAnotherVersionIsRefused()
         {
-            Exception refused =
-                new SecondCopy(Beside("libgeoidx-other.so")).Failure("Geoidx.GeodesicLibrary", "get_Version");
+            var copy = new SecondCopy(Beside("libgeoidx-other.so"));
+            Exception refused = copy.Failure("Geoidx.GeodesicLibrary", "get_Version");
             Assert.Equal(nameof(GeodesicLibraryException), refused.GetType().Name);
             Assert.Contains("99.1.2", refused.Message);
+            Assert.Contains(Beside("libgeoidx-other.so"), refused.Message);
+
+            var late = Assert.Throws<TargetInvocationException>(() => copy.Path = Beside("libgeoidx.so"));
+            Assert.IsType<InvalidOperationException>(late.InnerException);
+            Assert.Contains(Beside("libgeoidx-other.so"), late.InnerException.Message);
         }
 
         [Fact]
@@ -79,6 +102,25 @@ namespace Geoidx.Tests
             Exception refused = new SecondCopy("/no/such/library.so").Failure("Geoidx.GeodesicLibrary", "get_Version");
             Assert.Equal(nameof(GeodesicLibraryException), refused.GetType().Name);
             Assert.Contains("/no/such/library.so", refused.Message);
+        }
+
+        [Fact]
+        public void AMissingLibraryMayBeReplaced()
+        {
+            var copy = new SecondCopy("/no/such/library.so");
+            copy.Failure("Geoidx.GeodesicLibrary", "get_Version");
+            copy.Path = Beside("libgeoidx-other.so");
+            Assert.Contains("99.1.2", copy.Failure("Geoidx.GeodesicLibrary", "get_Version").Message);
+        }
+
+        [Fact]
+        public void ACheckThatFailsIsNotACleanIndex()
+        {
+            var verify = new SecondCopy(Beside("libgeoidx-failing.so")).Index
+                .GetMethod("Verify", new[] { typeof(ReadOnlySpan<byte>) })!
+                .CreateDelegate<VerifyFunction>();
+            Exception? failure = Record.Exception(() => verify(new byte[1]));
+            Assert.Equal(nameof(GeodesicOutOfMemoryException), failure?.GetType().Name);
         }
 
         [Fact]

@@ -38,6 +38,17 @@ namespace Geoidx.Tests
         }
 
         [Fact]
+        public void OnlyItsQueriesAnswerAfterAnIndexIsDisposed()
+        {
+            GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
+            using GeodesicQuery query = index.CreateQuery();
+            index.Dispose();
+            foreach (Action call in CallsOf(index)) Assert.Throws<ObjectDisposedException>(call);
+            Assert.Equal(1, query.Distance(0, 1), 1e-4);
+            Assert.Equal(4, index.VertexCount);
+        }
+
+        [Fact]
         public void NothingAnswersAfterDispose()
         {
             GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
@@ -50,14 +61,6 @@ namespace Geoidx.Tests
             var doubles = new double[1];
             Action[] calls =
             {
-                () => index.Distance(0, 1),
-                () => index.Distances((0, 1)),
-                () => index.FromSources(0),
-                () => index.FromEachSource(0),
-                () => index.CreateQuery(),
-                () => index.Save("never.geoidx"),
-                () => index.Save(new MemoryStream()),
-                () => index.ToBytes(),
                 () => query.Distance(0, 1),
                 () => query.FromSources(new[] { 0 }, floats),
                 () => query.FromSourcesWithin(new[] { 0 }, 1, floats),
@@ -68,9 +71,10 @@ namespace Geoidx.Tests
                 () => solver.Distance(0, 1),
                 () => solver.FromSources(0),
                 () => solver.Distances(new[] { 0 }, new[] { 1 }, doubles),
+                () => solver.Distances(new[] { 0 }, default, default),
                 () => solver.PointDistances(new SurfacePoint[1], new SurfacePoint[1], doubles),
             };
-            foreach (Action call in calls) Assert.Throws<ObjectDisposedException>(call);
+            foreach (Action call in calls.Concat(CallsOf(index))) Assert.Throws<ObjectDisposedException>(call);
         }
 
         [Fact]
@@ -112,6 +116,19 @@ namespace Geoidx.Tests
                 File.Delete(path);
             }
         }
+
+        private static Action[] CallsOf(GeodesicIndex index) => new Action[]
+        {
+            () => index.Distance(0, 1),
+            () => index.Distances((0, 1)),
+            () => index.Distances(),
+            () => index.FromSources(0),
+            () => index.FromEachSource(0),
+            () => index.CreateQuery(),
+            () => index.Save("never.geoidx"),
+            () => index.Save(new MemoryStream()),
+            () => index.ToBytes(),
+        };
 
         [MethodImpl(MethodImplOptions.NoInlining)]
         private static void Abandon(CountingAllocator allocator)

@@ -21,7 +21,8 @@ namespace Geoidx
 
         /// <summary>
         /// The metric of <see cref="MetricKind.Callback"/>; read by no other. It is called until the build has returned
-        /// or the solver is disposed.
+        /// or the solver is disposed. A solver holds it: one that the metric can reach is not collected before it is
+        /// disposed.
         /// </summary>
         public GeodesicMetric? MetricCallback { get; set; }
 

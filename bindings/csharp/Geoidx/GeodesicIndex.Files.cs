@@ -11,6 +11,7 @@ namespace Geoidx
         /// <summary>Opens an index from a file.</summary>
         /// <param name="path">Of the file.</param>
         /// <param name="options">Null: the defaults.</param>
+        /// <exception cref="ArgumentException">The path has half of a surrogate pair.</exception>
         /// <exception cref="GeodesicIOException">The file cannot be read.</exception>
         /// <exception cref="GeodesicDataException">It is no index, or damaged.</exception>
         /// <exception cref="GeodesicVersionException">It was written by a newer format.</exception>
@@ -50,9 +51,10 @@ namespace Geoidx
         /// Writes the index to a file, replacing what is there: a failure leaves neither a partial file nor a damaged
         /// old one.
         /// </summary>
+        /// <exception cref="ArgumentException">The path has half of a surrogate pair.</exception>
         /// <exception cref="GeodesicIOException">The file cannot be written.</exception>
         public void Save(string path) =>
-            NativeMethods.geoidx_save(handle, NativeText.CheckedPath(path)).ThrowIfError();
+            NativeMethods.geoidx_save(Handle, NativeText.CheckedPath(path)).ThrowIfError();
 
         /// <summary>Writes the bytes of a file to a stream.</summary>
         public void Save(Stream stream)
@@ -65,15 +67,16 @@ namespace Geoidx
         /// <summary>The bytes of a file, up to 2 GB.</summary>
         public unsafe byte[] ToBytes()
         {
-            NativeMethods.geoidx_save_memory(handle, null, 0, out ulong size).ThrowIfError();
+            NativeMethods.geoidx_save_memory(Handle, null, 0, out ulong size).ThrowIfError();
             var bytes = new byte[checked((int)size)];
             fixed (byte* first = bytes)
-                NativeMethods.geoidx_save_memory(handle, first, size, out _).ThrowIfError();
+                NativeMethods.geoidx_save_memory(Handle, first, size, out _).ThrowIfError();
             return bytes;
         }
 
         /// <summary>Checks the bytes of a file as opening does, but goes on after a problem where it can.</summary>
         /// <returns>The problems, none when the data is an index.</returns>
+        /// <exception cref="GeodesicException">The check itself failed, for want of memory for example.</exception>
         public static IReadOnlyList<GeodesicIssue> Verify(ReadOnlySpan<byte> data)
         {
             var issues = new List<GeodesicIssue>();
@@ -91,19 +94,21 @@ namespace Geoidx
         /// Is told each problem; false stops. What it throws is thrown on when the native library has returned.
         /// </param>
         /// <returns><see cref="GeodesicStatus.Ok"/>, or the status of the first problem.</returns>
+        /// <exception cref="GeodesicException">The check itself failed, for want of memory for example.</exception>
         public static GeodesicStatus Verify(ReadOnlySpan<byte> data, Func<GeodesicIssue, bool> visit)
         {
             if (visit == null) throw new ArgumentNullException(nameof(visit));
             GeodesicLibrary.Load();
             using var callback = new IssueCallback(visit);
             GeodesicStatus status = Verify(data, callback);
-            callback.Rethrow();
+            callback.Check(status);
             return status;
         }
 
         [MethodImpl(MethodImplOptions.NoInlining)]
         private static unsafe GeodesicStatus Verify(ReadOnlySpan<byte> data, IssueCallback callback)
         {
+            using CallsInFlight.Call call = CallsInFlight.BeginCall();
             fixed (byte* bytes = &MemoryMarshal.GetReference(data))
                 return NativeMethods.geoidx_verify(bytes, (ulong)data.Length, IssueCallback.Function, callback.User);
         }

@@ -12,6 +12,7 @@ namespace Geoidx
     public sealed partial class GeodesicIndex : IDisposable
     {
         private readonly IndexHandle handle;
+        private volatile bool isDisposed;
 
         private GeodesicIndex(IndexHandle handle)
         {
@@ -25,6 +26,10 @@ namespace Geoidx
         /// <summary>Vertices of the caller's array.</summary>
         public int VertexCount => checked((int)Info.VertexCount);
 
+        // The queries' leases keep the native index open beyond Dispose.
+        private IndexHandle Handle =>
+            isDisposed ? throw new ObjectDisposedException(nameof(GeodesicIndex)) : handle;
+
         /// <summary>Builds the index of a mesh.</summary>
         /// <param name="mesh">The mesh; its arrays are not needed afterwards.</param>
         /// <param name="options">Null: the defaults.</param>
@@ -32,7 +37,10 @@ namespace Geoidx
         /// Is told the fraction that is done, 0 to 1, on this thread. What it throws stops the build and is thrown on.
         /// </param>
         /// <param name="cancellationToken">Stops the build, within a fraction of a second.</param>
-        /// <exception cref="OperationCanceledException">The build was cancelled.</exception>
+        /// <exception cref="OperationCanceledException">
+        /// The build was cancelled, or its AppDomain or the program ended.
+        /// </exception>
+        /// <exception cref="ArgumentOutOfRangeException">A number of the options is negative.</exception>
         /// <exception cref="GeodesicException">The status says what failed, the message where.</exception>
         public static GeodesicIndex Build(
             GeodesicMesh mesh,
@@ -82,7 +90,7 @@ namespace Geoidx
         /// <exception cref="ObjectDisposedException">The index is disposed.</exception>
         public float Distance(int source, int target)
         {
-            NativeMethods.geoidx_sssd(handle, source, target, out float distance).ThrowIfError();
+            NativeMethods.geoidx_sssd(Handle, source, target, out float distance).ThrowIfError();
             return distance;
         }
 
@@ -97,12 +105,13 @@ namespace Geoidx
             Lengths.CheckEqual(pairs.Length, distances.Length);
             fixed (VertexPair* first = &MemoryMarshal.GetReference(pairs))
             fixed (float* results = &MemoryMarshal.GetReference(distances))
-                NativeMethods.geoidx_sssd_batch(handle, first, (ulong)pairs.Length, results).ThrowIfError();
+                NativeMethods.geoidx_sssd_batch(Handle, first, (ulong)pairs.Length, results).ThrowIfError();
         }
 
         /// <summary>The distance of each pair, in the mesh's unit; many at once take less time each.</summary>
         public float[] Distances(params VertexPair[] pairs)
         {
+            if (pairs == null) throw new ArgumentNullException(nameof(pairs));
             var distances = new float[pairs.Length];
             Distances(pairs, distances);
             return distances;
@@ -116,13 +125,14 @@ namespace Geoidx
         {
             fixed (int* first = &MemoryMarshal.GetReference(sources))
             fixed (float* results = &MemoryMarshal.GetReference(distances))
-                NativeMethods.geoidx_msad(handle, first, (uint)sources.Length, results, (uint)distances.Length)
+                NativeMethods.geoidx_msad(Handle, first, (uint)sources.Length, results, (uint)distances.Length)
                     .ThrowIfError();
         }
 
         /// <summary>The distance of every vertex to the nearest source (MSAD), in the mesh's unit.</summary>
         public float[] FromSources(params int[] sources)
         {
+            if (sources == null) throw new ArgumentNullException(nameof(sources));
             var distances = new float[VertexCount];
             FromSources(sources, distances);
             return distances;
@@ -138,7 +148,7 @@ namespace Geoidx
         {
             fixed (int* first = &MemoryMarshal.GetReference(sources))
             fixed (float* results = &MemoryMarshal.GetReference(distances))
-                NativeMethods.geoidx_ssad_batch(handle, first, (uint)sources.Length, results, (ulong)distances.Length)
+                NativeMethods.geoidx_ssad_batch(Handle, first, (uint)sources.Length, results, (ulong)distances.Length)
                     .ThrowIfError();
         }
 
@@ -148,16 +158,25 @@ namespace Geoidx
         /// </summary>
         public float[] FromEachSource(params int[] sources)
         {
+            if (sources == null) throw new ArgumentNullException(nameof(sources));
             var distances = new float[checked(sources.Length * VertexCount)];
             FromEachSource(sources, distances);
             return distances;
         }
 
         /// <summary>One thread's scratch for queries, which neither lock nor, after the first ones, allocate.</summary>
-        public GeodesicQuery CreateQuery() => new GeodesicQuery(QueryHandle.Create(handle), VertexCount);
+        public GeodesicQuery CreateQuery() => new GeodesicQuery(QueryHandle.Create(Handle), VertexCount);
 
-        /// <summary>Frees the native index, when calls on other threads and its queries are done with it.</summary>
-        public void Dispose() => handle.Dispose();
+        /// <summary>
+        /// From then on every call of the index throws <see cref="ObjectDisposedException"/>; <see cref="Info"/> and
+        /// <see cref="VertexCount"/> stay, and its queries go on. The native index is freed when calls on other threads
+        /// and the queries are done with it.
+        /// </summary>
+        public void Dispose()
+        {
+            isDisposed = true;
+            handle.Dispose();
+        }
 
         private static GeodesicIndex Build(
             NativeMesh mesh, BuildOptions? options, IProgress<float>? progress, CancellationToken cancellationToken)

@@ -12,6 +12,7 @@ namespace Geoidx
 
         private static readonly object Gate = new object();
         private static volatile bool isLoaded;
+        private static string? loadedFile;
         private static uint loadedVersion;
         private static string? path;
 
@@ -21,7 +22,9 @@ namespace Geoidx
         /// runtimes/&lt;rid&gt;/native beside the assembly, beside the assembly, and where the system looks. Unity
         /// finds it among its plugins, whatever this says.
         /// </summary>
-        /// <exception cref="InvalidOperationException">The library is loaded already.</exception>
+        /// <exception cref="InvalidOperationException">
+        /// A library is loaded already, which cannot be undone; also when its version has been refused.
+        /// </exception>
         public static string? Path
         {
             get => path;
@@ -29,7 +32,8 @@ namespace Geoidx
             {
                 lock (Gate)
                 {
-                    if (isLoaded) throw new InvalidOperationException("The native library is loaded already.");
+                    if (loadedFile != null)
+                        throw new InvalidOperationException($"The native library is loaded already: {loadedFile}.");
                     path = value;
                 }
             }
@@ -64,14 +68,14 @@ namespace Geoidx
             lock (Gate)
             {
                 if (isLoaded) return;
-                loadedVersion = LoadAndAskVersion(path ?? Environment.GetEnvironmentVariable("GEOIDX_LIBRARY"));
-                CheckVersion(loadedVersion);
-                CheckAbi(AskAbi());
+                loadedFile ??= LoadAndAskVersion(path ?? Environment.GetEnvironmentVariable("GEOIDX_LIBRARY"));
+                CheckVersion(loadedVersion, loadedFile);
+                CheckAbi(AskAbi(), loadedFile);
                 isLoaded = true;
             }
         }
 
-        internal static void CheckVersion(uint version)
+        internal static void CheckVersion(uint version, string file)
         {
             Version loaded = AsVersion(version), expected = ExpectedVersion;
             bool fits = loaded.Major == expected.Major &&
@@ -79,28 +83,31 @@ namespace Geoidx
             if (fits) return;
             throw new GeodesicLibraryException(
                 $"The native library has version {loaded}, this assembly needs version {expected}: " +
-                "their binary interfaces differ.");
+                $"their binary interfaces differ. It was loaded from {file}.");
         }
 
-        private static void CheckAbi(uint abi)
+        private static void CheckAbi(uint abi, string file)
         {
             if (abi == ExpectedAbi) return;
             throw new GeodesicLibraryException(
-                $"The native library has the binary interface {abi}, this assembly needs {ExpectedAbi}.");
+                $"The native library has the binary interface {abi}, this assembly needs {ExpectedAbi}. " +
+                $"It was loaded from {file}.");
         }
 
-        private static uint LoadAndAskVersion(string? file)
+        private static string LoadAndAskVersion(string? asked)
         {
+            string? file = string.IsNullOrEmpty(asked) ? null : asked;
             try
             {
-                if (!string.IsNullOrEmpty(file)) NativeLoader.Load(file!, isRequired: true);
-                else if (LibraryPlaces.Find() is { } found) NativeLoader.Load(found, isRequired: false);
-                return AskVersion();
+                file = NativeLoader.Load(file);
+                loadedVersion = AskVersion();
+                return file;
             }
             catch (Exception e) when (e is DllNotFoundException || e is EntryPointNotFoundException ||
                                       e is BadImageFormatException)
             {
-                throw new GeodesicLibraryException($"The native library cannot be loaded: {e.Message}", e);
+                throw new GeodesicLibraryException(
+                    $"The native library cannot be loaded{(file == null ? "" : $" from {file}")}: {e.Message}", e);
             }
         }
 

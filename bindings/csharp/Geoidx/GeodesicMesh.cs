@@ -39,7 +39,10 @@ namespace Geoidx
         /// </exception>
         public static GeodesicMesh From<TVertex>(
             TVertex[] positions, int[] triangles, PositionType type = PositionType.Float) where TVertex : unmanaged =>
-            From((ReadOnlyMemory<TVertex>)positions, triangles, type);
+            From(
+                (ReadOnlyMemory<TVertex>)(positions ?? throw new ArgumentNullException(nameof(positions))),
+                triangles ?? throw new ArgumentNullException(nameof(triangles)),
+                type);
 
         /// <inheritdoc cref="From{TVertex}(TVertex[], int[], PositionType)"/>
         public static GeodesicMesh From<TVertex>(

@@ -113,11 +113,13 @@ namespace Geoidx
         /// begin and end within each call, for the same distances.
         /// </summary>
         /// <param name="threads">1 at first; 0 means one per processor; at most 1024.</param>
+        /// <exception cref="ArgumentOutOfRangeException">These are fewer than 0.</exception>
         /// <exception cref="GeodesicArgumentException">These are too many.</exception>
         public void SetThreads(int threads)
         {
+            uint count = Arguments.NotNegative(threads, nameof(threads));
             using SingleUse.Scope scope = use.Begin();
-            NativeMethods.geoidx_query_set_threads(handle, (uint)threads).ThrowIfError();
+            NativeMethods.geoidx_query_set_threads(handle, count).ThrowIfError();
         }
 
         /// <summary>Frees the scratch, and the native index if this was its last use.</summary>

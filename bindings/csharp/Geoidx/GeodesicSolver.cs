@@ -5,7 +5,8 @@ namespace Geoidx
 {
     /// <summary>
     /// Distances under the metric itself, computed from scratch, without an index. Each thread needs its own: a call
-    /// during another one throws <see cref="InvalidOperationException"/>.
+    /// during another one throws <see cref="InvalidOperationException"/>. One whose
+    /// <see cref="BuildOptions.MetricCallback"/> reaches the solver itself must be disposed: no finalizer does it.
     /// </summary>
     public sealed class GeodesicSolver : IDisposable
     {
@@ -49,7 +50,11 @@ namespace Geoidx
         public unsafe void Distances(ReadOnlySpan<int> sources, ReadOnlySpan<int> targets, Span<double> distances)
         {
             Lengths.CheckEqual(targets.Length, distances.Length);
-            if (targets.IsEmpty) return;
+            if (targets.IsEmpty)
+            {
+                handle.CheckOpen();
+                return;
+            }
             fixed (int* asked = &MemoryMarshal.GetReference(targets))
             fixed (double* results = &MemoryMarshal.GetReference(distances))
                 Solve(sources, asked, targets.Length, results);
@@ -68,6 +73,7 @@ namespace Geoidx
         /// <summary>The distance of every vertex to the nearest source, in the mesh's unit.</summary>
         public double[] FromSources(params int[] sources)
         {
+            if (sources == null) throw new ArgumentNullException(nameof(sources));
             var distances = new double[VertexCount];
             FromSources(sources, distances);
             return distances;
@@ -88,6 +94,7 @@ namespace Geoidx
         {
             Lengths.CheckEqual(targets.Length, distances.Length);
             using SingleUse.Scope scope = use.Begin();
+            using CallsInFlight.Call call = CallsInFlight.BeginCall();
             fixed (SurfacePoint* from = &MemoryMarshal.GetReference(sources))
             fixed (SurfacePoint* to = &MemoryMarshal.GetReference(targets))
             fixed (double* results = &MemoryMarshal.GetReference(distances))
@@ -101,6 +108,7 @@ namespace Geoidx
         private unsafe void Solve(ReadOnlySpan<int> sources, int* targets, int targetCount, double* distances)
         {
             using SingleUse.Scope scope = use.Begin();
+            using CallsInFlight.Call call = CallsInFlight.BeginCall();
             fixed (int* first = &MemoryMarshal.GetReference(sources))
                 handle.Check(NativeMethods.geoidx_solver_distances(
                     handle, first, (uint)sources.Length, targets, (uint)targetCount, distances));

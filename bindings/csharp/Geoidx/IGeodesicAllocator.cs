@@ -5,7 +5,8 @@ namespace Geoidx
     /// <summary>
     /// Native memory of the caller's choosing, for an index and its queries. Its methods are called from several
     /// threads at once, the finalizer's among them, until the index and its queries are disposed; they must not use
-    /// this library.
+    /// this library. An index and its queries hold their allocator: an index that it can reach is not collected before
+    /// it is disposed.
     /// </summary>
     public interface IGeodesicAllocator
     {

@@ -13,14 +13,15 @@ namespace Geoidx.Editor
 
         /// <summary>
         /// Builds the index of a mesh and saves it to a path of the project, which should end in .bytes. The build
-        /// stops when the user cancels it.
+        /// stops when the user cancels it. The options' <see cref="BuildOptions.StageProgress"/> is told too.
         /// </summary>
         /// <returns>Whether the index was built; not when the user cancelled.</returns>
         public static bool Build(Mesh mesh, string path, BuildOptions? options = null)
         {
             using var cancellation = new CancellationTokenSource();
             options ??= new BuildOptions();
-            options.StageProgress = new ProgressBar(mesh.name, cancellation);
+            IProgress<BuildStage>? listener = options.StageProgress;
+            options.StageProgress = new ProgressBar(mesh.name, listener, cancellation);
             try
             {
                 using GeodesicIndex index =
@@ -35,6 +36,7 @@ namespace Geoidx.Editor
             }
             finally
             {
+                options.StageProgress = listener;
                 EditorUtility.ClearProgressBar();
             }
         }
@@ -61,17 +63,22 @@ namespace Geoidx.Editor
             string asset = AssetDatabase.GetAssetPath(mesh);
             bool isInProject = asset.StartsWith("Assets/", StringComparison.Ordinal);
             string folder = isInProject ? Path.GetDirectoryName(asset)! : "Assets";
-            return AssetDatabase.GenerateUniqueAssetPath($"{folder.Replace('\\', '/')}/{mesh.name}.geoidx.bytes");
+            return AssetDatabase.GenerateUniqueAssetPath($"{folder.Replace('\\', '/')}/{FileName(mesh)}.geoidx.bytes");
         }
+
+        private static string FileName(Mesh mesh) =>
+            mesh.name.Length == 0 ? "mesh" : string.Join("_", mesh.name.Split(Path.GetInvalidFileNameChars()));
 
         private sealed class ProgressBar : IProgress<BuildStage>
         {
             private readonly string mesh;
+            private readonly IProgress<BuildStage>? listener;
             private readonly CancellationTokenSource cancellation;
 
-            internal ProgressBar(string mesh, CancellationTokenSource cancellation)
+            internal ProgressBar(string mesh, IProgress<BuildStage>? listener, CancellationTokenSource cancellation)
             {
                 this.mesh = mesh;
+                this.listener = listener;
                 this.cancellation = cancellation;
             }
 
@@ -79,6 +86,7 @@ namespace Geoidx.Editor
             {
                 if (EditorUtility.DisplayCancelableProgressBar($"Geodesic index of {mesh}", stage.Name, stage.Fraction))
                     cancellation.Cancel();
+                listener?.Report(stage);
             }
         }
     }

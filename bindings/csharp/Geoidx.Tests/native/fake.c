@@ -1,4 +1,4 @@
-/* Has geoidx's names, but cannot open an index. */
+/* Has geoidx's names, but can neither open nor check an index. */
 #include "geoidx.h"
 
 uint32_t geoidx_version(void) { return FAKE_VERSION; }
@@ -17,4 +17,12 @@ geoidx_status geoidx_open(const char* utf8_path, const geoidx_open_options* opti
     (void)options;
     *out = 0;
     return GEOIDX_ERROR_INTERNAL;
+}
+
+geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user) {
+    (void)data;
+    (void)size;
+    (void)issue;
+    (void)user;
+    return GEOIDX_ERROR_OUT_OF_MEMORY;
 }

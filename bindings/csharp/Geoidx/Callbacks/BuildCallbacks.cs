@@ -18,6 +18,7 @@ namespace Geoidx
             if (options?.MetricCallback is { } callback) metric = new MetricCallback(callback);
         }
 
+        // Progress is asked for by every build, so that each can be ended with its AppDomain.
         internal void Register(ref NativeBuildOptions native)
         {
             if (metric != null)
@@ -25,7 +26,6 @@ namespace Geoidx
                 native.metric_callback = MetricCallback.Function;
                 native.metric_user = metric.User;
             }
-            if (!progress.IsNeeded) return;
             native.progress = ProgressCallback.Function;
             native.progress_user = progress.User;
         }
@@ -36,6 +36,7 @@ namespace Geoidx
             progress.Rethrow();
             metric?.Rethrow();
             cancellation.ThrowIfCancellationRequested();
+            CallsInFlight.ThrowIfEnding();
         }
 
         public void Dispose()

@@ -20,10 +20,13 @@ namespace Geoidx
         [MonoPInvokeCallback(typeof(MetricFunction))]
         private static GeodesicStatus OnMetric(
             IntPtr user, int source, int* targets, uint targetCount, double* distances) =>
-            Of<MetricCallback>(user).Measure(source, targets, targetCount, distances);
+            CallsInFlight.IsEnding
+                ? GeodesicStatus.Callback
+                : Of<MetricCallback>(user).Measure(source, targets, targetCount, distances);
 
         private GeodesicStatus Measure(int source, int* targets, uint targetCount, double* distances)
         {
+            using CallsInFlight.Callback scope = CallsInFlight.BeginCallback();
             try
             {
                 int count = checked((int)targetCount);

@@ -22,17 +22,16 @@ namespace Geoidx
 
         internal static IntPtr Function => Marshal.GetFunctionPointerForDelegate(Entry);
 
-        internal bool IsNeeded => progress != null || stages != null || cancellation.CanBeCanceled;
-
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         private delegate int ProgressFunction(IntPtr user, float fraction, IntPtr stage);
 
         [MonoPInvokeCallback(typeof(ProgressFunction))]
         private static int OnProgress(IntPtr user, float fraction, IntPtr stage) =>
-            Of<ProgressCallback>(user).Report(fraction, stage) ? 1 : 0;
+            !CallsInFlight.IsEnding && Of<ProgressCallback>(user).Report(fraction, stage) ? 1 : 0;
 
         private bool Report(float fraction, IntPtr stage)
         {
+            using CallsInFlight.Callback scope = CallsInFlight.BeginCallback();
             try
             {
                 progress?.Report(fraction);

@@ -9,6 +9,7 @@ namespace Geoidx
 
         internal static IndexHandle Build(NativeMesh mesh, BuildOptions? options, BuildCallbacks callbacks)
         {
+            using CallsInFlight.Call call = CallsInFlight.BeginCall();
             using var pinned = new PinnedBuildOptions(options, callbacks);
             NativeBuildOptions native = pinned.Native;
             AllocatorCallback? allocator = UseAllocator(options?.Allocator, ref native.allocator);

@@ -26,6 +26,12 @@ namespace Geoidx
             }
         }
 
+        /// <summary>Throws if the solver is disposed.</summary>
+        internal void CheckOpen()
+        {
+            if (IsClosed) throw new ObjectDisposedException(nameof(GeodesicSolver));
+        }
+
         /// <summary>Throws what the caller's metric threw, or what the status says.</summary>
         internal void Check(GeodesicStatus status)
         {
@@ -38,10 +44,13 @@ namespace Geoidx
 
         private static IntPtr Create(NativeMesh mesh, BuildOptions? options, BuildCallbacks callbacks)
         {
+            using CallsInFlight.Call call = CallsInFlight.BeginCall();
             using var pinned = new PinnedBuildOptions(options, callbacks);
             NativeBuildOptions native = pinned.Native;
-            NativeMethods.geoidx_solver_create(&mesh, &native, out IntPtr solver).ThrowIfError();
-            return solver;
+            GeodesicStatus status = NativeMethods.geoidx_solver_create(&mesh, &native, out IntPtr solver);
+            if (status == GeodesicStatus.Ok) return solver;
+            callbacks.Rethrow();
+            throw status.ToException();
         }
     }
 }

@@ -1,3 +1,4 @@
+#if !UNITY_5_3_OR_NEWER
 using System;
 using System.Collections.Generic;
 using System.IO;
@@ -11,6 +12,9 @@ namespace Geoidx
 {
     internal static class LibraryPlaces
     {
+        /// <summary>Where the library is when no file is found.</summary>
+        internal const string OfTheSystem = "the system's search path";
+
         /// <summary>The first library file there is, or null.</summary>
         internal static string? Find() => Folders().SelectMany(Candidates).FirstOrDefault(File.Exists);
 
@@ -22,13 +26,14 @@ namespace Geoidx
 
         private static IEnumerable<string> Folders()
         {
-            if (Path.GetDirectoryName(AssemblyFile) is { Length: > 0 } beside) yield return beside;
+            if (AssemblyFile.Length > 0) yield return Path.GetDirectoryName(AssemblyFile)!;
             yield return AppContext.BaseDirectory;
         }
 
 #if NET
         [UnconditionalSuppressMessage("SingleFile", "IL3000", Justification = "Empty is foreseen.")]
 #endif
+        // Empty when the assembly was loaded from memory.
         private static string AssemblyFile => typeof(LibraryPlaces).Assembly.Location;
 
         private static string RuntimeId =>
@@ -45,3 +50,4 @@ namespace Geoidx
             : "libgeoidx.so";
     }
 }
+#endif

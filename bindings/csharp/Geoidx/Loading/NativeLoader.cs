@@ -13,22 +13,34 @@ namespace Geoidx
                 typeof(NativeLoader).Assembly,
                 (name, _, _) => name == NativeMethods.Library ? library : IntPtr.Zero);
 
-        /// <summary>Binds the imports to this file.</summary>
-        internal static void Load(string file, bool isRequired) => library = NativeLibrary.Load(file);
+        /// <summary>Binds the imports to this file, or to one that is found.</summary>
+        /// <returns>The file, or where it is, for messages.</returns>
+        internal static string Load(string? asked)
+        {
+            string? file = asked ?? LibraryPlaces.Find();
+            if (file != null) library = NativeLibrary.Load(file);
+            return file ?? LibraryPlaces.OfTheSystem;
+        }
     }
 #elif UNITY_5_3_OR_NEWER
     internal static class NativeLoader
     {
-        internal static void Load(string file, bool isRequired) { }
+        internal static string Load(string? asked) => "Unity's plugins";
     }
 #else
     internal static class NativeLoader
     {
-        /// <summary>Binds the imports to this file; when it is not required, the runtime may know better.</summary>
-        internal static void Load(string file, bool isRequired)
+        /// <summary>Binds the imports to this file, or to one that is found unless the runtime knows better.</summary>
+        /// <returns>The file, or where it is, for messages.</returns>
+        internal static string Load(string? asked)
         {
+            string? file = asked ?? LibraryPlaces.Find();
+            if (file == null) return LibraryPlaces.OfTheSystem;
             if (RuntimeInformation.IsOSPlatform(OSPlatform.Windows)) Preload(file);
-            else Map(file, isRequired);
+            else if (!TryMap(file))
+                return asked == null ? LibraryPlaces.OfTheSystem : throw new DllNotFoundException(
+                    $"{file}: this runtime cannot be told a path; put the library beside the assembly.");
+            return file;
         }
 
         // Windows binds later imports to a loaded module of the same base name.
@@ -38,17 +50,16 @@ namespace Geoidx
         }
 
         // Elsewhere a loaded library is known by its soname, which has a version that an import does not name.
-        private static void Map(string file, bool isRequired)
+        private static bool TryMap(string file)
         {
             try
             {
                 mono_dllmap_insert(IntPtr.Zero, NativeMethods.Library, null, file, null);
+                return true;
             }
             catch (Exception e) when (e is DllNotFoundException || e is EntryPointNotFoundException)
             {
-                if (!isRequired) return;
-                throw new DllNotFoundException(
-                    $"{file}: this runtime cannot be told a path; put the library beside the assembly.", e);
+                return false;
             }
         }
 

@@ -1,6 +1,7 @@
 using System;
 using System.Buffers;
 using System.Collections.Generic;
+using static Geoidx.Arguments;
 
 namespace Geoidx
 {
@@ -37,11 +38,11 @@ namespace Geoidx
             native.weld_tolerance = options.WeldTolerance;
             native.delta = options.Delta;
             native.seed = options.Seed;
-            native.threads = (uint)options.Threads;
-            native.level_count = (uint)options.LevelCount;
-            native.lloyd_iterations = (uint)options.LloydIterations;
-            native.points_per_edge = (uint)options.PointsPerEdge;
-            native.exact_vertices = (uint)options.ExactVertices;
+            native.threads = NotNegative(options.Threads, nameof(options.Threads));
+            native.level_count = NotNegative(options.LevelCount, nameof(options.LevelCount));
+            native.lloyd_iterations = NotNegative(options.LloydIterations, nameof(options.LloydIterations));
+            native.points_per_edge = NotNegative(options.PointsPerEdge, nameof(options.PointsPerEdge));
+            native.exact_vertices = NotNegative(options.ExactVertices, nameof(options.ExactVertices));
             native.refuse_edges_of_many = options.RefuseEdgesOfMany ? 1u : 0u;
         }
 
@@ -50,7 +51,8 @@ namespace Geoidx
             if (patches.Length > BuildOptions.MaxLevels)
                 throw new GeodesicArgumentException(
                     $"Patches are given for {patches.Length} levels, at most {BuildOptions.MaxLevels} are possible.");
-            for (int level = 0; level < patches.Length; level++) native.patches[level] = (uint)patches[level];
+            for (int level = 0; level < patches.Length; level++)
+                native.patches[level] = NotNegative(patches[level], nameof(BuildOptions.Patches));
         }
 
         private void PinArrays(BuildOptions options, ref NativeBuildOptions native)

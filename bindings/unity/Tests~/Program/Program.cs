@@ -16,6 +16,13 @@ internal static class Program
         internal BytesAsset(byte[] content) => bytes = content;
     }
 
+    private sealed class Listener : IProgress<BuildStage>
+    {
+        internal float Latest { get; private set; }
+
+        public void Report(BuildStage stage) => Latest = stage.Fraction;
+    }
+
     private static int Main()
     {
         string folder = Path.Combine(Path.GetTempPath(), $"geoidx-unity-{Guid.NewGuid():N}");
@@ -24,6 +31,8 @@ internal static class Program
         try
         {
             byte[] index = TheEditorBuildsAnIndex();
+            AnAssetHasAFileName();
+            TheCallersOptionsStay();
             AUserCancels();
             TheSampleColours(index);
             TheSampleColours(null);
@@ -37,11 +46,11 @@ internal static class Program
     }
 
     // Vertex 2 y + x at (x, y), and one that no triangle uses.
-    private static Mesh Strip()
+    private static Mesh Strip(string name = "strip")
     {
         return new Mesh
         {
-            name = "strip",
+            name = name,
             vertices = Enumerable.Range(0, 8).Select(v => new Vector3(v % 2, v / 2, 0))
                 .Append(new Vector3(5, 5, 5)).ToArray(),
             triangles = Enumerable.Range(0, 3).Select(y => 2 * y)
@@ -60,6 +69,25 @@ internal static class Program
         Check(EditorUtility.Shown.All(bar => bar.Title.Contains("strip") && bar.Info.Length > 0), "a bar has texts");
         Check(EditorUtility.IsCleared, "the bar is gone");
         return File.ReadAllBytes(asset);
+    }
+
+    private static void AnAssetHasAFileName()
+    {
+        foreach ((string name, string file) in new[] { ("../a/b", ".._a_b"), ("", "mesh") })
+        {
+            Selection.activeObject = Strip(name);
+            Call(typeof(GeodesicIndexMenu), null, "BuildSelected");
+            Check(AssetDatabase.Imported.Last() == $"Assets/Models/{file}.geoidx.bytes", $"\"{name}\" is {file}");
+        }
+    }
+
+    private static void TheCallersOptionsStay()
+    {
+        var listener = new Listener();
+        var options = new BuildOptions { StageProgress = listener };
+        Check(GeodesicIndexMenu.Build(Strip(), "options.bytes", options), "the caller's options build");
+        Check(options.StageProgress == listener && listener.Latest == 1, "the caller's listener stays and hears");
+        GeodesicIndex.Build(Strip().ToGeodesicMesh(), options).Dispose();
     }
 
     private static void AUserCancels()
