@@ -10,9 +10,8 @@ namespace geodesic {
 
 namespace {
 
-// What a ring is sampled by: every vertex of a small one, at least so many of another, but at least every so
-// manieth vertex.
-constexpr uint32_t SMALL = 64, FEWEST = 32, LARGEST_STEP = 5;
+// What a ring is sampled by: at least so many vertices, but at least every so manieth vertex.
+constexpr uint32_t FEWEST = 64, LARGEST_STEP = 5;
 
 // Samples tell the way to what is farther than so many times the distance of two of them.
 constexpr float NEAR_SAMPLES = 8;
@@ -38,7 +37,7 @@ float distance_between(const Index& index, uint32_t patch, uint32_t a, uint32_t 
 
 void sample_ring(Index& index, uint32_t patch, RingWriter& writer) {
     const uint32_t size = index.border_size(patch);
-    const uint32_t step = size <= SMALL ? 1 : std::clamp(size / FEWEST, 1u, LARGEST_STEP);
+    const uint32_t step = std::clamp(size / FEWEST, 1u, LARGEST_STEP);
     for (const Chain& chain : chains_of_ring(index.overlay_tables.rings, patch)) {
         Chain coarse{sample(chain, step), {}, chain.is_closed};
         const size_t count = coarse.positions.size();
