@@ -29,16 +29,17 @@ fill_runtimes() {
     *) echo "unknown machine $(uname -m)" >&2 && exit 1 ;;
     esac
     mkdir -p "$csharp/runtimes/linux-$architecture/native"
-    cp -L "$GEOIDX_NATIVE/libgeoidx.so" "$csharp/runtimes/linux-$architecture/native"
+    cp -Lp "$GEOIDX_NATIVE/libgeoidx.so" "$csharp/runtimes/linux-$architecture/native"
 }
 
+# Other platforms' libraries are what scripts/cross.sh left, whenever that was.
 say_runtimes() {
-    local library
-    echo "the package has the native libraries:"
+    local library age
     for library in "$csharp"/runtimes/*/native/*; do
-        echo "  $(basename "$(dirname "$(dirname "$library")")"), built $(date -r "$library" '+%F %R')"
+        age=
+        [ -z "$(find include src -name '*.[ch]*' -newer "$library" -print -quit)" ] || age=", OLDER THAN THE SOURCES"
+        echo "packed: ${library#"$csharp"/runtimes/}, built $(date -r "$library" '+%F %R')$age"
     done
-    echo "all but that of this machine are what scripts/cross.sh left"
 }
 
 refuses_a_package_without_libraries() {
@@ -54,13 +55,14 @@ check_licences() { # FOLDER
 }
 
 test_package() {
-    rm -rf "$out/packages" "$out/consumer-packages"
+    rm -rf "$out"/{packages,consumer-packages,artifacts/bin/Geoidx.Consumer}
     refuses_a_package_without_libraries
     say_runtimes
     dotnet pack "$csharp/Geoidx" -c Release --no-build "${quiet[@]}" -o "$out/packages"
     dotnet build "$csharp/Geoidx.Consumer" -c Release --force "${quiet[@]}"
     dotnet "$out/artifacts/bin/Geoidx.Consumer/release/Geoidx.Consumer.dll"
     check_licences "$out"/consumer-packages/geoidx/*
+    diff -r "$csharp/runtimes" "$out"/consumer-packages/geoidx/*/runtimes
 }
 
 check_identities() {
@@ -91,19 +93,19 @@ refuses_another_version() {
 }
 
 # A native thread that crashes after Main leaves the exit code alone, but not the output.
-ends_during_a_build() { # leave|unload CALLBACKS
+ends_during_calls() { # leave|unload CALLBACKS
     local output
     output=$(mono "$mono_tests" "$@" 2>&1) && [ -z "$output" ] && return
-    printf 'mono does not %s a build with callbacks: %s\n%s\n' "$@" "$output" >&2
+    echo "mono $mono_tests $*: $output" >&2
     return 1
 }
 
 test_under_mono() {
     mono "$mono_tests"
     refuses_another_version
-    for callbacks in progress token metric none; do
-        ends_during_a_build leave "$callbacks"
-        ends_during_a_build unload "$callbacks"
+    for callbacks in none progress token metric solver visitor allocator; do
+        ends_during_calls leave "$callbacks"
+        ends_during_calls unload "$callbacks"
     done
     mono "$GEOIDX_UNITY_OUT/tests/bin/Program/debug/Program.dll"
 }

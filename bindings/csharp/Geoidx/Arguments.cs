@@ -1,0 +1,10 @@
+using System;
+
+namespace Geoidx
+{
+    internal static class Arguments
+    {
+        internal static uint NotNegative(int value, string name) =>
+            value >= 0 ? (uint)value : throw new ArgumentOutOfRangeException(name, value, "It must not be negative.");
+    }
+}
