@@ -9,5 +9,6 @@ void add_paper(CLI::App& app);
 void add_queries(CLI::App& app);
 void add_metric(CLI::App& app);
 void add_error(CLI::App& app);
+void add_several(CLI::App& app);
 
 }

@@ -22,6 +22,7 @@ void add_commands(CLI::App& app) {
     add_queries(app);
     add_metric(app);
     add_error(app);
+    add_several(app);
 }
 
 int run(CLI::App& app, int argc, char** argv) {
