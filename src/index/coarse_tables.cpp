@@ -28,11 +28,12 @@ std::vector<uint32_t> sample(const Chain& chain, uint32_t step) {
     return samples;
 }
 
-float distance_between(const Index& index, uint32_t patch, uint32_t a, uint32_t b) {
+// The length of the segment between two samples; a gap where there is no way from one to the other.
+float segment_between(const Index& index, uint32_t patch, uint32_t a, uint32_t b) {
     const uint32_t parent = index.parent[patch];
     const uint32_t* overlay_position = index.overlay_position.data() + index.border_begin[patch];
-    return index.overlay_tables.distance(index.overlay_code(parent, overlay_position[a], overlay_position[b]),
-                                         parent);
+    const uint16_t code = index.overlay_code(parent, overlay_position[a], overlay_position[b]);
+    return code == OverlayTables::UNREACHED ? Rings::GAP : index.overlay_tables.distance(code, parent);
 }
 
 void sample_ring(Index& index, uint32_t patch, RingWriter& writer) {
@@ -43,7 +44,7 @@ void sample_ring(Index& index, uint32_t patch, RingWriter& writer) {
         const size_t count = coarse.positions.size();
         for (size_t i = 0; i < count; ++i)
             coarse.lengths.push_back(
-                distance_between(index, patch, coarse.positions[i], coarse.positions[(i + 1) % count]));
+                segment_between(index, patch, coarse.positions[i], coarse.positions[(i + 1) % count]));
         writer.add_chain(coarse, index.border_of(patch));
     }
     writer.end_ring();

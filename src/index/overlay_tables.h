@@ -17,8 +17,9 @@ namespace geodesic {
 struct Rings {
     // Segments on each side of a border vertex that a path over it is straightened over.
     static constexpr uint32_t REACH = 2;
-    static constexpr uint32_t MOST_PLACES = 0x7fff; // in a ring
-    static constexpr size_t PADDING = 32;           // places of nothing at the end
+    static constexpr uint32_t MOST_PLACES = 0x7fff;                       // in a ring
+    static constexpr size_t PADDING = 32;                                 // places of nothing at the end
+    static constexpr float GAP = std::numeric_limits<float>::quiet_NaN(); // the length of no segment
 
     explicit Rings(std::pmr::memory_resource* memory)
         : begin(memory), position(memory), vertex(memory), segment_length(memory), half_inverse(memory),

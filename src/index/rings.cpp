@@ -12,7 +12,7 @@ namespace geodesic {
 namespace {
 
 constexpr uint32_t REACH = Rings::REACH;
-constexpr float GAP = std::numeric_limits<float>::quiet_NaN();
+constexpr float GAP = Rings::GAP;
 
 void add_place(Rings& rings, uint32_t position, uint32_t vertex, float length, bool own) {
     rings.position.push_back(position);

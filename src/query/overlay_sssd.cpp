@@ -83,15 +83,15 @@ struct OverlaySssd::FromEnd {
     uint32_t patch;
 
     void samples(std::span<float> out) const { search.cross_samples(end, patch, out); }
-    void trace(Samples samples) const {
+    bool trace(Samples samples) const {
         const uint32_t* sample =
             search.tables_.coarse_samples.data() + search.tables_.coarse_rings.begin[patch];
         const std::array<uint16_t, 3> winners{search.winners_[sample[samples.first - 1]],
                                               search.winners_[sample[samples.first]],
                                               search.winners_[sample[samples.first + 1]]};
-        search.trace(end, search.range_of(winners));
+        return search.trace(end, search.range_of(winners));
     }
-    void trace_near(float reach) const { search.trace_near(end, reach); }
+    bool trace_near(float reach) const { return search.trace_near(end, reach); }
     void window(Window window, std::span<float> out) const {
         search.climb_windows(end);
         search.cross_window(
@@ -108,8 +108,8 @@ struct OverlaySssd::FromVertex {
     OfPlace of_place;
 
     void samples(std::span<float> out) const { sample_distances(tables, patch, of_place, out); }
-    void trace(Samples) const {}
-    void trace_near(float) const {}
+    bool trace(Samples) const { return true; }
+    bool trace_near(float) const { return true; }
     void window(Window window, std::span<float> out) const {
         for (uint32_t i = 0; i < window.size(); ++i) out[i] = of_place(window.first + i);
     }
@@ -235,36 +235,35 @@ float OverlaySssd::meet(const From& from, End& to) {
     }
     if (beside != NONE)
         shortest = std::min(shortest, measure_over(from, to, beside - rings.begin[border.patch]));
-    if (shortest > tables_.near[border.patch]) return shortest;
+    if (!(shortest <= tables_.near[border.patch])) return shortest;
     const float reach = shortest + 2 * tables_.sample_spacing[border.patch];
-    from.trace_near(reach);
-    trace_near(to, reach);
+    if (!from.trace_near(reach) || !trace_near(to, reach)) return shortest;
     return std::min(shortest, measure(from, to));
 }
 
-// That of the sample, in the coarse ring where `to` waits, beside which one of the ends lies, or NONE: the
-// way begins near there, though others may be shorter by what samples tell.
+// The place, in the coarse ring of the border where `to` waits, of the sample that lies nearest to one of the
+// two ends, if that end lies beside the border and the other one can be reached from there; otherwise NONE.
+// The shortest path passes near that sample, even where samples alone make another way look shorter.
 uint32_t OverlaySssd::place_beside(std::span<const float> from_distance, const End& to) const {
     const uint32_t patch = to.borders.back().patch;
+    const Rings& rings = tables_.coarse_rings;
     float least = BESIDE * tables_.sample_spacing[patch];
-    uint32_t sample = NONE;
-    for (uint32_t i = 0; i < from_distance.size(); ++i) {
-        const float nearer = std::min(from_distance[i], to.distance[i]);
-        if (nearer >= least) continue;
+    uint32_t beside = NONE;
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
+        const uint32_t sample = tables_.coarse_samples[k];
+        const float nearer = std::min(from_distance[sample], to.distance[sample]);
+        const bool is_passable = from_distance[sample] + to.distance[sample] < INFINITE;
+        if (!rings.is_own[k] || !is_passable || nearer >= least) continue;
         least = nearer;
-        sample = i;
+        beside = k;
     }
-    if (sample == NONE) return NONE;
-    uint32_t k = tables_.coarse_rings.begin[patch] + REACH;
-    while (tables_.coarse_samples[k] != sample) ++k;
-    return k;
+    return beside;
 }
 
-// The way over one of these samples, by its place in the coarse ring.
+// The way over one of these samples, by its place in the coarse ring; infinite if there is none.
 template <class From>
 float OverlaySssd::measure_over(const From& from, End& to, uint32_t place) {
-    from.trace({place, place});
-    trace(to, {place, place});
+    if (!from.trace({place, place}) || !trace(to, {place, place})) return INFINITE;
     return measure(from, to);
 }
 
@@ -333,7 +332,7 @@ OverlaySssd::Samples OverlaySssd::samples_within(const End& end, float reach) co
     Samples within;
     for (uint32_t k = REACH; k + REACH < places; ++k)
         if (end.distance[tables_.coarse_samples[begin + k]] <= reach) within.add(k);
-    return within.or_some_place();
+    return within;
 }
 
 // Of a patch that a vertex lies in beyond its first one.
@@ -359,7 +358,7 @@ const uint16_t* OverlaySssd::coarse_row(uint32_t patch, uint32_t row) const {
 }
 
 // From the last border of an end to the samples of a sibling's; winners_ are the places that the ways come
-// over.
+// over, NO_PLACE for samples that cannot be reached.
 void OverlaySssd::cross_samples(const End& end, uint32_t sibling, std::span<float> out) {
     const uint32_t patch = end.borders.back().patch;
     const Rings& rings = tables_.coarse_rings;
@@ -374,15 +373,18 @@ void OverlaySssd::cross_samples(const End& end, uint32_t sibling, std::span<floa
         d = end.distance[*sample++];
     if (!field_.finish()) {
         std::ranges::fill(out, INFINITE);
+        std::fill_n(winners_.begin(), out.size(), SeenBorder::NO_PLACE);
         return;
     }
     field_.cross(rows_, out.data(), winners_.data());
 }
 
 // Lets the ways at hand be those to samples of the last border. What is known of another way is kept as long
-// as it covers them, from the first border on.
-void OverlaySssd::trace(End& end, Samples samples) {
+// as it covers them, from the first border on. Returns whether there are such ways; if not, those at hand
+// stay.
+bool OverlaySssd::trace(End& end, Samples samples) {
     for (size_t b = end.borders.size(); b-- > 0;) {
+        if (samples.are_none()) return false;
         end.borders[b].traced = window_of(end.borders[b].patch, samples);
         if (b > 0) samples = samples_before(end, b, samples);
     }
@@ -391,13 +393,15 @@ void OverlaySssd::trace(End& end, Samples samples) {
     end.crossed = kept;
     for (size_t b = kept; b < end.borders.size(); ++b) end.borders[b].window = end.borders[b].traced;
     for (size_t b = 0; b < end.borders.size(); ++b) prefetch_window(end, b);
+    return true;
 }
 
-// Lets all ways over the samples up to a distance be at hand, for another end that is near.
-void OverlaySssd::trace_near(End& end, float reach) {
+// Lets all ways over the samples up to a distance be at hand, for another end that is near. Returns whether
+// there are any.
+bool OverlaySssd::trace_near(End& end, float reach) {
     end.is_near = true;
     end.crossed = 0;
-    trace(end, samples_within(end, reach));
+    return trace(end, samples_within(end, reach));
 }
 
 // Those of the border before that the ways to these samples and to their neighbours come over.
@@ -450,7 +454,7 @@ OverlaySssd::Samples OverlaySssd::range_of(std::span<const uint16_t> winners) co
     Samples range;
     for (const uint16_t winner : winners)
         if (winner != SeenBorder::NO_PLACE) range.add(winner);
-    return range.or_some_place();
+    return range;
 }
 
 // What climb_windows() is going to read.

@@ -36,11 +36,11 @@ private:
     // Consecutive places of a coarse ring, counted in it; none at first.
     struct Samples {
         uint32_t first = std::numeric_limits<uint32_t>::max(), last = 0;
+        bool are_none() const { return first > last; }
         void add(uint32_t place) {
             first = std::min(first, place);
             last = std::max(last, place);
         }
-        Samples or_some_place() const { return first <= last ? *this : Samples{Rings::REACH, Rings::REACH}; }
     };
 
     // A border around a vertex, up to that of a child of the patch where both ends meet.
@@ -95,8 +95,8 @@ private:
     Label label_of(uint32_t vertex, uint32_t patch) const;
     Samples samples_within(const End& end, float reach) const;
     void cross_samples(const End& end, uint32_t sibling, std::span<float> out);
-    void trace(End& end, Samples samples);
-    void trace_near(End& end, float reach);
+    bool trace(End& end, Samples samples);
+    bool trace_near(End& end, float reach);
     Samples samples_before(End& end, size_t b, Samples samples);
     void encode_first(End& end);
     void spread(const Label& label, uint32_t patch, std::span<int16_t> out) const;

@@ -10,7 +10,7 @@ namespace geodesic {
 namespace {
 
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
-constexpr float GAP = std::numeric_limits<float>::quiet_NaN();
+constexpr float GAP = Rings::GAP;
 
 }
 
