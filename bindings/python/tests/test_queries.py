@@ -1,12 +1,15 @@
 """Shapes, broadcasting and bits of the queries of an index, a query and a solver."""
 
 import math
+import tracemalloc
 import unittest
+from unittest import mock
 
 import numpy as np
 from meshes import hills, plane
 
 import geoidx
+from geoidx import _matrix
 
 
 class Queries(unittest.TestCase):
@@ -61,18 +64,122 @@ class Matrix(Queries):
         self.assertEqual(self.index.matrix(a, []).shape, (3, 0))
         self.assertEqual(self.index.matrix(4, b).shape, (1, 4))
 
-    def test_more_pairs_than_fit_at_once(self):
-        a = np.arange(self.n).repeat(5)
-        b = np.arange(self.n)
-        matrix = self.index.matrix(a, b)
-        self.assertGreater(matrix.size, 1 << 18)
-        np.testing.assert_array_equal(matrix[::5], self.index.sssd(b[:, None], b))
-        np.testing.assert_array_equal(matrix[4::5], matrix[::5])
+    def test_few_vertices_are_pairs(self):
+        for count in (1, 2, 9, 24):
+            a = np.arange(count) * 10
+            for matrix in (self.index.matrix(a), self.index.matrix(a, a.copy())):
+                np.testing.assert_array_equal(matrix, self.index.sssd(a[:, None], a))
+
+    def test_many_columns_are_fields_of_the_rows(self):
+        a, b = np.arange(3, 22), np.arange(self.n)[::-1].repeat(2)
+        fields = self.index.ssad(a)[:, b]
+        self.assertTrue((fields != self.index.sssd(a[:, None], b)).any())  # the test can tell them apart
+        np.testing.assert_array_equal(self.index.matrix(a, b), fields)
+        np.testing.assert_array_equal(self.index.matrix(b, a), fields.T)
+        same_length = np.arange(self.n), np.arange(self.n)[::-1]
+        np.testing.assert_array_equal(self.index.matrix(*same_length), self.index.ssad(same_length[0])[:, ::-1])
+
+    def test_equal_rows_and_columns_are_symmetric(self):
+        a = np.random.default_rng(5).permutation(self.n)
+        fields = self.index.ssad(a)[:, a]
+        self.assertTrue((fields != fields.T).any())
+        for a_again in (None, list(a)):
+            matrix = self.index.matrix(a, a_again)
+            np.testing.assert_array_equal(matrix, matrix.T)
+            np.testing.assert_array_equal(matrix, (fields + fields.T) / 2)
+            self.assertFalse(np.diag(matrix).any())
+
+    def test_strips_of_a_few_pairs(self):
+        for at_once in (1, 30, 255):
+            with mock.patch.object(_matrix, "_PAIRS_AT_ONCE", at_once):
+                self.test_is_sssd_of_each_pair()
+                self.test_few_vertices_are_pairs()
+                self.test_equal_rows_and_columns_are_symmetric()
+
+    def test_by_the_graph_engine(self):
+        index = geoidx.Index.build(*self.mesh, engine="graph")
+        a, b = np.arange(40), np.arange(100, 150)
+        for rows, columns in ((a, b), (b, a), (a, a), (a[:2], b[:2]), (a[:2], a[:2])):
+            matrix = index.matrix(rows, columns)
+            np.testing.assert_allclose(matrix, index.sssd(rows[:, None], columns), rtol=1e-5)
+
+    def test_separate_parts_and_vertices_of_no_triangle(self):
+        vertices, faces = plane(6, 6)
+        two = np.concatenate([vertices, vertices + 10, [[0, 0, 50]]]), np.concatenate([faces, faces + 36])
+        index = geoidx.Index.build(*two)
+        part = np.arange(73) // 36
+        everything = index.matrix(np.arange(73))
+        np.testing.assert_array_equal(np.isinf(everything), part[:, None] != part)
+        for few in ([0, 40, 72], [72]):
+            np.testing.assert_array_equal(np.isinf(index.matrix(few)), np.isinf(everything[np.ix_(few, few)]))
+            self.assertFalse(np.diag(index.matrix(few)).any())
+
+    def test_a_vertex_out_of_range(self):
+        few, many = np.arange(3), np.arange(self.n)
+        for good in (few, many):
+            bad = good.copy()
+            bad[-1] = self.n
+            for a, b in ((good, bad), (bad, good), (bad, bad), (bad, few), (few, bad)):
+                out = np.full((len(a), len(b)), -1, np.float32)
+                with self.assertRaisesRegex(geoidx.InvalidArgumentError, f"vertex {self.n} is out of range"):
+                    self.index.matrix(a, b, out=out)
+                self.assertTrue((out == -1).all())
+
+    def test_scratch_does_not_grow_with_the_rows(self):
+        a, b = np.arange(400) % self.n, np.arange(401) % self.n
+        out = np.empty((400, 401), np.float32)
+        tracemalloc.start()
+        self.index.matrix(a, b, out=out)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        self.assertLess(peak, 400 * self.n * 4 / 3)
 
     def test_out(self):
         out = np.empty((2, 2), np.float32)
         self.assertIs(self.index.matrix([1, 2], out=out), out)
         np.testing.assert_array_equal(out, self.index.matrix([1, 2]))
+
+
+class WorkOfAMatrix(unittest.TestCase):
+    """How many pairs and fields are asked for, on a mesh of 43,243 vertices."""
+
+    def work(self, row_count, column_count, first_column=0, engine=geoidx.Engine.OVERLAY):
+        asked = {"pairs": 0, "fields": 0, "fields at once": 0}
+
+        def pairs(vertices, distances):
+            asked["pairs"] += distances.size
+
+        def fields(sources):
+            asked["fields"] += sources.size
+            asked["fields at once"] = max(asked["fields at once"], sources.size)
+            return np.zeros((sources.size, 43243), np.float32)
+
+        rows = np.arange(row_count, dtype=np.uint32)
+        columns = np.arange(first_column, first_column + column_count, dtype=np.uint32)
+        distances = np.empty((row_count, column_count), np.float32)
+        _matrix.Matrix(engine, 43243, pairs, fields).fill(rows, columns, distances)
+        return asked
+
+    def test_many_landmarks_are_a_field_each(self):
+        expected = {"pairs": 0, "fields": 1000, "fields at once": 16}
+        self.assertEqual(self.work(1000, 1000), expected)
+        self.assertEqual(self.work(1000, 1000, first_column=1), expected)
+
+    def test_the_shorter_side_is_the_source(self):
+        for rows, columns in ((20, 900), (900, 20)):
+            self.assertEqual(self.work(rows, columns, first_column=5)["fields"], 20)
+
+    def test_few_rows_and_columns_are_pairs(self):
+        for rows, columns in ((1, 10), (10, 1), (50, 60)):
+            expected = {"pairs": rows * columns, "fields": 0, "fields at once": 0}
+            self.assertEqual(self.work(rows, columns, first_column=5), expected)
+            graph = self.work(rows, columns, first_column=5, engine=geoidx.Engine.GRAPH)
+            self.assertEqual(graph["fields"], min(rows, columns))
+
+    def test_a_square_of_pairs_is_little_more_than_half_of_it(self):
+        asked = self.work(100, 100)
+        self.assertEqual(asked["fields"], 0)
+        self.assertLess(asked["pairs"], 0.6 * 100 * 100)
 
 
 class Fields(Queries):

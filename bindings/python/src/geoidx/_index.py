@@ -11,20 +11,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _fields, _native
-from ._arrays import UINT64_MAX, Vertex, Vertices, address, id_list, ids, output, whole_number
+from ._arrays import UINT64_MAX, Ids, Vertex, Vertices, address, id_list, ids, output, whole_number
 from ._callbacks import Progress
 from ._errors import InvalidArgumentError, Path, check
 from ._fields import Distances
 from ._handle import Closable, Handle
 from ._info import Info, info_of
+from ._matrix import Matrix
 from ._mesh import MeshView
 from ._metrics import MetricLike
 from ._native import Allocator, library
 from ._options import BuildOptions, Engine, OpenOptions, as_engine
 from ._query import Query
-
-
-_PAIRS_AT_ONCE = 1 << 18
 
 
 def _native_path(path: Path) -> bytes:
@@ -232,21 +230,33 @@ class Index(Closable):
         return distances if distances.ndim else float(distances)
 
     def matrix(self, a: ArrayLike, b: ArrayLike | None = None, *, out: Distances | None = None) -> Distances:
-        """(len(a), len(b)) distances, the same bits as `sssd` gives; b: a, unless given.
+        """(len(a), len(b)) distances between the vertices of a and those of b; b: a, unless given.
 
-        Where b is a large part of the mesh, `ssad(a)[:, b]` takes less time.
+        Takes the faster of two ways, by the numbers of rows, columns and vertices: for few columns or rows, pairs,
+        with the same bits as `sssd` gives; for many, fields, with those of `ssad` from the shorter of a and b (a, where
+        both are as long). Both are as near the metric on average; they differ by some hundredths of a percent, for
+        single pairs by 1 % and more. By the graph engine they agree to float precision. The same a, b and index
+        always give the same bits. Who needs the answers of one way asks for `sssd(a[:, None], b)` or `ssad(a)[:, b]`.
+
+        Where a and b are equal, the matrix is symmetric bit for bit, with zeros on the diagonal: of fields, the mean
+        of both ways is taken. In every matrix a vertex is 0 from itself.
+
+        out: float32 of that shape, C-contiguous, to be written to and returned. Besides it, memory for 16 fields or
+        2^18 pairs is taken.
         """
         handle = self._handle
         rows = id_list(a, "a")
         columns = rows if b is None else id_list(b, "b")
         distances = output(out, (rows.size, columns.size), np.float32)
-        rows_at_once = max(1, _PAIRS_AT_ONCE // max(1, columns.size))
-        for begin in range(0, rows.size, rows_at_once):
-            part = distances[begin : begin + rows_at_once]
-            pairs = np.empty(part.shape + (2,), np.uint32)
-            pairs[..., 0] = rows[begin : begin + rows_at_once, None]
-            pairs[..., 1] = columns
-            _fields.pairwise(library.geoidx_sssd_batch, handle, pairs, part)
+        n = self._info.vertex_count
+
+        def pairs(vertices: Ids, part: Distances) -> None:
+            _fields.pairwise(library.geoidx_sssd_batch, handle, vertices, part)
+
+        def fields(sources: Ids) -> Distances:
+            return _fields.ssad(library.geoidx_ssad_batch, handle, sources, n, None)
+
+        Matrix(self._info.engine, n, pairs, fields).fill(rows, columns, distances)
         return distances
 
     def msad(self, sources: ArrayLike, *, radius: float = math.inf, out: Distances | None = None) -> Distances:
