@@ -1,8 +1,10 @@
 """Closing, finalizing, and threads that share an index."""
 
+import copy
 import ctypes
 import gc
 import os
+import pickle
 import subprocess
 import sys
 import threading
@@ -36,6 +38,23 @@ class Memory:
     def release(self, user, memory, size, alignment):
         assert self.blocks.pop(memory) == size
         libc.free(memory)
+
+
+class Making(unittest.TestCase):
+    def test_an_index_is_not_made_by_its_class(self):
+        """Such handles went to the library, and the process crashed."""
+        for wrong in ("square.geoidx", b"bytes", 5, None):
+            with self.assertRaisesRegex(TypeError, "Index.open"):
+                geoidx.Index(wrong)
+        with self.assertRaisesRegex(TypeError, "Index.query"):
+            geoidx.Query(geoidx.Index.build(*SQUARE), 4)
+
+    def test_scratch_is_neither_copied_nor_pickled(self):
+        query, solver = geoidx.Index.build(*SQUARE).query(), geoidx.Solver(*SQUARE)
+        for scratch in (query, solver):
+            for call in (pickle.dumps, copy.copy, copy.deepcopy):
+                with self.assertRaisesRegex(TypeError, "each thread makes its own"):
+                    call(scratch)
 
 
 class Closing(unittest.TestCase):

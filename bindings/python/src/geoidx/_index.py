@@ -51,6 +51,8 @@ class Index(Closable):
     """
 
     def __init__(self, handle: Handle) -> None:
+        if not isinstance(handle, Handle):
+            raise TypeError("an index is made by Index.open, Index.build or Index.from_bytes")
         super().__init__(handle)
         self._info = _read_info(handle)
 

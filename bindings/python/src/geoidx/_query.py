@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from ctypes import byref, c_void_p
-from typing import SupportsIndex, overload
+from typing import NoReturn, SupportsIndex, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +25,8 @@ class Query(Closable):
     """
 
     def __init__(self, index: Handle, vertex_count: int) -> None:
+        if not isinstance(index, Handle):
+            raise TypeError("a query is made by Index.query")
         out = c_void_p()
         status = library.geoidx_query_create(index, byref(out))
         super().__init__(Handle(out, library.geoidx_query_close, needed=index))
@@ -32,6 +34,9 @@ class Query(Closable):
         self._vertex_count = vertex_count
         self._threads = 1
         self._one_thread = OneThread("query")
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a query cannot be copied or pickled: each thread makes its own")
 
     @property
     def threads(self) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ctypes import byref, c_void_p
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -70,6 +70,9 @@ class Solver(Closable):
             super().__init__(Handle(out, library.geoidx_solver_close, kept=options))
         check(status)
         self._vertex_count = len(mesh.vertices)
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a solver cannot be copied or pickled: each thread makes its own")
 
     @property
     def vertex_count(self) -> int:
