@@ -157,6 +157,12 @@ class Refusals(unittest.TestCase):
                 vertices[2, 1] = bad
                 self.assertIn("vertex 2", self.refused(geoidx.BadMeshError, vertices, SQUARE[1]))
 
+    def test_rows_of_different_lengths(self):
+        for vertices, faces in (([[0, 0, 0], [1, 1]], [[0, 1, 2]]), (SQUARE[0], [[0, 1, 2], [0, 1]])):
+            with self.assertRaises((geoidx.InvalidArgumentError, TypeError)) as caught:  # the latter by old NumPy
+                geoidx.Index.build(vertices, faces)
+            self.assertNotEqual(type(caught.exception), ValueError)
+
     def test_faces_out_of_range(self):
         vertices = SQUARE[0]
         for dtype, bad in ((np.uint32, 4), (np.int32, -1), (np.int64, -1), (np.int64, 1 << 32), (np.uint64, 1 << 40)):

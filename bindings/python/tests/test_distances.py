@@ -199,7 +199,7 @@ class SurfacePoints(unittest.TestCase):
         with self.assertRaises(TypeError):
             solver.point_distances([0], good)
         for triangles, weights in (([0], [1, 0]), ([0, 1, 0], [[1, 0, 0]] * 2), ([-1], [1, 0, 0])):
-            with self.assertRaises(ValueError):
+            with self.assertRaises(geoidx.InvalidArgumentError):
                 geoidx.surface_points(triangles, weights)
 
 

@@ -176,8 +176,58 @@ class Files(unittest.TestCase):
         for buffer in (self.data, bytearray(self.data), memoryview(self.data), np.frombuffer(self.data, np.uint8)):
             self.assert_same(geoidx.Index.from_bytes(buffer))
         self.assert_same(geoidx.Index.from_bytes(io.BytesIO(self.data).getbuffer()))
-        with self.assertRaises(BufferError):
-            geoidx.Index.from_bytes(memoryview(self.data)[::2])
+
+    def test_buffers_that_cannot_be_read(self):
+        closed = mmap.mmap(-1, 100)
+        closed.close()
+        released = memoryview(self.data)
+        released.release()
+        columns = np.asfortranarray(np.zeros((9, 9)))
+        for buffer in (memoryview(self.data)[::2], np.frombuffer(self.data, "u1")[::2], columns, closed, released):
+            for call in (geoidx.Index.from_bytes, geoidx.verify):
+                with self.assertRaisesRegex(geoidx.InvalidArgumentError, type(buffer).__name__):
+                    call(buffer)
+        for nothing in (3, None, [1, 2], io.BytesIO(self.data)):
+            for call in (geoidx.Index.from_bytes, geoidx.verify):
+                with self.assertRaises(TypeError):
+                    call(nothing)
+        for empty in (b"", bytearray(), memoryview(b""), np.empty(0, np.uint8)):
+            with self.assertRaises(geoidx.TruncatedError):
+                geoidx.Index.from_bytes(empty)
+
+    def test_no_file_is_an_error_of_another_kind(self):
+        """Whatever is wrong with a path, it is a geoidx.Error, and an OSError where the system says so."""
+        empty = self.folder / "empty"
+        empty.touch()
+        for call in (geoidx.Index.open, geoidx.verify, self.index.save):
+            for path in ("a\0b", "\ud800", Path("a\0b")):
+                with self.subTest(call=call, path=path), self.assertRaises(geoidx.InvalidArgumentError):
+                    call(path)
+            for path in (self.folder, str(self.folder), empty / "below", "n" * 5000, self.folder / "no" / "such"):
+                with self.subTest(call=call, path=path), self.assertRaises(geoidx.FileError) as caught:
+                    call(path)
+                self.assertEqual(caught.exception.filename, os.fspath(path))
+        for call in (geoidx.Index.open, geoidx.verify):
+            with self.assertRaises(geoidx.MissingFileError):
+                call("")
+        with self.assertRaises(geoidx.TruncatedError):
+            geoidx.Index.open(empty)
+        self.assertEqual([issue.status for issue in geoidx.verify(empty)], [Status.TRUNCATED])
+
+    def test_path_like_bytes(self):
+        class PathLike:
+            def __fspath__(_):
+                return os.fsencode(self.folder / "index")
+
+        self.index.save(PathLike())
+        self.assert_same(geoidx.Index.open(PathLike()))
+        self.assertEqual(geoidx.verify(PathLike()), [])
+
+    def test_an_expected_mesh_is_a_pair(self):
+        for other in ((), self.mesh[0], (*self.mesh, 3), "ab"):
+            with self.assertRaisesRegex(TypeError, "expected_mesh"):
+                geoidx.Index.from_bytes(self.data, expected_mesh=other)
+        self.assert_same(geoidx.Index.from_bytes(self.data, expected_mesh=list(self.mesh)))
 
     def test_bytes_are_not_needed_after_the_call(self):
         data = bytearray(self.data)
@@ -204,6 +254,8 @@ class Files(unittest.TestCase):
     def test_what_the_system_says(self):
         for path in (self.folder / "missing", b"/dev/null/index"):
             self.assert_like_open(path, geoidx.Index.open)
+        for path in (self.folder / "missing", self.folder, "/dev/null/index"):
+            self.assert_like_open(path, geoidx.verify)
         self.assert_like_open("/nonexistent/index", self.index.save)
 
     def test_without_a_reason_of_the_system(self):
@@ -234,7 +286,7 @@ class Verify(unittest.TestCase):
             path.write_bytes(self.data)
             self.assertEqual(geoidx.verify(path), [])
             self.assertEqual(geoidx.verify(str(path)), [])
-            with self.assertRaises(OSError):
+            with self.assertRaises(geoidx.MissingFileError):
                 geoidx.verify(Path(folder, "other"))
 
     def test_issues(self):

@@ -41,7 +41,7 @@ class Sssd(Queries):
         np.testing.assert_array_equal(self.index.sssd(3, b), distances[0])
         np.testing.assert_array_equal(self.index.sssd([3, 3, 3], list(b)), distances[0])
         self.assertEqual(self.index.sssd([3], 200).shape, (1,))
-        with self.assertRaises(ValueError):
+        with self.assertRaisesRegex(geoidx.InvalidArgumentError, r"\(2,\) and \(3,\)"):
             self.index.sssd([1, 2], [1, 2, 3])
 
     def test_no_pairs(self):
@@ -212,6 +212,12 @@ class Fields(Queries):
             for radius in (-1, math.nan):
                 with self.assertRaisesRegex(geoidx.InvalidArgumentError, "radius"):
                     asked.msad(4, radius=radius)
+            np.testing.assert_array_equal(asked.msad(4, radius=1e300), asked.msad(4))
+            with self.assertRaisesRegex(geoidx.InvalidArgumentError, "radius"):
+                asked.msad(4, radius=10**400)
+            for radius in ("5", None, [5]):
+                with self.assertRaises(TypeError):
+                    asked.msad(4, radius=radius)
 
     def test_out(self):
         for asked in (self.index, self.query):
@@ -309,7 +315,7 @@ class Ids(Queries):
 
     def test_out_of_range(self):
         for number, call in enumerate(self.calls()):
-            for vertex in (self.n, -1, 1 << 32, (1 << 32) - 1, -(1 << 40)):
+            for vertex in (self.n, -1, 1 << 32, (1 << 32) - 1, -(1 << 40), 1 << 70, -(1 << 70)):
                 with self.subTest(call=number, vertex=vertex):
                     with self.assertRaises(geoidx.InvalidArgumentError) as caught:
                         call(vertex)
@@ -321,6 +327,22 @@ class Ids(Queries):
             for vertex in (1.0, "1", None, 1j):
                 with self.subTest(call=number, vertex=vertex), self.assertRaises(TypeError):
                     call(vertex)
+
+    def test_truth_values_are_no_vertices(self):
+        for true in (True, np.True_):
+            for call in (self.index.msad, self.index.ssad, self.query.prepare, lambda v: self.query.sssd(v, 2)):
+                with self.assertRaises(TypeError):
+                    call(true)
+            with self.assertRaises(TypeError):
+                self.index.sssd(2, true)
+
+    def test_rows_of_different_lengths(self):
+        solver = geoidx.Solver(*self.mesh)
+        calls = (self.index.msad, self.index.ssad, self.index.matrix, solver.distances, self.query.prepared)
+        for call in (*calls, lambda v: self.index.sssd(v, 1), lambda v: solver.distances(0, v)):
+            with self.assertRaises((geoidx.InvalidArgumentError, TypeError)) as caught:  # the latter by old NumPy
+                call([[1], [2, 3]])
+            self.assertNotEqual(type(caught.exception), ValueError)
 
     def test_every_integer_type_and_layout(self):
         expected = self.index.msad([4, 240])

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, Sequence, SupportsIndex, Union
+from ctypes import c_double
+from typing import Any, Sequence, SupportsFloat, SupportsIndex, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -32,8 +33,32 @@ def whole_number(value: SupportsIndex, name: str, largest: int = UINT32_MAX) -> 
     return number
 
 
+def real_number(value: SupportsFloat, name: str) -> float:
+    try:
+        return c_double(value).value  # type: ignore[arg-type]
+    except OverflowError:
+        raise InvalidArgumentError(f"{name} is too large for a float") from None
+
+
 def vertex(value: SupportsIndex) -> int:
+    if isinstance(value, (bool, np.bool_)):
+        raise TypeError("a vertex cannot be of bool")
     return whole_number(value, "a vertex")
+
+
+def as_array(values: Any, name: str) -> NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except ValueError as error:  # rows of different lengths
+        raise InvalidArgumentError(f"{name} cannot be an array: {error}") from None
+
+
+def broadcast(*arrays: NDArray[Any]) -> Sequence[NDArray[Any]]:
+    try:
+        return np.broadcast_arrays(*arrays)
+    except ValueError:
+        shapes = " and ".join(str(array.shape) for array in arrays)
+        raise InvalidArgumentError(f"the shapes {shapes} cannot be broadcast together") from None
 
 
 def _check_kind(array: NDArray[Any], kinds: str, name: str) -> None:
@@ -56,9 +81,11 @@ def _check_range(array: NDArray[Any], name: str, error: type[Error]) -> None:
 
 def ids(values: ArrayLike, name: str, error: type[Error] = InvalidArgumentError) -> Ids:
     """Vertex ids of any shape, uint32 and C-contiguous. uint32 and int32 in that layout are not copied."""
-    array = np.asarray(values)
+    array = as_array(values, name)
     if array.size == 0:
         return np.empty(array.shape, np.uint32)
+    if array.dtype == object and all(type(value) is int for value in array.flat):
+        _check_range(array, name, error)  # some are out of range for 64 bits
     _check_kind(array, "iu", name)
     if array.dtype != np.uint32:
         _check_range(array, name, error)
@@ -82,7 +109,7 @@ def id_rows(values: ArrayLike, name: str, columns: int, error: type[Error]) -> I
 
 def doubles(values: ArrayLike, name: str, *shape: int | None) -> Doubles:
     """Numbers of the shape (None: any length), float64 and C-contiguous; not copied where they are."""
-    array = np.asarray(values)
+    array = as_array(values, name)
     _check_kind(array, "fiu", name)
     _check_shape(array, name, *shape)
     return np.require(array, np.float64, ["C", "ALIGNED"])
@@ -93,11 +120,11 @@ def _rows_are_packed(array: NDArray[Any]) -> bool:
     return column == array.itemsize and 3 * array.itemsize <= row <= UINT32_MAX
 
 
-def positions(values: ArrayLike) -> NDArray[Any]:
+def positions(values: ArrayLike, name: str = "vertices") -> NDArray[Any]:
     """(n, 3) float32 or float64 whose rows are packed, any distance apart; others are copied into such."""
-    array = np.asarray(values)
-    _check_kind(array, "fiu", "vertices")
-    _check_shape(array, "vertices", None, 3)
+    array = as_array(values, name)
+    _check_kind(array, "fiu", name)
+    _check_shape(array, name, None, 3)
     dtype = np.dtype(np.float32 if array.dtype.newbyteorder("=") == np.float32 else np.float64)
     if array.dtype == dtype and _rows_are_packed(array):
         return array

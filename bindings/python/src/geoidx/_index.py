@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from ctypes import byref, c_uint64, c_void_p, sizeof
 from typing import Any, Callable, Sequence, overload
 
@@ -11,10 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _fields, _native
-from ._arrays import UINT64_MAX, Ids, Vertex, Vertices, address, id_list, ids, output, whole_number
+from ._arrays import UINT64_MAX, Ids, Vertex, Vertices, address, broadcast, id_list, ids, output, whole_number
 from ._callbacks import Progress
-from ._errors import InvalidArgumentError, Path, check
+from ._errors import Path, check
 from ._fields import Distances
+from ._files import bytes_of_buffer, native_path
 from ._handle import Closable, Handle
 from ._info import Info, info_of
 from ._matrix import Matrix
@@ -25,15 +25,14 @@ from ._options import BuildOptions, Engine, OpenOptions, as_engine
 from ._query import Query
 
 
-def _native_path(path: Path) -> bytes:
-    name = os.fsencode(path)
-    if b"\0" in name:
-        raise InvalidArgumentError("the path holds a zero byte")
-    return name
-
-
 def _is_vertex(value: object) -> bool:
     return isinstance(value, (int, np.integer))
+
+
+def _mesh_of(expected_mesh: tuple[ArrayLike, ArrayLike]) -> MeshView:
+    if not isinstance(expected_mesh, (tuple, list)) or len(expected_mesh) != 2:
+        raise TypeError("expected_mesh is not (vertices, faces)")
+    return MeshView(*expected_mesh)
 
 
 def _read_info(handle: Handle) -> Info:
@@ -126,15 +125,15 @@ class Index(Closable):
         expected_mesh: tuple[ArrayLike, ArrayLike] | None = None,
         allocator: Allocator | None = None,
     ) -> Index:
-        """Opens a file. Everything in it is checked before it is believed.
+        """Opens a file: str, bytes or os.PathLike of either. Everything in it is checked before it is believed.
 
         expected_mesh: the vertices and faces (same arrays, same numbers) that the index must have been built from,
             else MeshMismatchError.
 
         Raises FileError, which is an OSError (MissingFileError, a FileNotFoundError, where there is no such file),
-        and FormatError, which is a ValueError.
+        and FormatError, which is a ValueError. A path that no file can have is an InvalidArgumentError.
         """
-        name = _native_path(path)
+        name = native_path(path)
         return cls._opened(expected_mesh, allocator, lambda *rest: library.geoidx_open(name, *rest), path)
 
     @classmethod
@@ -145,8 +144,11 @@ class Index(Closable):
         expected_mesh: tuple[ArrayLike, ArrayLike] | None = None,
         allocator: Allocator | None = None,
     ) -> Index:
-        """Opens an index in memory: bytes, or any other contiguous buffer, which is neither copied nor kept."""
-        view = np.frombuffer(data, np.uint8)
+        """Opens an index in memory: bytes, or any other contiguous buffer, which is neither copied nor kept.
+
+        Raises FormatError, and InvalidArgumentError for buffers that are not contiguous, or closed.
+        """
+        view = bytes_of_buffer(data)
         return cls._opened(
             expected_mesh,
             allocator,
@@ -161,7 +163,7 @@ class Index(Closable):
         call: Callable[..., int],
         path: Path | None = None,
     ) -> Index:
-        options = OpenOptions(MeshView(*expected_mesh) if expected_mesh else None, allocator)
+        options = OpenOptions(None if expected_mesh is None else _mesh_of(expected_mesh), allocator)
         out = c_void_p()
         status = call(byref(options.struct), byref(out))
         handle = Handle(out, library.geoidx_close, kept=allocator)
@@ -170,7 +172,7 @@ class Index(Closable):
 
     def save(self, path: Path) -> None:
         """Writes the index to a file, replacing what is there at once or, on failure (FileError), not at all."""
-        check(library.geoidx_save(self._handle, _native_path(path)), path)
+        check(library.geoidx_save(self._handle, native_path(path)), path)
 
     def to_bytes(self) -> bytes:
         """The bytes of the file."""
@@ -226,7 +228,7 @@ class Index(Closable):
         """
         if _is_vertex(a) and _is_vertex(b):
             return _fields.sssd(library.geoidx_sssd, self._handle, a, b)  # type: ignore[arg-type]
-        pairs = np.stack(np.broadcast_arrays(ids(a, "a"), ids(b, "b")), axis=-1)
+        pairs = np.stack(broadcast(ids(a, "a"), ids(b, "b")), axis=-1)
         distances = np.empty(pairs.shape[:-1], np.float32)
         _fields.pairwise(library.geoidx_sssd_batch, self._handle, pairs, distances)
         return distances if distances.ndim else float(distances)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _fields
-from ._arrays import Vertex, Vertices, address, ids, output, vertex, whole_number
+from ._arrays import Vertex, Vertices, address, ids, output, real_number, vertex, whole_number
 from ._errors import check
 from ._fields import Distances
 from ._handle import Closable, Handle, OneThread
@@ -63,7 +63,7 @@ class Query(Closable):
                 call = library.geoidx_query_msad
                 return _fields.msad(call, self._handle, sources, self._vertex_count, out)
             call = library.geoidx_query_msad_within
-            return _fields.msad(call, self._handle, sources, self._vertex_count, out, radius)
+            return _fields.msad(call, self._handle, sources, self._vertex_count, out, real_number(radius, "radius"))
 
     def ssad(self, sources: ArrayLike, *, out: Distances | None = None) -> Distances:
         """As `Index.ssad`."""

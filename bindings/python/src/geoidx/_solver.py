@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Doubles, address, doubles, id_list, ids, output, whole_number
+from ._arrays import Doubles, address, as_array, broadcast, doubles, id_list, ids, output, whole_number
 from ._errors import InvalidArgumentError, check
 from ._handle import Closable, Handle, OneThread
 from ._mesh import MeshView
@@ -29,15 +29,15 @@ def surface_points(triangles: ArrayLike, weights: ArrayLike) -> SurfacePoints:
     triangles: (k,) or one position in the array of faces.
     weights: (k, 3) or (3,), of the triangle's corners: not negative, 1 in sum.
     """
-    corners = np.atleast_2d(np.asarray(weights))
+    corners = np.atleast_2d(as_array(weights, "weights"))
     points: NDArray[Any] = np.zeros(len(corners), SURFACE_POINT)
-    points["triangle"] = id_list(triangles, "triangles")
+    points["triangle"] = broadcast(id_list(triangles, "triangles"), points["triangle"])[0]
     points["weights"] = doubles(corners, "weights", len(points), 3)
     return points
 
 
 def _point_list(values: SurfacePoints, name: str) -> NDArray[Any]:
-    points: NDArray[Any] = np.atleast_1d(np.asarray(values))
+    points: NDArray[Any] = np.atleast_1d(as_array(values, name))
     if points.dtype != SURFACE_POINT:
         raise TypeError(f"{name} cannot be of {points.dtype}: see surface_points")
     if points.ndim != 1:

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from . import _native
 from ._arrays import address
 from ._callbacks import HeldSignals
 from ._ending import DaemonCall
 from ._errors import check, status_of
+from ._files import bytes_of_buffer, bytes_of_file
 from ._native import library
 
 
@@ -26,17 +24,17 @@ class Issue:
     message: str
 
 
-def verify(source: str | os.PathLike[str] | Any, *, most: int | None = None) -> list[Issue]:
+def verify(source: str | os.PathLike[str] | os.PathLike[bytes] | Any, *, most: int | None = None) -> list[Issue]:
     """Checks each section's checksum and contents, and goes on after a problem where it can.
 
-    source: a path, or the bytes of an index in any contiguous buffer.
+    source: a path (str or os.PathLike), or the bytes of an index in any contiguous buffer.
     most: how many issues to look for; None: all.
 
-    Returns what is wrong, [] when nothing is. Raises OSError when a file cannot be read.
+    Returns what is wrong, [] when nothing is. Raises FileError, which is an OSError, when a file cannot be read.
     """
     if isinstance(source, (str, os.PathLike)):
-        source = Path(source).read_bytes()
-    data = np.frombuffer(source, np.uint8)
+        source = bytes_of_file(source)
+    data = bytes_of_buffer(source)
     issues: list[Issue] = []
 
     def note(user: int, status: int, offset: int, message: bytes) -> bool:
