@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Python package into build/python, offline, and runs its tests against what is installed.
+# Installs the Python package into build/python, offline, and runs its tests against what is installed. Also follows
+# the package's README.md, as a new user would.
 # GEOIDX_NATIVE: the folder of libgeoidx.so, build/release/src unless set.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,6 +28,12 @@ GEOIDX_LIBRARY=$library "$venv/bin/pip" --quiet --disable-pip-version-check \
     install --no-index "$package"
 if [ "$(files_of_package)" != "$files_before" ]; then
     echo "installing has left files in $package" >&2
+    exit 1
+fi
+
+GEOIDX_LIBRARY=$library "$python" -B "$package/tests/run_readme.py"
+if [ "$(files_of_package)" != "$files_before" ]; then
+    echo "following README.md has left files in $package" >&2
     exit 1
 fi
 
