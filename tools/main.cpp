@@ -4,9 +4,15 @@
 #include <cstring>
 #include <new>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "geoidx.h"
 #include "tools/commands/commands.h"
 #include "tools/failure.h"
+#include "tools/mesh_io/text_scanner.h"
+#include "tools/signals.h"
+#include "tools/spelling.h"
 
 namespace geodesic::tools {
 
@@ -35,9 +41,21 @@ int report(const CLI::App& app, std::string message, ExitStatus status) {
     return status;
 }
 
+// CLI11 itself says only that a subcommand is missing.
+std::string message_of(const CLI::App& app, const CLI::ParseError& error, const char* word) {
+    if (!chosen_command(app).empty() || !word || *word == '-') return error.what();
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    const std::string meant = probable_word(word, names);
+    const std::string unknown = "there is no command " + quoted(word);
+    if (!meant.empty()) return unknown + "; did you mean '" + meant + "'?";
+    return unknown + "; there are " + CLI::detail::join(names, ", ");
+}
+
 void add_commands(CLI::App& app) {
     app.name("geoidx");
     app.require_subcommand(1);
+    app.footer("Exit status: 0 success, 1 failure, 2 wrong usage, 130 after Ctrl-C.");
     app.set_version_flag("--version", version_text());
     add_build(app);
     add_info(app);
@@ -48,6 +66,14 @@ void add_commands(CLI::App& app) {
     add_bench(app);
 }
 
+// A stream that is closed would lend its number to the next file that is opened, and what is printed would
+// land there. What takes its place is opened the other way round, so that using it fails.
+void keep_standard_streams_open() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0) [[maybe_unused]]
+            const int same = open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 // A full disk shows only when the last of the output goes out.
 void flush_output() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout))
@@ -56,6 +82,8 @@ void flush_output() {
 
 int run(CLI::App& app, int argc, char** argv) {
     try {
+        keep_standard_streams_open();
+        exit_on_signals();
         add_commands(app);
         app.parse(argc, argv);
         flush_output();
@@ -63,7 +91,7 @@ int run(CLI::App& app, int argc, char** argv) {
     } catch (const CLI::Success& help_or_version) {
         return app.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
-        return report(app, error.what(), WRONG_USAGE);
+        return report(app, message_of(app, error, argc > 1 ? argv[1] : nullptr), WRONG_USAGE);
     } catch (const std::bad_alloc&) {
         return report(app, "out of memory", FAILURE);
     } catch (const std::exception& error) {

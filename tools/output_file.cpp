@@ -20,16 +20,24 @@ namespace fs = std::filesystem;
     throw Failure(path + ": " + std::strerror(error));
 }
 
-bool is_device_or_pipe(const std::string& path) {
-    std::error_code ignored;
-    return fs::is_other(fs::status(path, ignored));
+// A link stays a link: what it points to is replaced, or made.
+fs::path behind_links(const std::string& path) {
+    constexpr int MOST_LINKS = 40; // as Linux has it
+    fs::path target = path;
+    std::error_code error;
+    for (int i = 0; i < MOST_LINKS && fs::is_symlink(target, error); ++i)
+        target = target.parent_path() / fs::read_symlink(target, error);
+    return target;
 }
 
-// A link stays a link: what it points to is replaced.
-fs::path behind_links(const std::string& path) {
-    std::error_code error;
-    const fs::path target = fs::canonical(path, error);
-    return error ? fs::path(path) : target;
+bool write_all(int descriptor, std::span<const unsigned char> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = write(descriptor, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return false;
+        bytes = bytes.subspan(static_cast<size_t>(written));
+    }
+    return true;
 }
 
 class OpenFile {
@@ -43,13 +51,7 @@ public:
 
     bool is_open() const { return descriptor_ >= 0; }
     bool write_all(std::span<const unsigned char> bytes) const {
-        while (!bytes.empty()) {
-            const ssize_t written = write(descriptor_, bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) return false;
-            bytes = bytes.subspan(static_cast<size_t>(written));
-        }
-        return true;
+        return tools::write_all(descriptor_, bytes);
     }
     bool sync() const { return fsync(descriptor_) == 0; }
 
@@ -82,6 +84,16 @@ private:
 
 }
 
+bool is_device_or_pipe(const std::string& path) {
+    std::error_code ignored;
+    return fs::is_other(fs::status(path, ignored));
+}
+
+void require_no_terminal(const std::string& path) {
+    if (path == STANDARD_OUTPUT && isatty(STDOUT_FILENO) == 1)
+        throw Failure("standard output is a terminal, which shows text only: send it to a file or a program");
+}
+
 bool is_same_path(const std::string& a, const std::string& b) {
     std::error_code error_a, error_b;
     const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, error_a), error_a);
@@ -92,15 +104,21 @@ bool is_same_path(const std::string& a, const std::string& b) {
 void require_writable(const std::string& path, std::span<const std::string> inputs) {
     std::error_code ignored;
     if (path.empty()) throw Failure("the name of the output is empty");
+    if (path == STANDARD_OUTPUT) return;
     if (fs::is_directory(path, ignored)) throw Failure(path + ": is a directory");
     if (is_device_or_pipe(path)) return;
     for (const std::string& input : inputs)
         if (fs::equivalent(path, input, ignored)) throw Failure(path + ": is an input of the same command");
+    const SignalsHeldBack until_removed;
     const Sibling probe(behind_links(path));
     if (!probe.file().is_open()) fail(path, errno);
 }
 
 void write_file(const std::string& path, std::span<const unsigned char> bytes) {
+    if (path == STANDARD_OUTPUT) {
+        if (!write_all(STDOUT_FILENO, bytes)) fail("standard output", errno);
+        return;
+    }
     if (is_device_or_pipe(path)) {
         const OpenFile file(path, O_WRONLY);
         if (!file.is_open() || !file.write_all(bytes)) fail(path, errno);

@@ -38,21 +38,37 @@ std::string progress_line(double fraction, std::string_view stage, size_t width)
     return line.append(percent).append(2, ' ').append(stage.substr(0, STAGE_COLUMNS));
 }
 
-ProgressBar::ProgressBar() : visible_(isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(bool lines_wanted)
+    : on_terminal_(isatty(STDERR_FILENO) == 1), lines_wanted_(lines_wanted) {}
 
 ProgressBar::~ProgressBar() {
     if (drawn_) std::fputs("\r\x1b[K", stderr);
 }
 
 void ProgressBar::show(double fraction, std::string_view stage) {
+    if (on_terminal_)
+        draw(fraction, stage);
+    else if (lines_wanted_)
+        print_lines(fraction, stage);
+}
+
+void ProgressBar::draw(double fraction, std::string_view stage) {
     using namespace std::chrono_literals;
-    if (!visible_) return;
     const auto now = std::chrono::steady_clock::now();
     if (drawn_ && stage == last_stage_ && now - last_time_ < 100ms) return;
     last_stage_ = stage;
     last_time_ = now;
     drawn_ = true;
     std::fprintf(stderr, "\r%s\x1b[K", progress_line(fraction, stage, terminal_width()).c_str());
+    std::fflush(stderr);
+}
+
+// Always ten lines in the end, also where several tens go by at once.
+void ProgressBar::print_lines(double fraction, std::string_view stage) {
+    const int tens = fraction > 0 ? static_cast<int>(std::floor(10 * std::min(fraction, 1.0))) : 0;
+    while (printed_tens_ < tens)
+        std::fprintf(stderr, "%3d%%  %.*s\n", 10 * ++printed_tens_, static_cast<int>(stage.size()),
+                     stage.data());
     std::fflush(stderr);
 }
 

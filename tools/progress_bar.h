@@ -6,11 +6,12 @@
 
 namespace geodesic::tools {
 
-// One line on stderr that shows how far a long work has come, and only where stderr is a terminal. It is
-// wiped when it is destroyed, so that an error message stands on a clean line.
+// Shows on stderr how far a long work has come. On a terminal it is one line that is drawn again and again,
+// and wiped when this is destroyed, so that an error message stands on a clean line. Elsewhere it is a line
+// every ten percent, and only where `lines_wanted`.
 class ProgressBar {
 public:
-    ProgressBar();
+    explicit ProgressBar(bool lines_wanted);
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
@@ -19,13 +20,18 @@ public:
     void show(double fraction, std::string_view stage);
 
 private:
-    bool visible_;
+    void draw(double fraction, std::string_view stage);
+    void print_lines(double fraction, std::string_view stage);
+
+    bool on_terminal_;
+    bool lines_wanted_;
     bool drawn_ = false;
+    int printed_tens_ = 0;
     std::string last_stage_;
     std::chrono::steady_clock::time_point last_time_{};
 };
 
-// The line itself, at most `width` columns; for a terminal too narrow, the percentage alone.
+// The line of a terminal, at most `width` columns; for a terminal too narrow, the percentage alone.
 std::string progress_line(double fraction, std::string_view stage, size_t width);
 
 }

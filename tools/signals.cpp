@@ -1,32 +1,38 @@
 #include "tools/signals.h"
 
+#include <string_view>
+
 #include <pthread.h>
+#include <unistd.h>
 
 namespace geodesic::tools {
 
 namespace {
 
-volatile std::sig_atomic_t interrupt_noted = 0;
+volatile std::sig_atomic_t stderr_is_terminal = 0;
 
-extern "C" void note_interrupt(int) { interrupt_noted = 1; }
+// Only what is allowed inside of a signal handler; what cannot be written is not missed any more.
+void say(std::string_view text) {
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+}
+
+extern "C" void end_program(int signal) {
+    if (stderr_is_terminal) say("\r\x1b[K"); // the progress bar, and the ^C behind it
+    say(signal == SIGINT ? "geoidx: interrupted\n" : "geoidx: terminated\n");
+    _exit(128 + signal);
+}
 
 }
 
-InterruptWatch::InterruptWatch() {
-    interrupt_noted = 0;
+void exit_on_signals() {
+    stderr_is_terminal = isatty(STDERR_FILENO);
     struct sigaction action {};
-    action.sa_handler = note_interrupt;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-    sigaction(SIGINT, &action, &old_interrupt_);
-    sigaction(SIGTERM, &action, &old_terminate_);
+    action.sa_handler = end_program;
+    sigaddset(&action.sa_mask, SIGINT);
+    sigaddset(&action.sa_mask, SIGTERM);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
 }
-
-InterruptWatch::~InterruptWatch() {
-    sigaction(SIGINT, &old_interrupt_, nullptr);
-    sigaction(SIGTERM, &old_terminate_, nullptr);
-}
-
-bool InterruptWatch::interrupted() { return interrupt_noted != 0; }
 
 SignalsHeldBack::SignalsHeldBack() {
     sigset_t held;

@@ -4,22 +4,11 @@
 
 namespace geodesic::tools {
 
-// While it lives, Ctrl-C and SIGTERM are noted instead of ending the program; a second one ends it.
-class InterruptWatch {
-public:
-    InterruptWatch();
-    ~InterruptWatch();
-    InterruptWatch(const InterruptWatch&) = delete;
-    InterruptWatch& operator=(const InterruptWatch&) = delete;
+// From then on Ctrl-C ends the program at once with exit status 130, and SIGTERM with 143, after one line on
+// stderr. A shell's own jobs in the background, which start with Ctrl-C ignored, end likewise.
+void exit_on_signals();
 
-    static bool interrupted();
-
-private:
-    struct sigaction old_interrupt_ {};
-    struct sigaction old_terminate_ {};
-};
-
-// While it lives, Ctrl-C and SIGTERM wait, so that a file half written is not left behind.
+// While it lives, Ctrl-C, SIGTERM and SIGHUP wait, so that a file half written is not left behind.
 class SignalsHeldBack {
 public:
     SignalsHeldBack();

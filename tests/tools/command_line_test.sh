@@ -202,16 +202,54 @@ near "$(float_at grid.f32 20)" 20
 [ "$(od -An -tu1 -j 16 -N 8 grid.png | tr -s ' ')" = " 0 0 1 44 0 0 0 200" ] || fail "grid.png is not 300x200"
 succeeds exact grid.obj 0 -o exact.f32 --png exact.png --size 64x64 --up z
 near "$(float_at exact.f32 440)" 28.2842712
-"$tool" msad grid.obj.geoidx 0 -o /dev/stdout | cmp -s - grid.f32 || fail "-o /dev/stdout differs from a file"
+for output in /dev/stdout -; do
+    "$tool" msad grid.obj.geoidx 0 -o $output --format f32 | cmp -s - grid.f32 || fail "-o $output differs from a file"
+done
+absent ./-
+succeeds msad grid.obj.geoidx 0 -o grid.csv
+"$tool" msad grid.obj.geoidx 0 -o - | cmp -s - grid.csv || fail "-o - is not the csv file"
+"$tool" build grid.obj -o - | cmp -s - grid.obj.geoidx || fail "build -o - is not the index"
+succeeds msad grid.obj.geoidx 0 --png alone.png --mesh grid.obj --size 300x200 --isolines 8
+same alone.png grid.png
+"$tool" exact grid.obj 0 --png - --size 64x64 --up z | cmp -s - exact.png || fail "--png - is not the picture"
 ln -s grid.f32 link.f32
 succeeds msad grid.obj.geoidx 0 -o link.f32
 [ -L link.f32 ] || fail "an output that is a link was replaced"
+ln -s made.f32 dangling.f32
+succeeds msad grid.obj.geoidx 0 -o dangling.f32
+[ -L dangling.f32 ] && [ -f made.f32 ] || fail "a link to a file that is not there was replaced"
+succeeds sssd grid.obj.geoidx 0 440 7 300
+cp out.txt pairs.txt
+printf '0 440\n\n  7\t300 # a pair\r\n' >pairs.in
+succeeds sssd grid.obj.geoidx - <pairs.in
+same out.txt pairs.txt
+succeeds sssd grid.obj.geoidx - </dev/null
+[ ! -s out.txt ] || fail "no pairs have answers"
+"$tool" build grid.obj -o progress.geoidx --progress >out.txt 2>err.txt || fail "build --progress fails"
+[ "$(awk '{ print $1 }' err.txt | tr -d '\n')" = "10%20%30%40%50%60%70%80%90%100%" ] ||
+    fail "build --progress says: $(cat err.txt)"
+same progress.geoidx grid.obj.geoidx
 no_leftovers
 
 # ---- Wrong usage
 
 misuse
 misuse unknown
+grep -q "there is no command 'unknown'; there are build, " err.txt || fail "an unknown command: $(cat err.txt)"
+while read -r typed meant; do
+    misuse "$typed" grid.obj.geoidx
+    grep -q "did you mean '$meant'?" err.txt || fail "'$typed' is not taken for '$meant': $(cat err.txt)"
+done <<'WORDS'
+biuld build
+buid build
+Build build
+inf info
+veryfi verify
+ssd sssd
+msd msad
+exakt exact
+benhc bench
+WORDS
 misuse build
 misuse build grid.obj
 misuse build grid.obj -o x.geoidx --metric heat
@@ -238,6 +276,16 @@ misuse msad grid.obj.geoidx -o x.f32
 misuse msad grid.obj.geoidx 0
 misuse msad grid.obj.geoidx 0 -o x.f32 --png x.png
 misuse msad grid.obj.geoidx 0 -o x.f32 --size 100x100
+for output in x x.txt x.f32.gz x. f32; do misuse msad grid.obj.geoidx 0 -o $output; done
+misuse msad grid.obj.geoidx 0 -o x.csv --format npy
+misuse msad grid.obj.geoidx 0 -o x.csv --format xyz
+misuse msad grid.obj.geoidx 0 -o x.ply
+grep -q -- '--mesh' err.txt || fail "a ply without its mesh: $(cat err.txt)"
+misuse msad grid.obj.geoidx 0 -o - --json
+misuse msad grid.obj.geoidx 0 -o - --png - --mesh grid.obj
+misuse build grid.obj -o - --json
+misuse sssd grid.obj.geoidx - 1
+misuse sssd grid.obj.geoidx - -
 for size in 100 100x x100 0x0 -5x100 100x100x100 99999999x10; do
     misuse msad grid.obj.geoidx 0 -o x.f32 --mesh grid.obj --png x.png --size="$size"
 done
@@ -282,17 +330,20 @@ done
 cp grid.obj copy.obj
 fails_with 'is an input' build copy.obj -o copy.obj
 same copy.obj grid.obj
-for output in folder nowhere/x grid.ply/x /proc/x; do
+mkdir folder.csv
+for output in folder.csv nowhere/x.csv grid.ply/x.csv /proc/x.csv; do
     fails_with "$output: " msad grid.obj.geoidx 0 -o $output
     fails_with "$output: " msad grid.obj.geoidx 0 -o x.f32 --mesh grid.obj --png $output
 done
-fails_with 'both -o and --png' msad grid.obj.geoidx 0 -o x --mesh grid.obj --png x
-fails_with 'both -o and --png' msad grid.obj.geoidx 0 -o x --mesh grid.obj --png ./folder/../x
-absent x.f32 x
+fails_with 'both -o and --png' msad grid.obj.geoidx 0 -o x.csv --mesh grid.obj --png x.csv
+fails_with 'both -o and --png' msad grid.obj.geoidx 0 -o x.csv --mesh grid.obj --png ./folder/../x.csv
+absent x.f32 x.csv
 if [ -w /dev/full ]; then
     "$tool" info grid.obj.geoidx >/dev/full 2>err.txt
     [ $? -eq 1 ] || fail "a full disk goes unnoticed"
-    fails_with '/dev/full: ' msad grid.obj.geoidx 0 -o /dev/full
+    fails_with '/dev/full: ' msad grid.obj.geoidx 0 -o /dev/full --format npy
+    "$tool" msad grid.obj.geoidx 0 -o - >/dev/full 2>err.txt
+    [ $? -eq 1 ] && grep -q '^geoidx: msad: standard output: ' err.txt || fail "-o - on a full disk: $(cat err.txt)"
 fi
 no_leftovers
 
@@ -305,6 +356,27 @@ fails_with 'vertex 441 ' msad grid.obj.geoidx 0 441 -o x.f32
 fails_with 'another mesh|built from' sssd grid.obj.geoidx 0 1 --exact sphere.obj
 fails_with 'another mesh|built from' msad grid.obj.geoidx 0 -o x.f32 --mesh sphere.obj --png x.png
 absent x.f32 x.png
+
+while IFS='|' read -r lines pattern; do
+    printf "$lines" >pairs.txt
+    "$tool" sssd grid.obj.geoidx - <pairs.txt >out.txt 2>err.txt
+    [ $? -eq 1 ] && [ "$(wc -l <err.txt)" -eq 1 ] && [ ! -s out.txt ] || fail "the pairs '$lines' pass"
+    grep -qE "^geoidx: sssd: $pattern" err.txt || fail "the pairs '$lines': $(cat err.txt)"
+done <<'PAIRS'
+0 1\n2\n|standard input: line 2: .*two
+0 1 2 3\n|standard input: line 1: .*two
+0 1\n\n# 7 8\n-1 4\n|standard input: line 4: '-1' is not a vertex id
+0,1\n|standard input: line 1:
+0 4294967296\n|standard input: line 1: .*2\^32
+0 441\n|.*vertex 441
+PAIRS
+"$tool" sssd grid.obj.geoidx - <&- >out.txt 2>err.txt
+[ $? -eq 1 ] && grep -q 'standard input: ' err.txt || fail "a closed standard input: $(cat err.txt)"
+"$tool" info grid.obj.geoidx >&- 2>err.txt
+[ $? -eq 1 ] && grep -q 'standard output: ' err.txt || fail "a closed standard output: $(cat err.txt)"
+"$tool" build grid.obj -o closed.geoidx --json >&- 2>err.txt
+[ $? -eq 1 ] || fail "--json to a closed standard output goes unnoticed"
+same closed.geoidx grid.obj.geoidx
 
 # ---- Bad index files
 
@@ -342,16 +414,55 @@ done
 # ---- Cancelling
 
 make_grid 150 >large.obj
-"$tool" build large.obj -o cancelled.geoidx 2>err.txt &
-pid=$!
-sleep 2
-kill -TERM $pid 2>/dev/null || fail "the build was over before it could be cancelled"
-wait $pid
-status=$?
-[ $status -eq 1 ] || fail "a cancelled build exited with $status"
-grep -q 'cancelled' err.txt && [ "$(wc -l <err.txt)" -eq 1 ] || fail "a cancelled build says: $(cat err.txt)"
-absent cancelled.geoidx
+while read -r signal expected line; do
+    "$tool" build large.obj -o cancelled.geoidx --json >out.txt 2>err.txt &
+    pid=$!
+    sleep 1
+    kill -$signal $pid 2>/dev/null || fail "the build was over before it could be cancelled"
+    wait $pid
+    status=$?
+    [ $status -eq $expected ] || fail "after SIG$signal a build exited with $status"
+    [ "$(cat err.txt)" = "geoidx: $line" ] || fail "after SIG$signal a build says: $(cat err.txt)"
+    [ ! -s out.txt ] || fail "a build that was ended prints: $(cat out.txt)"
+    absent cancelled.geoidx
+done <<'SIGNALS'
+INT 130 interrupted
+TERM 143 terminated
+SIGNALS
 no_leftovers
+
+# Whenever it comes, the old file or the new one is whole. The two commands write one each.
+make_grid 40 >middle.obj
+succeeds build middle.obj -o middle.geoidx
+succeeds exact middle.obj 0 -o middle.csv
+interrupted=0
+for delay in 0.01 0.02 0.03 0.05 0.08 0.1 0.15 0.2 0.3 0.5 0.8; do
+    while read -r file arguments; do
+        cp $file again_$file
+        "$tool" $arguments --json >out.txt 2>err.txt </dev/null &
+        pid=$!
+        sleep $delay
+        kill -INT $pid 2>/dev/null
+        wait $pid
+        status=$?
+        checks=$((checks + 1))
+        case $status in
+        0) ;;
+        130) interrupted=$((interrupted + 1)) ;;
+        *) fail "'$arguments', interrupted after $delay s, exited with $status: $(cat err.txt)" ;;
+        esac
+        same $file again_$file
+    done <<'COMMANDS'
+middle.geoidx build middle.obj -o again_middle.geoidx
+middle.csv exact middle.obj 0 -o again_middle.csv --png again.png
+COMMANDS
+done
+[ $interrupted -gt 0 ] || fail "nothing was interrupted"
+no_leftovers
+
+# A reader that has enough does not count as a failure of the tool, nor leave it running.
+"$tool" msad grid.obj.geoidx 0 -o - 2>err.txt | head -n 1 >out.txt
+[ "$(cat out.txt)" = vertex,distance ] && [ ! -s err.txt ] || fail "a reader that ends early: $(cat err.txt)"
 
 echo "$checks runs, $failures failures"
 [ $failures -eq 0 ]

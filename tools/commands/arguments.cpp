@@ -2,27 +2,54 @@
 
 #include <charconv>
 
+#include "tools/failure.h"
 #include "tools/library.h"
+#include "tools/mesh_io/text_scanner.h"
 
 namespace geodesic::tools {
 
 namespace {
 
-uint32_t vertex_id(const std::string& word) {
+// Of standard input, which is data: what is wrong in it is a failure, not wrong usage.
+uint32_t vertex_id_of_line(std::string_view word, const TextScanner& lines) {
+    try {
+        return vertex_id(word);
+    } catch (const CLI::ValidationError& error) {
+        throw Failure("standard input: line " + std::to_string(lines.line_number()) + ": " + error.what());
+    }
+}
+
+}
+
+uint32_t vertex_id(std::string_view word) {
     uint32_t id = 0;
     const char* const end = word.data() + word.size();
     const auto [stop, error] = std::from_chars(word.data(), end, id);
     if (error == std::errc::result_out_of_range)
-        throw CLI::ValidationError("vertex id '" + word + "' is not below 2^32");
-    if (error != std::errc{} || stop != end) throw CLI::ValidationError("'" + word + "' is not a vertex id");
+        throw CLI::ValidationError("vertex id " + quoted(word) + " is not below 2^32");
+    if (error != std::errc{} || stop != end) throw CLI::ValidationError(quoted(word) + " is not a vertex id");
     return id;
-}
-
 }
 
 std::vector<uint32_t> vertex_ids(std::span<const std::string> words) {
     std::vector<uint32_t> ids;
     for (const std::string& word : words) ids.push_back(vertex_id(word));
+    return ids;
+}
+
+std::vector<uint32_t> vertex_pairs_of_text(std::string_view text) {
+    std::vector<uint32_t> ids;
+    TextScanner lines(text);
+    std::string_view line;
+    while (lines.next_filled_line(line)) {
+        const std::string_view source = take_word(line);
+        const std::string_view target = take_word(line);
+        if (target.empty() || !take_word(line).empty())
+            throw Failure("standard input: line " + std::to_string(lines.line_number()) +
+                          ": a pair is two vertex ids");
+        ids.push_back(vertex_id_of_line(source, lines));
+        ids.push_back(vertex_id_of_line(target, lines));
+    }
     return ids;
 }
 

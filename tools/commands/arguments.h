@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -11,10 +12,14 @@
 
 namespace geodesic::tools {
 
-// All throw CLI::ValidationError where an argument is wrong.
+// Where an argument is wrong, these throw CLI::ValidationError.
 
 // The ids are words so that "-1" and "4294967296" are told apart from ids instead of being converted somehow.
+uint32_t vertex_id(std::string_view word);
 std::vector<uint32_t> vertex_ids(std::span<const std::string> words);
+
+// A pair a line; empty lines and what follows a # are passed over. Throws Failure, which names the line.
+std::vector<uint32_t> vertex_pairs_of_text(std::string_view text);
 
 // Accepts 0 .. 2^64 - 1; CLI11 alone takes a sign and an overflow for some other number.
 CLI::Validator whole_number();

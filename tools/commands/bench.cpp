@@ -5,6 +5,7 @@
 
 #include "tools/commands/arguments.h"
 #include "tools/commands/commands.h"
+#include "tools/json.h"
 #include "tools/library.h"
 
 namespace geodesic::tools {
@@ -15,6 +16,7 @@ struct BenchArguments {
     std::string index;
     uint32_t queries = 100;
     uint64_t seed = 1;
+    bool json = false;
 };
 
 struct QueryCloser {
@@ -33,6 +35,21 @@ double median(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
+}
+
+// Times are in microseconds.
+void print_text(const BenchArguments& arguments, double sssd, double msad, uint32_t vertex_count) {
+    std::printf("queries            %u\n", arguments.queries);
+    std::printf("SSSD, median       %.4g us\n", sssd);
+    std::printf("MSAD, median       %.4g us, %.4g ns per vertex\n", msad, 1000 * msad / vertex_count);
+}
+
+void print_json(const BenchArguments& arguments, double sssd, double msad, uint32_t vertex_count) {
+    JsonObject object;
+    object.text("index", arguments.index).count("vertex_count", vertex_count);
+    object.count("queries", arguments.queries).count("seed", arguments.seed);
+    object.number("sssd_median_us", sssd).number("msad_median_us", msad);
+    object.number("msad_median_ns_per_vertex", 1000 * msad / vertex_count).print();
 }
 
 // Wall time of random queries, one after the other on this thread.
@@ -57,10 +74,8 @@ void bench(const BenchArguments& arguments) {
             [&] { status = geoidx_query_msad(query.get(), &source, 1, distances.data(), count); }));
         require_ok(status, arguments.index);
     }
-    const double all = median(msad);
-    std::printf("queries            %u\n", arguments.queries);
-    std::printf("SSSD, median       %.4g us\n", median(sssd));
-    std::printf("MSAD, median       %.4g us, %.4g ns per vertex\n", all, 1000 * all / count);
+    arguments.json ? print_json(arguments, median(sssd), median(msad), count)
+                   : print_text(arguments, median(sssd), median(msad), count);
 }
 
 }
@@ -73,6 +88,7 @@ void add_bench(CLI::App& app) {
         ->capture_default_str()
         ->check(CLI::Range(1u, 100000000u));
     command->add_option("--seed", arguments->seed, "of the random vertices")->check(whole_number());
+    command->add_flag("--json", arguments->json, "print a JSON object");
     command->callback([arguments] { bench(*arguments); });
 }
 

@@ -1,8 +1,9 @@
 #include <algorithm>
-#include <filesystem>
+#include <chrono>
 
 #include "tools/commands/arguments.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/index_rows.h"
 #include "tools/failure.h"
 #include "tools/library.h"
 #include "tools/mesh_io/mesh_io.h"
@@ -26,11 +27,13 @@ struct BuildArguments {
     uint64_t seed = 0;
     uint32_t threads = 0;
     uint32_t lloyd_iterations = 0;
+    bool progress = false;
+    bool json = false;
 };
 
 int32_t on_progress(void* user, float fraction, const char* stage) {
     static_cast<ProgressBar*>(user)->show(fraction, stage ? stage : "");
-    return InterruptWatch::interrupted() ? 0 : 1;
+    return 1; // Ctrl-C ends the program without asking
 }
 
 geoidx_build_options build_options(const BuildArguments& arguments, ProgressBar& bar) {
@@ -52,38 +55,55 @@ geoidx_build_options build_options(const BuildArguments& arguments, ProgressBar&
     return options;
 }
 
-Index build_index(const TriangleMesh& mesh, const BuildArguments& arguments) {
-    const InterruptWatch watch;
-    ProgressBar bar;
+Index build_index(const TriangleMesh& mesh, const BuildArguments& arguments, ProgressBar& bar) {
     const geoidx_build_options options = build_options(arguments, bar);
     const geoidx_mesh view = view_of(mesh);
     geoidx* index = nullptr;
-    const geoidx_status status = geoidx_build(&view, &options, &index);
-    Index owner(index);
-    if (status == GEOIDX_ERROR_CANCELLED || InterruptWatch::interrupted())
-        throw Failure(arguments.mesh + ": the build was cancelled");
-    require_ok(status, arguments.mesh);
-    return owner;
+    require_ok(geoidx_build(&view, &options, &index), arguments.mesh);
+    return Index(index);
+}
+
+std::vector<unsigned char> bytes_of(const geoidx& index, const std::string& path) {
+    uint64_t size = 0;
+    require_ok(geoidx_save_memory(&index, nullptr, 0, &size), path);
+    std::vector<unsigned char> bytes(size);
+    require_ok(geoidx_save_memory(&index, bytes.data(), size, &size), path);
+    return bytes;
 }
 
 void save_index(const geoidx& index, const std::string& path) {
+    if (path == STANDARD_OUTPUT) return write_file(path, bytes_of(index, path));
     const SignalsHeldBack until_renamed;
     require_ok(geoidx_save(&index, path.c_str()), path);
 }
 
 // The library replaces what is at the path, which must not happen to a device.
 void require_index_output(const BuildArguments& arguments) {
+    if (arguments.json && arguments.output == STANDARD_OUTPUT)
+        throw CLI::ValidationError("standard output is for one of -o and --json, not for both");
     require_writable(arguments.output, {&arguments.mesh, 1});
-    std::error_code ignored;
-    if (std::filesystem::is_other(arguments.output, ignored))
-        throw Failure(arguments.output + ": is not a regular file");
+    require_no_terminal(arguments.output);
+    if (is_device_or_pipe(arguments.output))
+        throw Failure(arguments.output + ": is not a regular file; - is standard output");
+}
+
+void print_json(const geoidx& index, const BuildArguments& arguments, double seconds) {
+    JsonObject object;
+    object.text("mesh", arguments.mesh).text("output", arguments.output).number("build_seconds", seconds);
+    add_rows(rows_of_index(info_of(index, arguments.output), arguments.output, true), object);
+    object.print();
 }
 
 void build(const BuildArguments& arguments) {
     require_index_output(arguments);
     const TriangleMesh mesh = read_mesh(arguments.mesh);
-    const Index index = build_index(mesh, arguments);
+    ProgressBar bar(arguments.progress);
+    const auto begin = std::chrono::steady_clock::now();
+    const Index index = build_index(mesh, arguments, bar);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
     save_index(*index, arguments.output);
+    bar.show(1, "written");
+    if (arguments.json) print_json(*index, arguments, time.count());
 }
 
 void add_shape_options(CLI::App& command, BuildArguments& arguments) {
@@ -125,7 +145,7 @@ void add_build(CLI::App& app) {
 
     CLI::App* command = app.add_subcommand("build", "build the index of a mesh");
     command->add_option("MESH", arguments->mesh, "mesh file: .obj, .ply, .off or .stl")->required();
-    command->add_option("-o,--output", arguments->output, "index file to write")->required();
+    command->add_option("-o,--output", arguments->output, "index file to write; - is stdout")->required();
     add_metric_options(*command, arguments->metric);
     add_shape_options(*command, *arguments);
     command->add_option("--seed", arguments->seed, "of every random choice")
@@ -134,6 +154,8 @@ void add_build(CLI::App& app) {
     command->add_option("--threads", arguments->threads, "0: one per processor")
         ->check(whole_number())
         ->capture_default_str();
+    command->add_flag("--progress", arguments->progress, "without a terminal, too: a line every ten percent");
+    command->add_flag("--json", arguments->json, "print a JSON object: what info prints, and the time");
     command->callback([arguments] { build(*arguments); });
 }
 

@@ -33,9 +33,10 @@ std::vector<float> distances_from(const TriangleMesh& mesh, const ExactArguments
 
 void exact(const ExactArguments& arguments) {
     const std::vector<uint32_t> sources = vertex_ids(arguments.sources);
-    require_writable(arguments.output, {&arguments.mesh, 1});
+    require_writable(arguments.output, true, {&arguments.mesh, 1});
     const TriangleMesh mesh = read_mesh(arguments.mesh);
-    write_field(arguments.output, distances_from(mesh, arguments, sources), &mesh, sources);
+    write_field(arguments.output, distances_from(mesh, arguments, sources), &mesh, sources,
+                JsonObject().text("mesh", arguments.mesh).text("metric", arguments.metric.metric));
 }
 
 }

@@ -1,8 +1,10 @@
 #include "tools/commands/field_output.h"
 
-#include <bit>
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 
+#include "tools/commands/field_format.h"
 #include "tools/failure.h"
 #include "tools/output_file.h"
 #include "tools/picture/png.h"
@@ -11,17 +13,6 @@
 namespace geodesic::tools {
 
 namespace {
-
-std::vector<unsigned char> little_endian(std::span<const float> distances) {
-    std::vector<unsigned char> bytes;
-    bytes.reserve(4 * distances.size());
-    for (const float distance : distances) {
-        const auto bits = std::bit_cast<uint32_t>(distance);
-        for (int shift = 0; shift < 32; shift += 8)
-            bytes.push_back(static_cast<unsigned char>(bits >> shift));
-    }
-    return bytes;
-}
 
 bool parse_side(std::string_view word, int& side) {
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), side);
@@ -49,11 +40,74 @@ std::vector<unsigned char> encode(const FieldOutput& output, const Image& image)
     }
 }
 
+// What the name of the file says, or --format where it says nothing.
+FieldFormat format_of(const FieldOutput& output) {
+    const auto by_name = field_format_of_file(output.numbers);
+    const auto wanted = field_format_of_name(output.format);
+    if (by_name && wanted && *by_name != *wanted)
+        throw CLI::ValidationError(output.numbers + ": its name says otherwise than --format " +
+                                   output.format);
+    if (by_name || wanted) return by_name ? *by_name : *wanted;
+    if (output.numbers == STANDARD_OUTPUT) return FieldFormat::csv;
+    throw CLI::ValidationError("--output: '" + output.numbers +
+                               "' ends with none of .f32, .csv, .npy, .ply, and there is no --format");
+}
+
+void require_one_on_standard_output(const FieldOutput& output) {
+    const int count = (output.numbers == STANDARD_OUTPUT) + (output.picture == STANDARD_OUTPUT) + output.json;
+    if (count > 1)
+        throw CLI::ValidationError("standard output is for one of -o, --png and --json, not for several");
+}
+
+void require_sound(const FieldOutput& output, bool has_mesh) {
+    picture_options(output);
+    require_one_on_standard_output(output);
+    if (output.numbers.empty() && output.picture.empty() && !output.json)
+        throw CLI::ValidationError("one of -o, --png and --json is required");
+    if (!output.numbers.empty() && format_of(output) == FieldFormat::ply && !has_mesh)
+        throw CLI::ValidationError(output.numbers + ": a ply file holds the mesh, so it needs --mesh");
+}
+
+std::string name_or_null(const std::string& path) { return path.empty() ? "null" : json_text(path); }
+
+// The members that say what the field is like.
+void describe(std::span<const float> distances, JsonObject& object) {
+    size_t reachable = 0;
+    size_t farthest = 0;
+    for (size_t v = 0; v < distances.size(); ++v) {
+        if (!std::isfinite(distances[v])) continue;
+        ++reachable;
+        if (!std::isfinite(distances[farthest]) || distances[v] > distances[farthest]) farthest = v;
+    }
+    object.count("vertex_count", distances.size()).count("reachable_count", reachable);
+    object.count("farthest_vertex", farthest).json("largest_distance", json_number(distances[farthest]));
+}
+
+template <class Values, class Printed>
+std::string json_array(const Values& values, const Printed& printed) {
+    std::string array;
+    for (const auto& value : values) array.append(array.empty() ? "" : ", ").append(printed(value));
+    return "[" + array + "]";
+}
+
+void print_object(const FieldOutput& output, std::span<const float> distances,
+                  std::span<const uint32_t> sources, JsonObject& object) {
+    object.json("sources", json_array(sources, [](uint32_t source) { return std::to_string(source); }));
+    describe(distances, object);
+    object.json("output", name_or_null(output.numbers)).json("picture", name_or_null(output.picture));
+    if (output.numbers.empty() && output.picture.empty())
+        object.json("distances", json_array(distances, [](float distance) { return json_number(distance); }));
+    object.print();
+}
+
 }
 
 CLI::Option* add_field_options(CLI::App& command, FieldOutput& output) {
-    command.add_option("-o,--output", output.numbers, "file to write: a little-endian float32 per vertex")
-        ->required();
+    CLI::Option* numbers = command.add_option(
+        "-o,--output", output.numbers, "file to write: .f32, .csv, .npy, or .ply with colours; - is stdout");
+    command.add_option("--format", output.format, "of the output where its name does not say it; - is csv")
+        ->needs(numbers)
+        ->check(CLI::IsMember(FIELD_FORMAT_NAMES));
     CLI::Option* png = command.add_option("--png", output.picture, "picture of the distances to write");
     command.add_option("--size", output.size, "of the picture, WIDTHxHEIGHT")
         ->needs(png)
@@ -66,25 +120,37 @@ CLI::Option* add_field_options(CLI::App& command, FieldOutput& output) {
         ->needs(png)
         ->check(CLI::IsMember({"x", "y", "z"}))
         ->capture_default_str();
+    command.add_flag("--json", output.json,
+                     "print a JSON object, which holds the distances if nothing else is to be written");
     return png;
 }
 
-void require_writable(const FieldOutput& output, std::span<const std::string> inputs) {
-    picture_options(output);
-    require_writable(output.numbers, inputs);
+void require_writable(const FieldOutput& output, bool has_mesh, std::span<const std::string> inputs) {
+    require_sound(output, has_mesh);
+    if (!output.numbers.empty()) {
+        require_writable(output.numbers, inputs);
+        if (format_of(output) != FieldFormat::csv) require_no_terminal(output.numbers);
+    }
     if (output.picture.empty()) return;
     require_writable(output.picture, inputs);
+    require_no_terminal(output.picture);
     if (is_same_path(output.picture, output.numbers))
         throw Failure(output.picture + ": is both -o and --png");
 }
 
+// Standard output comes last: it may be closed early, which ends the program.
 void write_field(const FieldOutput& output, std::span<const float> distances, const TriangleMesh* mesh,
-                 std::span<const uint32_t> sources) {
-    std::vector<unsigned char> picture;
+                 std::span<const uint32_t> sources, JsonObject object) {
+    std::vector<std::pair<std::string, std::vector<unsigned char>>> files;
+    if (!output.numbers.empty())
+        files.emplace_back(output.numbers, encode_field(format_of(output), distances, mesh));
     if (mesh && !output.picture.empty())
-        picture = encode(output, render_field(*mesh, distances, sources, picture_options(output)));
-    write_file(output.numbers, little_endian(distances));
-    if (!picture.empty()) write_file(output.picture, picture);
+        files.emplace_back(output.picture,
+                           encode(output, render_field(*mesh, distances, sources, picture_options(output))));
+    std::stable_partition(files.begin(), files.end(),
+                          [](const auto& file) { return file.first != STANDARD_OUTPUT; });
+    for (const auto& [path, bytes] : files) write_file(path, bytes);
+    if (output.json) print_object(output, distances, sources, object);
 }
 
 }

@@ -27,13 +27,14 @@ std::vector<float> distances_from(const geoidx& index, const std::string& path,
 void msad(const MsadArguments& arguments) {
     const std::vector<uint32_t> sources = vertex_ids(arguments.sources);
     const std::vector<std::string> inputs{arguments.index, arguments.mesh};
-    require_writable(arguments.output, inputs);
-    TriangleMesh mesh;
     const bool has_mesh = !arguments.mesh.empty();
+    require_writable(arguments.output, has_mesh, inputs);
+    TriangleMesh mesh;
     if (has_mesh) mesh = read_mesh(arguments.mesh);
     const Index index = open_index(arguments.index, has_mesh ? &mesh : nullptr);
     const std::vector<float> distances = distances_from(*index, arguments.index, sources);
-    write_field(arguments.output, distances, has_mesh ? &mesh : nullptr, sources);
+    write_field(arguments.output, distances, has_mesh ? &mesh : nullptr, sources,
+                JsonObject().text("index", arguments.index));
 }
 
 }
@@ -45,7 +46,7 @@ void add_msad(CLI::App& app) {
     command->add_option("S", arguments->sources, "source vertex ids")->required();
     CLI::Option* png = add_field_options(*command, arguments->output);
     CLI::Option* mesh =
-        command->add_option("--mesh", arguments->mesh, "the index's mesh, which a picture needs");
+        command->add_option("--mesh", arguments->mesh, "the index's mesh, which a picture and a .ply need");
     png->needs(mesh);
     command->callback([arguments] { msad(*arguments); });
 }

@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "tools/commands/arguments.h"
 #include "tools/commands/commands.h"
 #include "tools/failure.h"
+#include "tools/json.h"
 #include "tools/library.h"
 #include "tools/mesh_io/mesh_io.h"
+#include "tools/read_file.h"
 
 namespace geodesic::tools {
 
@@ -16,18 +20,30 @@ struct SssdArguments {
     std::vector<std::string> ids;
     std::string exact_mesh;
     double weld_tolerance = 0;
+    bool json = false;
 };
 
-std::vector<uint32_t> vertex_pairs(const SssdArguments& arguments) {
-    if (arguments.ids.size() % 2 != 0)
-        throw CLI::ValidationError("vertex ids come in pairs, but there are " +
-                                   std::to_string(arguments.ids.size()));
-    return vertex_ids(arguments.ids);
+std::string standard_input() {
+    try {
+        return read_standard_input();
+    } catch (const std::runtime_error& error) {
+        throw Failure(std::string("standard input: ") + error.what());
+    }
+}
+
+std::vector<uint32_t> vertex_pairs(const std::vector<std::string>& ids) {
+    if (ids.size() == 1 && ids.front() == "-") return vertex_pairs_of_text(standard_input());
+    if (std::ranges::find(ids, "-") != ids.end())
+        throw CLI::ValidationError("- takes all pairs from standard input, so no other ids can be given");
+    if (ids.size() % 2 != 0)
+        throw CLI::ValidationError("vertex ids come in pairs, but there are " + std::to_string(ids.size()));
+    return vertex_ids(ids);
 }
 
 std::vector<float> index_distances(const geoidx& index, const std::string& path,
                                    const std::vector<uint32_t>& pairs) {
     std::vector<float> distances(pairs.size() / 2);
+    if (distances.empty()) return distances;
     require_ok(geoidx_sssd_batch(&index, pairs.data(), distances.size(), distances.data()), path);
     return distances;
 }
@@ -51,30 +67,65 @@ double relative_error(double distance, double exact) {
     return std::abs(distance - exact) / exact;
 }
 
-void print_with_exact(const std::vector<uint32_t>& pairs, const std::vector<float>& distances,
-                      geoidx_solver& solver, const std::string& path) {
-    for (size_t i = 0; i < distances.size(); ++i) {
-        double exact = 0;
-        require_ok(geoidx_solver_distances(&solver, &pairs[2 * i], 1, &pairs[2 * i + 1], 1, &exact), path);
-        const double distance = distances[i];
-        std::printf("%u %u %.9g %.9g %.9g\n", pairs[2 * i], pairs[2 * i + 1], distance, exact,
-                    relative_error(distance, exact));
+struct Answer {
+    uint32_t source;
+    uint32_t target;
+    float distance;
+    std::optional<double> exact;
+};
+
+std::vector<Answer> answers_of(const std::vector<uint32_t>& pairs, const std::vector<float>& distances) {
+    std::vector<Answer> answers;
+    for (size_t i = 0; i < distances.size(); ++i)
+        answers.push_back({pairs[2 * i], pairs[2 * i + 1], distances[i], std::nullopt});
+    return answers;
+}
+
+void add_exact_distance(geoidx_solver& solver, const std::string& path, Answer& answer) {
+    double exact = 0;
+    require_ok(geoidx_solver_distances(&solver, &answer.source, 1, &answer.target, 1, &exact), path);
+    answer.exact = exact;
+}
+
+void print_text(const Answer& answer) {
+    std::printf("%u %u %.9g", answer.source, answer.target, double{answer.distance});
+    if (answer.exact)
+        std::printf(" %.9g %.9g", *answer.exact, relative_error(double{answer.distance}, *answer.exact));
+    std::puts("");
+}
+
+void print_json(const Answer& answer) {
+    std::printf("{\"source\": %u, \"target\": %u, \"distance\": %s", answer.source, answer.target,
+                json_number(answer.distance).c_str());
+    if (answer.exact)
+        std::printf(", \"exact\": %s, \"relative_error\": %s", json_number(*answer.exact).c_str(),
+                    json_number(relative_error(double{answer.distance}, *answer.exact)).c_str());
+    std::printf("}");
+}
+
+// An object with a pair a line.
+void print_json(const std::string& index, const std::vector<Answer>& answers) {
+    std::printf("{\n  \"index\": %s,\n  \"pairs\": [", json_text(index).c_str());
+    for (size_t i = 0; i < answers.size(); ++i) {
+        std::printf(i == 0 ? "\n    " : ",\n    ");
+        print_json(answers[i]);
     }
+    std::printf("]\n}\n");
 }
 
 void sssd(const SssdArguments& arguments) {
-    const std::vector<uint32_t> pairs = vertex_pairs(arguments);
+    const std::vector<uint32_t> pairs = vertex_pairs(arguments.ids);
+    const bool with_exact = !arguments.exact_mesh.empty();
     TriangleMesh mesh;
-    if (!arguments.exact_mesh.empty()) mesh = read_mesh(arguments.exact_mesh);
-    const Index index = open_index(arguments.index, arguments.exact_mesh.empty() ? nullptr : &mesh);
-    const std::vector<float> distances = index_distances(*index, arguments.index, pairs);
-    if (!arguments.exact_mesh.empty()) {
+    if (with_exact) mesh = read_mesh(arguments.exact_mesh);
+    const Index index = open_index(arguments.index, with_exact ? &mesh : nullptr);
+    std::vector<Answer> answers = answers_of(pairs, index_distances(*index, arguments.index, pairs));
+    if (with_exact) {
         const Solver solver = solver_like(*index, arguments, mesh);
-        print_with_exact(pairs, distances, *solver, arguments.exact_mesh);
-        return;
+        for (Answer& answer : answers) add_exact_distance(*solver, arguments.exact_mesh, answer);
     }
-    for (size_t i = 0; i < distances.size(); ++i)
-        std::printf("%u %u %.9g\n", pairs[2 * i], pairs[2 * i + 1], double{distances[i]});
+    if (arguments.json) return print_json(arguments.index, answers);
+    for (const Answer& answer : answers) print_text(answer);
 }
 
 }
@@ -83,12 +134,14 @@ void add_sssd(CLI::App& app) {
     auto arguments = std::make_shared<SssdArguments>();
     CLI::App* command = app.add_subcommand("sssd", "print distances between pairs of vertices: A B distance");
     command->add_option("FILE", arguments->index, "index file")->required();
-    command->add_option("A B", arguments->ids, "vertex ids, two a pair")->required();
+    command->add_option("A B", arguments->ids, "vertex ids, two a pair; -: from stdin, a pair a line")
+        ->required();
     CLI::Option* exact =
         command->add_option("--exact", arguments->exact_mesh,
                             "the index's mesh: print the metric's own distance and the relative error, too");
     command->add_option("--weld-tolerance", arguments->weld_tolerance, "that the index was built with")
         ->needs(exact);
+    command->add_flag("--json", arguments->json, "print a JSON object");
     command->callback([arguments] { sssd(*arguments); });
 }
 

@@ -1,7 +1,9 @@
 #include <cstdio>
+#include <vector>
 
 #include "tools/commands/commands.h"
 #include "tools/failure.h"
+#include "tools/json.h"
 #include "tools/library.h"
 #include "tools/read_file.h"
 
@@ -9,16 +11,36 @@ namespace geodesic::tools {
 
 namespace {
 
-struct Issues {
-    size_t count = 0;
-    std::string first;
+struct VerifyArguments {
+    std::string index;
+    bool json = false;
 };
 
-int32_t on_issue(void* user, geoidx_status, uint64_t offset, const char* message) {
-    Issues& issues = *static_cast<Issues*>(user);
-    std::printf("byte %llu: %s\n", static_cast<unsigned long long>(offset), message);
-    if (issues.count++ == 0) issues.first = message;
+struct Problem {
+    geoidx_status status;
+    uint64_t byte;
+    std::string message;
+};
+
+int32_t on_issue(void* user, geoidx_status status, uint64_t offset, const char* message) {
+    static_cast<std::vector<Problem>*>(user)->push_back({status, offset, message});
     return 1;
+}
+
+void print_text(const std::string& path, const std::vector<Problem>& problems, bool ok) {
+    for (const Problem& problem : problems)
+        std::printf("byte %llu: %s\n", static_cast<unsigned long long>(problem.byte),
+                    problem.message.c_str());
+    if (ok) std::printf("%s: ok\n", path.c_str());
+}
+
+void print_json(const std::string& path, const std::vector<Problem>& problems, bool ok) {
+    std::string list;
+    for (const Problem& problem : problems)
+        list += (list.empty() ? "" : ",") + ("\n    {\"byte\": " + std::to_string(problem.byte)) +
+                ", \"kind\": " + json_text(geoidx_status_string(problem.status)) +
+                ", \"message\": " + json_text(problem.message) + "}";
+    JsonObject().text("index", path).truth("ok", ok).json("problems", "[" + list + "]").print();
 }
 
 std::string bytes_of(const std::string& path) {
@@ -30,24 +52,28 @@ std::string bytes_of(const std::string& path) {
 }
 
 // The problems go to stdout, where a list belongs; stderr gets its one line.
-void verify(const std::string& path) {
+void verify(const VerifyArguments& arguments) {
+    const std::string& path = arguments.index;
     const std::string bytes = bytes_of(path);
-    Issues issues;
-    const geoidx_status status = geoidx_verify(bytes.data(), bytes.size(), on_issue, &issues);
-    if (status != GEOIDX_OK && issues.count > 1)
-        throw Failure(path + ": " + std::to_string(issues.count) + " problems, the first: " + issues.first);
-    if (status != GEOIDX_OK && issues.count == 1) throw Failure(path + ": " + issues.first);
+    std::vector<Problem> problems;
+    const geoidx_status status = geoidx_verify(bytes.data(), bytes.size(), on_issue, &problems);
+    const bool ok = status == GEOIDX_OK;
+    arguments.json ? print_json(path, problems, ok) : print_text(path, problems, ok);
+    if (!ok && problems.size() > 1)
+        throw Failure(path + ": " + std::to_string(problems.size()) +
+                      " problems, the first: " + problems.front().message);
+    if (!ok && problems.size() == 1) throw Failure(path + ": " + problems.front().message);
     require_ok(status, path);
-    std::printf("%s: ok\n", path.c_str());
 }
 
 }
 
 void add_verify(CLI::App& app) {
-    auto path = std::make_shared<std::string>();
+    auto arguments = std::make_shared<VerifyArguments>();
     CLI::App* command = app.add_subcommand("verify", "check every byte of an index");
-    command->add_option("FILE", *path, "index file")->required();
-    command->callback([path] { verify(*path); });
+    command->add_option("FILE", arguments->index, "index file")->required();
+    command->add_flag("--json", arguments->json, "print a JSON object");
+    command->callback([arguments] { verify(*arguments); });
 }
 
 }

@@ -10,14 +10,6 @@ namespace geodesic::tools {
 
 namespace {
 
-std::string lower_case_extension(std::string_view path) {
-    const size_t dot = path.find_last_of("./\\");
-    if (dot == std::string_view::npos || path[dot] != '.') return {};
-    std::string extension(path.substr(dot + 1));
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
-}
-
 MeshFormat format_by_contents(std::string_view bytes) {
     const std::string_view first_line = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), size_t{80}));
     if (first_line == "ply") return MeshFormat::ply;
@@ -42,6 +34,14 @@ TriangleMesh parse(MeshFormat format, std::string_view bytes) {
     throw MeshFileError("not a known kind of mesh file (.obj, .ply, .off, .stl)");
 }
 
+}
+
+std::string lower_case_extension(std::string_view path) {
+    const size_t dot = path.find_last_of("./\\");
+    if (dot == std::string_view::npos || path[dot] != '.') return {};
+    std::string extension(path.substr(dot + 1));
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
 }
 
 MeshFormat mesh_format(std::string_view path, std::string_view bytes) {

@@ -13,6 +13,9 @@ struct MeshFileError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// What follows the last dot of a file's name, empty where there is none.
+std::string lower_case_extension(std::string_view path);
+
 enum class MeshFormat { unknown, obj, ply, off, stl };
 
 // By the extension of the name, in any case; where it is none of ours, by how the contents begin.

@@ -94,6 +94,11 @@ ColourMap::ColourMap() {
     }
 }
 
+Colour ColourMap::of_distance(double distance, double largest) const {
+    if (!std::isfinite(distance)) return UNREACHABLE_COLOUR;
+    return (*this)(largest > 0 ? distance / largest : 0);
+}
+
 Colour ColourMap::operator()(double t) const {
     const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(table_.size() - 1);
     const size_t i = std::min(static_cast<size_t>(place), table_.size() - 2);

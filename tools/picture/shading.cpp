@@ -4,7 +4,6 @@ namespace geodesic::tools {
 
 namespace {
 
-constexpr Colour UNREACHABLE_COLOUR{0.42, 0.42, 0.42};
 constexpr Colour INK{0.012, 0.010, 0.025};
 constexpr double INK_OPACITY = 0.76;
 
@@ -72,8 +71,8 @@ Colour Shader::operator()(uint32_t t, double x, double y) const {
 }
 
 Colour Shader::surface_colour(double distance, double slope) const {
-    if (!std::isfinite(distance)) return UNREACHABLE_COLOUR;
-    const Colour colour = colour_map_(scene_.max_distance > 0 ? distance / scene_.max_distance : 0);
+    const Colour colour = colour_map_.of_distance(distance, scene_.max_distance);
+    if (!std::isfinite(distance)) return colour;
     return mix(colour, INK, INK_OPACITY * line_coverage(scene_.isolines, distance, slope));
 }
 
