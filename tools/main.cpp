@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iostream>
 #include <new>
 
 #include <fcntl.h>
@@ -80,16 +81,24 @@ void flush_output() {
         throw Failure(std::string("standard output: ") + std::strerror(errno));
 }
 
+void parse(CLI::App& app, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& help_or_version) {
+        app.exit(help_or_version); // prints it
+        std::cout.flush();
+        if (!std::cout) throw Failure(std::string("standard output: ") + std::strerror(errno));
+    }
+}
+
 int run(CLI::App& app, int argc, char** argv) {
     try {
         keep_standard_streams_open();
         exit_on_signals();
         add_commands(app);
-        app.parse(argc, argv);
+        parse(app, argc, argv);
         flush_output();
         return SUCCESS;
-    } catch (const CLI::Success& help_or_version) {
-        return app.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
         return report(app, message_of(app, error, argc > 1 ? argv[1] : nullptr), WRONG_USAGE);
     } catch (const std::bad_alloc&) {

@@ -20,16 +20,6 @@ namespace fs = std::filesystem;
     throw Failure(path + ": " + std::strerror(error));
 }
 
-// A link stays a link: what it points to is replaced, or made.
-fs::path behind_links(const std::string& path) {
-    constexpr int MOST_LINKS = 40; // as Linux has it
-    fs::path target = path;
-    std::error_code error;
-    for (int i = 0; i < MOST_LINKS && fs::is_symlink(target, error); ++i)
-        target = target.parent_path() / fs::read_symlink(target, error);
-    return target;
-}
-
 bool write_all(int descriptor, std::span<const unsigned char> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = write(descriptor, bytes.data(), bytes.size());
@@ -42,7 +32,7 @@ bool write_all(int descriptor, std::span<const unsigned char> bytes) {
 
 class OpenFile {
 public:
-    OpenFile(const fs::path& path, int flags) : descriptor_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+    OpenFile(const std::string& path, int flags) : descriptor_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
     ~OpenFile() {
         if (descriptor_ >= 0) close(descriptor_);
     }
@@ -62,9 +52,9 @@ private:
 // A new empty file next to `target`, removed at the end unless renamed.
 class Sibling {
 public:
-    explicit Sibling(const fs::path& target)
-        : path_(target.string() + "." + std::to_string(getpid()) + ".tmp"),
-          file_(path_, O_WRONLY | O_CREAT | O_EXCL) {}
+    explicit Sibling(const std::string& target)
+        : path_(target + "." + std::to_string(getpid()) + ".tmp"), file_(path_, O_WRONLY | O_CREAT | O_EXCL) {
+    }
     ~Sibling() {
         if (file_.is_open() && !renamed_) unlink(path_.c_str());
     }
@@ -72,16 +62,27 @@ public:
     Sibling& operator=(const Sibling&) = delete;
 
     const OpenFile& file() const { return file_; }
-    bool rename_to(const fs::path& target) {
+    bool rename_to(const std::string& target) {
         return renamed_ = std::rename(path_.c_str(), target.c_str()) == 0;
     }
 
 private:
-    fs::path path_;
+    std::string path_;
     OpenFile file_;
     bool renamed_ = false;
 };
 
+}
+
+std::string behind_links(const std::string& path) {
+    constexpr int MOST_LINKS = 40; // as Linux has it
+    fs::path target = path;
+    std::error_code error;
+    for (int i = 0; fs::is_symlink(target, error); ++i) {
+        if (i == MOST_LINKS) fail(path, ELOOP);
+        target = target.parent_path() / fs::read_symlink(target, error);
+    }
+    return target;
 }
 
 bool is_device_or_pipe(const std::string& path) {
@@ -125,7 +126,7 @@ void write_file(const std::string& path, std::span<const unsigned char> bytes) {
         return;
     }
     const SignalsHeldBack until_renamed;
-    const fs::path target = behind_links(path);
+    const std::string target = behind_links(path);
     Sibling sibling(target);
     if (!sibling.file().is_open()) fail(path, errno);
     if (!sibling.file().write_all(bytes) || !sibling.file().sync()) fail(path, errno);

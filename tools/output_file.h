@@ -17,6 +17,10 @@ void require_writable(const std::string& path, std::span<const std::string> inpu
 // A terminal shows bytes that are no text as rubbish, and obeys some of it.
 void require_no_terminal(const std::string& path);
 
+// Where a symbolic link leads to, also if nothing is there: a link stays a link, what it points to is
+// replaced or made. Any other path is returned as it is.
+std::string behind_links(const std::string& path);
+
 // Whether both name one file, which need not exist.
 bool is_same_path(const std::string& a, const std::string& b);
 

@@ -218,6 +218,9 @@ succeeds msad grid.obj.geoidx 0 -o link.f32
 ln -s made.f32 dangling.f32
 succeeds msad grid.obj.geoidx 0 -o dangling.f32
 [ -L dangling.f32 ] && [ -f made.f32 ] || fail "a link to a file that is not there was replaced"
+ln -s made.geoidx dangling.geoidx
+succeeds build grid.obj -o dangling.geoidx
+[ -L dangling.geoidx ] && [ -f made.geoidx ] || fail "a link to an index that is not there was replaced"
 succeeds sssd grid.obj.geoidx 0 440 7 300
 cp out.txt pairs.txt
 printf '0 440\n\n  7\t300 # a pair\r\n' >pairs.in
@@ -335,12 +338,19 @@ for output in folder.csv nowhere/x.csv grid.ply/x.csv /proc/x.csv; do
     fails_with "$output: " msad grid.obj.geoidx 0 -o $output
     fails_with "$output: " msad grid.obj.geoidx 0 -o x.f32 --mesh grid.obj --png $output
 done
+ln -s round.csv round.csv
+fails_with 'round.csv: Too many levels' msad grid.obj.geoidx 0 -o round.csv
+fails_with 'round.csv: Too many levels' build missing.obj -o round.csv
+[ -L round.csv ] || fail "a link in a circle was replaced"
 fails_with 'both -o and --png' msad grid.obj.geoidx 0 -o x.csv --mesh grid.obj --png x.csv
 fails_with 'both -o and --png' msad grid.obj.geoidx 0 -o x.csv --mesh grid.obj --png ./folder/../x.csv
 absent x.f32 x.csv
 if [ -w /dev/full ]; then
-    "$tool" info grid.obj.geoidx >/dev/full 2>err.txt
-    [ $? -eq 1 ] || fail "a full disk goes unnoticed"
+    for arguments in "info grid.obj.geoidx" "sssd grid.obj.geoidx 0 1 --json" "verify grid.obj.geoidx" "--help" \
+        "build grid.obj -o full.geoidx --json" "build grid.obj -o -" "--version" "msad --help"; do
+        "$tool" $arguments >/dev/full 2>err.txt
+        [ $? -eq 1 ] && [ "$(wc -l <err.txt)" -eq 1 ] || fail "'$arguments' does not notice a full disk: $(cat err.txt)"
+    done
     fails_with '/dev/full: ' msad grid.obj.geoidx 0 -o /dev/full --format npy
     "$tool" msad grid.obj.geoidx 0 -o - >/dev/full 2>err.txt
     [ $? -eq 1 ] && grep -q '^geoidx: msad: standard output: ' err.txt || fail "-o - on a full disk: $(cat err.txt)"

@@ -74,7 +74,7 @@ std::vector<unsigned char> bytes_of(const geoidx& index, const std::string& path
 void save_index(const geoidx& index, const std::string& path) {
     if (path == STANDARD_OUTPUT) return write_file(path, bytes_of(index, path));
     const SignalsHeldBack until_renamed;
-    require_ok(geoidx_save(&index, path.c_str()), path);
+    require_ok(geoidx_save(&index, behind_links(path).c_str()), path);
 }
 
 // The library replaces what is at the path, which must not happen to a device.
