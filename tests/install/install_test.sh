@@ -25,6 +25,8 @@ read -ra flags <<<"$(pkg-config --cflags --libs geoidx)"
 c++ -std=c++20 -Wall -Wextra -Wpedantic -Wconversion -Werror "$here/consumer.cpp" "${flags[@]}" -o pkg_config
 expect "a program by pkg-config" "$(LD_LIBRARY_PATH=$libraries ./pkg_config)" 1.41421
 expect "its version" "$(pkg-config --modversion geoidx)" "$("$prefix/bin/geoidx" --version | grep -o '[0-9.]*$')"
+/usr/bin/python3 "$here/../tools/manual_test.py" "$prefix/bin/geoidx" "$here/../../tools/README.md" manual ||
+    fail "the tool's page, followed with the installed tool"
 
 cmake -S "$here" -B consumer -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
 cmake --build consumer >/dev/null
