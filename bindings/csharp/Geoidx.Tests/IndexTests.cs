@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Numerics;
@@ -98,6 +99,42 @@ namespace Geoidx.Tests
             using GeodesicIndex square = GeodesicIndex.Build(
                 GeodesicMesh.From(corners, new[] { 0, 1, 2, 0, 2, 3 }, PositionType.Double));
             Assert.Equal(Math.Sqrt(2), square.Distance(1, 3), LeafTolerance);
+        }
+
+        [Fact]
+        public void TheInformationPrintsEveryProperty()
+        {
+            using GeodesicIndex cube = GeodesicIndex.Build(Shapes.Cube());
+            string[] lines = cube.Info.ToString().Split('\n');
+            Assert.Equal(
+                typeof(GeodesicInfo).GetProperties().Select(property => property.Name),
+                lines.Select(line => line.Split(':')[0]));
+            Assert.Contains("Metric: Exact", lines);
+            Assert.Contains("VertexCount: 8", lines);
+            Assert.Contains("TriangleCount: 12", lines);
+            Assert.Contains($"PatchCounts: {string.Join(" / ", cube.Info.PatchCounts)}", lines);
+        }
+
+        [Fact]
+        public void SmallValuesPrintWhatTheyHold()
+        {
+            CultureInfo before = CultureInfo.CurrentCulture;
+            var culture = (CultureInfo)CultureInfo.InvariantCulture.Clone();
+            culture.NumberFormat.NumberDecimalSeparator = ",";
+            CultureInfo.CurrentCulture = culture;
+            try
+            {
+                Assert.Equal("(3, -1)", new VertexPair(3, -1).ToString());
+                Assert.Equal("triangle 5 (0.25, 0.5, 0.25)", new SurfacePoint(5, 0.25, 0.5, 0.25).ToString());
+                Assert.Equal("13 % tables", new BuildStage(0.125f, "tables").ToString());
+                Assert.Equal(
+                    "Corrupt at byte 12: a problem",
+                    new GeodesicIssue(GeodesicStatus.Corrupt, 12, "a problem").ToString());
+            }
+            finally
+            {
+                CultureInfo.CurrentCulture = before;
+            }
         }
 
         [Fact]

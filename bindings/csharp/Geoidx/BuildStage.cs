@@ -1,3 +1,5 @@
+using System;
+
 namespace Geoidx
 {
     /// <summary>Where a build is.</summary>
@@ -14,5 +16,8 @@ namespace Geoidx
 
         /// <summary>A short English name of what is being done.</summary>
         public string Name { get; }
+
+        /// <summary>Percentage and name.</summary>
+        public override string ToString() => FormattableString.Invariant($"{100 * Fraction:0} % {Name}");
     }
 }

@@ -101,6 +101,38 @@ namespace Geoidx
         /// <summary>What the mean relative error would be if paths crossed borders at vertices only.</summary>
         public double ErrorMeanAtVertices { get; }
 
+        /// <summary>Each property in a line of its own.</summary>
+        public override string ToString() =>
+            string.Join("\n", Array.ConvertAll(Properties(), property => FormattableString.Invariant(property)));
+
+        private FormattableString[] Properties() => new FormattableString[]
+        {
+            $"{nameof(Metric)}: {Metric}",
+            $"{nameof(MetricFlags)}: {MetricFlags}",
+            $"{nameof(MetricFingerprint)}: {MetricFingerprint:x16}",
+            $"{nameof(Engine)}: {Engine}",
+            $"{nameof(VertexCount)}: {VertexCount}",
+            $"{nameof(TriangleCount)}: {TriangleCount}",
+            $"{nameof(WeldedVertexCount)}: {WeldedVertexCount}",
+            $"{nameof(MeshFingerprint)}: {MeshFingerprint:x16}",
+            $"{nameof(TableEntries)}: {TableEntries}",
+            $"{nameof(BorderVertexCount)}: {BorderVertexCount}",
+            $"{nameof(BoundingBoxDiagonal)}: {BoundingBoxDiagonal}",
+            $"{nameof(Delta)}: {Delta}",
+            $"{nameof(Seed)}: {Seed}",
+            $"{nameof(FormatVersion)}: {FormatVersion}",
+            $"{nameof(PatchCounts)}: {PatchCountsText()}",
+            $"{nameof(ErrorSources)}: {ErrorSources}",
+            $"{nameof(ErrorMean)}: {ErrorMean}",
+            $"{nameof(ErrorSignedMean)}: {ErrorSignedMean}",
+            $"{nameof(ErrorP99)}: {ErrorP99}",
+            $"{nameof(ErrorP999)}: {ErrorP999}",
+            $"{nameof(ErrorMax)}: {ErrorMax}",
+            $"{nameof(ErrorMeanAtVertices)}: {ErrorMeanAtVertices}",
+        };
+
+        private string PatchCountsText() => string.Join(" / ", PatchCounts);
+
         private static unsafe int[] Counts(uint* native, int levels)
         {
             var counts = new int[levels];

@@ -18,5 +18,8 @@ namespace Geoidx
 
         /// <summary>The problem in one line.</summary>
         public string Message { get; }
+
+        /// <summary>Kind, place and problem.</summary>
+        public override string ToString() => $"{Status} at byte {Offset}: {Message}";
     }
 }

@@ -1,3 +1,4 @@
+using System;
 using System.Runtime.InteropServices;
 
 namespace Geoidx
@@ -34,6 +35,10 @@ namespace Geoidx
 
         /// <summary>The weight of the triangle's third corner, 0 to 1.</summary>
         public double Weight2 => weights.Third;
+
+        /// <summary>Triangle and weights.</summary>
+        public override string ToString() =>
+            FormattableString.Invariant($"triangle {Triangle} ({Weight0}, {Weight1}, {Weight2})");
 
         [StructLayout(LayoutKind.Sequential)]
         private readonly struct Weights

@@ -19,6 +19,9 @@ namespace Geoidx
         /// <summary>A vertex of the caller's mesh.</summary>
         public int Target { get; }
 
+        /// <summary>Both vertices.</summary>
+        public override string ToString() => $"({Source}, {Target})";
+
         /// <summary>The pair of these vertices.</summary>
         public static implicit operator VertexPair((int Source, int Target) pair) =>
             new VertexPair(pair.Source, pair.Target);
