@@ -58,6 +58,111 @@ namespace Geoidx.Tests
         }
 
         [Fact]
+        public void AnIdIsReportedAsItWasGiven()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
+            using GeodesicQuery query = index.CreateQuery();
+            using var solver = new GeodesicSolver(Shapes.Square());
+            var onNoTriangle = new[] { new SurfacePoint(-1, 1, 0, 0) };
+            var negativeCorner = GeodesicMesh.From(new float[9], new[] { 0, 1, -1 });
+            var edgeCost = new BuildOptions
+            {
+                Metric = MetricKind.Edges,
+                EdgeCostVertices = new[] { 0, -1 },
+                EdgeCosts = new[] { 1.0 },
+            };
+            Action[] vertexCalls =
+            {
+                () => index.Distance(-1, 0),
+                () => index.Distances((0, -1)),
+                () => index.FromSources(-1),
+                () => index.FromEachSource(0, -1),
+                () => query.Distance(-1, 0),
+                () => query.Prepare(-1),
+                () => query.FromSourcesWithin(new[] { -1 }, 1, new float[4]),
+                () => solver.Distance(0, -1),
+                () => GeodesicIndex.Build(Shapes.Square(), edgeCost),
+            };
+            foreach (Action call in vertexCalls)
+                Fails<GeodesicArgumentException>(GeodesicStatus.InvalidArgument, "vertex -1", call);
+            Fails<GeodesicArgumentException>(
+                GeodesicStatus.InvalidArgument, "vertex -2147483648", () => index.Distance(int.MinValue, 0));
+            Fails<GeodesicArgumentException>(
+                GeodesicStatus.InvalidArgument, "vertex 2147483647", () => index.Distance(int.MaxValue, 0));
+            Fails<GeodesicArgumentException>(
+                GeodesicStatus.InvalidArgument,
+                "triangle -1",
+                () => solver.PointDistances(onNoTriangle, onNoTriangle, new double[1]));
+            Fails<GeodesicMeshException>(
+                GeodesicStatus.BadMesh, "vertex -1", () => GeodesicIndex.Build(negativeCorner));
+        }
+
+        public static readonly (string Message, Action Call)[] RefusedArguments =
+        {
+            ("Delta is 200", () => Build(new BuildOptions { Delta = 200 })),
+            ("Threads is 2000", () => Build(new BuildOptions { Threads = 2000 })),
+            ("LevelCount is 9", () => Build(new BuildOptions { LevelCount = 9 })),
+            ("LloydIterations is 1001", () => Build(new BuildOptions { LloydIterations = 1001 })),
+            ("WeldTolerance must", () => Build(new BuildOptions { WeldTolerance = -1 })),
+            ("Engine 7 is not a GeodesicEngine", () => Build(new BuildOptions { Engine = (GeodesicEngine)7 })),
+            ("Metric -1 is not a MetricKind", () => Build(new BuildOptions { Metric = (MetricKind)(-1) })),
+            ("MetricFlags is -1", () => Build(new BuildOptions { MetricFlags = (MetricFlags)(-1) })),
+            ("Metric is MetricKind.Weighted, but FaceCosts is empty",
+                () => Build(new BuildOptions { Metric = MetricKind.Weighted })),
+            ("Metric is MetricKind.Callback, but MetricCallback is null",
+                () => Build(new BuildOptions { Metric = MetricKind.Callback })),
+            ("FaceCosts.Length is 3",
+                () => Build(new BuildOptions { Metric = MetricKind.Weighted, FaceCosts = new double[3] })),
+            ("EdgeLengths.Length is 3", () => Build(new BuildOptions { EdgeLengths = new double[3] })),
+            ("PointsPerEdge is 1001",
+                () => Build(new BuildOptions
+                {
+                    Metric = MetricKind.Weighted, FaceCosts = new[] { 1.0, 1.0 }, PointsPerEdge = 1001,
+                })),
+            ("the cost -4294967295.0",
+                () => Build(new BuildOptions { Metric = MetricKind.Weighted, FaceCosts = new[] { -4294967295.0, 1 } })),
+            ("Metric -1 is not a MetricKind",
+                () => new GeodesicSolver(Shapes.Square(), new BuildOptions { Metric = (MetricKind)(-1) })),
+            ("type 7 is not a PositionType",
+                () => GeodesicIndex.Build(GeodesicMesh.From(
+                    new System.Numerics.Vector3[3], new int[3], (PositionType)7))),
+            ("threads is 1025", () => WithQuery(query => query.SetThreads(1025))),
+            ("distances.Length is 3", () => WithQuery(query => query.FromSources(new[] { 0 }, new float[3]))),
+            ("sources is empty", () => WithQuery(query => query.FromSources(default, new float[4]))),
+            ("distances is empty", () => WithQuery(query => query.FromSources(new[] { 0 }, default))),
+            ("distances.Length is 1", () => WithQuery(query => query.FromPrepared(new int[2], new float[1]))),
+            ("distances.Length is 3", () => WithSolver(solver => solver.FromSources(new[] { 0 }, new double[3]))),
+            ("sources is empty", () => WithSolver(solver => solver.FromSources(default, new double[4]))),
+        };
+
+        private static void Build(BuildOptions options) => GeodesicIndex.Build(Shapes.Square(), options).Dispose();
+
+        private static void WithQuery(Action<GeodesicQuery> use)
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
+            using GeodesicQuery query = index.CreateQuery();
+            use(query);
+        }
+
+        private static void WithSolver(Action<GeodesicSolver> use)
+        {
+            using var solver = new GeodesicSolver(Shapes.Square());
+            use(solver);
+        }
+
+        [Fact]
+        public void AMessageHasTheNamesOfTheseSources()
+        {
+            foreach ((string message, Action call) in RefusedArguments)
+            {
+                Fails<GeodesicArgumentException>(GeodesicStatus.InvalidArgument, message, call);
+                string whole = Assert.Throws<GeodesicArgumentException>(call).Message;
+                Assert.DoesNotContain("_", whole);
+                Assert.DoesNotContain("NULL", whole);
+            }
+        }
+
+        [Fact]
         public void SpansOfTheWrongLengthAreArguments()
         {
             using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());

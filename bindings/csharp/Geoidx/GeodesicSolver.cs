@@ -66,6 +66,10 @@ namespace Geoidx
         /// <exception cref="GeodesicArgumentException">A source or the number of distances is wrong.</exception>
         public unsafe void FromSources(ReadOnlySpan<int> sources, Span<double> distances)
         {
+            handle.CheckOpen();
+            if (distances.Length != VertexCount)
+                throw new GeodesicArgumentException(
+                    $"distances.Length is {distances.Length}, but the mesh has {VertexCount} vertices");
             fixed (double* results = &MemoryMarshal.GetReference(distances))
                 Solve(sources, null, distances.Length, results);
         }

@@ -6,7 +6,7 @@ namespace Geoidx
         {
             if (questions != distances)
                 throw new GeodesicArgumentException(
-                    $"There is room for {distances} distances, {questions} are asked for.");
+                    $"distances.Length is {distances}, but {questions} are asked for");
         }
     }
 }

@@ -14,7 +14,10 @@ namespace Geoidx
             NativeBuildOptions native = pinned.Native;
             AllocatorCallback? allocator = UseAllocator(options?.Allocator, ref native.allocator);
             GeodesicStatus status = NativeMethods.geoidx_build(&mesh, &native, out IntPtr index);
-            return Own(status, index, allocator, callbacks);
+            if (status == GeodesicStatus.Ok) return new IndexHandle(index, allocator);
+            allocator?.Dispose();
+            callbacks.Rethrow();
+            throw status.ToExceptionOfOptions();
         }
 
         internal static IndexHandle Open(string path, OpenOptions? options)
@@ -57,12 +60,10 @@ namespace Geoidx
             return callback;
         }
 
-        private static IndexHandle Own(
-            GeodesicStatus status, IntPtr index, AllocatorCallback? allocator, BuildCallbacks? callbacks = null)
+        private static IndexHandle Own(GeodesicStatus status, IntPtr index, AllocatorCallback? allocator)
         {
             if (status == GeodesicStatus.Ok) return new IndexHandle(index, allocator);
             allocator?.Dispose();
-            callbacks?.Rethrow();
             throw status.ToException();
         }
     }

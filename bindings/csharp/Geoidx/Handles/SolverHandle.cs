@@ -50,7 +50,7 @@ namespace Geoidx
             GeodesicStatus status = NativeMethods.geoidx_solver_create(&mesh, &native, out IntPtr solver);
             if (status == GeodesicStatus.Ok) return solver;
             callbacks.Rethrow();
-            throw status.ToException();
+            throw status.ToExceptionOfOptions();
         }
     }
 }

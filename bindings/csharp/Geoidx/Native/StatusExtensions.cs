@@ -10,7 +10,24 @@ namespace Geoidx
         }
 
         // The detail is that of the calling thread's latest failure.
-        internal static Exception ToException(this GeodesicStatus status) =>
-            GeodesicException.For(status, NativeText.FromUtf8(NativeMethods.geoidx_last_error()));
+        internal static Exception ToException(this GeodesicStatus status)
+        {
+            string detail = LatestDetail();
+            return GeodesicException.For(
+                status, IsOfArguments(status) ? NativeMessage.OfArguments(detail) : detail);
+        }
+
+        /// <summary>After a call that takes <see cref="BuildOptions"/>.</summary>
+        internal static Exception ToExceptionOfOptions(this GeodesicStatus status)
+        {
+            string detail = LatestDetail();
+            return GeodesicException.For(status, IsOfArguments(status) ? NativeMessage.OfOptions(detail) : detail);
+        }
+
+        // Others are of files, whose numbers have no sign and whose names are anything.
+        private static bool IsOfArguments(GeodesicStatus status) =>
+            status == GeodesicStatus.InvalidArgument || status == GeodesicStatus.BadMesh;
+
+        private static string LatestDetail() => NativeText.FromUtf8(NativeMethods.geoidx_last_error());
     }
 }
