@@ -107,7 +107,8 @@ namespace Geoidx
                                       e is BadImageFormatException)
             {
                 throw new GeodesicLibraryException(
-                    $"The native library cannot be loaded{(file == null ? "" : $" from {file}")}: {e.Message}", e);
+                    $"The native library cannot be loaded{(file == null ? "" : $" from {file}")}: " +
+                    $"{e.Message.TrimEnd('.')}. {NativeLoader.Advice}", e);
             }
         }
 

@@ -6,6 +6,9 @@ namespace Geoidx
 #if NET
     internal static class NativeLoader
     {
+        internal const string Advice =
+            "GeodesicLibrary.Path or the environment variable GEOIDX_LIBRARY may name its file.";
+
         private static IntPtr library;
 
         static NativeLoader() =>
@@ -25,11 +28,18 @@ namespace Geoidx
 #elif UNITY_5_3_OR_NEWER
     internal static class NativeLoader
     {
+        internal const string Advice =
+            "The package has it for the editor and players on 64-bit Windows and Linux; on other platforms these " +
+            "sources compile, but have nothing to call.";
+
         internal static string Load(string? asked) => "Unity's plugins";
     }
 #else
     internal static class NativeLoader
     {
+        internal const string Advice =
+            "GeodesicLibrary.Path or the environment variable GEOIDX_LIBRARY may name its file.";
+
         /// <summary>Binds the imports to this file, or to one that is found unless the runtime knows better.</summary>
         /// <returns>The file, or where it is, for messages.</returns>
         internal static string Load(string? asked)
