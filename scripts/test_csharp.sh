@@ -1,17 +1,26 @@
 #!/usr/bin/env bash
 # Builds and tests bindings/csharp and bindings/unity into build/csharp, against the libgeoidx.so in the folder that
 # GEOIDX_NATIVE names (default: build/release/src). Without .NET or Mono, what needs them is skipped, which is said.
+#   --pack        packs the NuGet package into build/csharp/packages instead, without a test
+#   --pack-unity  packs the Unity package into build/csharp/unity instead, without a test or .NET
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-if ! command -v dotnet >/dev/null; then
+case ${1:-} in
+'' | --pack | --pack-unity) [ $# -le 1 ] || { echo "too many arguments: $*" >&2 && exit 2; } ;;
+*) echo "usage: test_csharp.sh [--pack|--pack-unity]" >&2 && exit 2 ;;
+esac
+
+if [ "${1:-}" != --pack-unity ] && ! command -v dotnet >/dev/null; then
+    [ "${1:-}" != --pack ] || { echo "the .NET SDK is missing" >&2 && exit 1; }
     echo "SKIPPED: .NET SDK is missing"
     exit 0
 fi
 
 GEOIDX_NATIVE=$(realpath -m "${GEOIDX_NATIVE:-build/release/src}")
 if [ ! -e "$GEOIDX_NATIVE/libgeoidx.so" ]; then
-    echo "there is no $GEOIDX_NATIVE/libgeoidx.so: build the shared library, or set GEOIDX_NATIVE" >&2
+    echo "there is no $GEOIDX_NATIVE/libgeoidx.so: build the shared library, or set GEOIDX_NATIVE:" >&2
+    echo "    cmake --preset release && cmake --build --preset release --target geoidx" >&2
     exit 1
 fi
 export GEOIDX_NATIVE DOTNET_NOLOGO=1 DOTNET_CLI_TELEMETRY_OPTOUT=1 MSBUILDDISABLENODEREUSE=1
@@ -54,11 +63,16 @@ check_licences() { # FOLDER
     cmp THIRD-PARTY-NOTICES.txt "$1/THIRD-PARTY-NOTICES.txt"
 }
 
-test_package() {
-    rm -rf "$out"/{packages,consumer-packages,artifacts/bin/Geoidx.Consumer}
-    refuses_a_package_without_libraries
+pack() { # [OPTION]
+    rm -rf "$out/packages"
     say_runtimes
-    dotnet pack "$csharp/Geoidx" -c Release --no-build "${quiet[@]}" -o "$out/packages"
+    dotnet pack "$csharp/Geoidx" -c Release "$@" "${quiet[@]}" -o "$out/packages"
+}
+
+test_package() {
+    rm -rf "$out"/{consumer-packages,artifacts/bin/Geoidx.Consumer}
+    refuses_a_package_without_libraries
+    pack --no-build
     dotnet build "$csharp/Geoidx.Consumer" -c Release --force "${quiet[@]}"
     dotnet "$out/artifacts/bin/Geoidx.Consumer/release/Geoidx.Consumer.dll"
     check_licences "$out"/consumer-packages/geoidx/*
@@ -76,11 +90,40 @@ test_netstandard_on_dotnet() {
     dotnet exec --runtimeconfig "$out/artifacts/bin/Geoidx.Tests/release/Geoidx.Tests.runtimeconfig.json" "$mono_tests"
 }
 
+refuses_a_unity_package_without_libraries() {
+    local message
+    mkdir -p "$out/empty-unity"
+    touch "$out/empty-unity/com.geoidx-0.0.0.tgz"
+    message=$(GEOIDX_RUNTIMES=$out/no-runtimes bindings/unity/pack.sh "$out/empty-unity" 2>&1) && return 1
+    grep -q 'Run scripts/test_csharp.sh --pack-unity' <<<"$message"
+    [ -z "$(find "$out/empty-unity" -name '*.tgz')" ]
+}
+
+# An assembly that is left out on a platform takes the scripts that use it with it.
+compiles_everywhere() {
+    local definition
+    for definition in Runtime/Geoidx Samples~/ColourByDistance/Geoidx.Samples.ColourByDistance; do
+        grep -q '"includePlatforms": \[\]' "$GEOIDX_UNITY_OUT/package/$definition.asmdef"
+        grep -q '"excludePlatforms": \[\]' "$GEOIDX_UNITY_OUT/package/$definition.asmdef"
+    done
+}
+
+take_unity_page() {
+    mkdir -p "$GEOIDX_UNITY_OUT/page"
+    for heading in "Ten lines" Jobs; do
+        { echo '#nullable disable' && scripts/page_block.sh bindings/unity/README.md "$heading" csharp; } \
+            >"$GEOIDX_UNITY_OUT/page/${heading// /}.cs"
+    done
+}
+
 compile_unity() {
     export GEOIDX_UNITY_OUT=$out/unity
-    bindings/unity/pack.sh "$GEOIDX_UNITY_OUT"
+    refuses_a_unity_package_without_libraries
+    bash -euo pipefail <(scripts/page_block.sh bindings/unity/README.md Install sh 2)
     check_identities "$GEOIDX_UNITY_OUT/package"
     check_licences "$GEOIDX_UNITY_OUT/package"
+    compiles_everywhere
+    take_unity_page
     dotnet build bindings/unity/Tests~/Program "${quiet[@]}"
     cp "$GEOIDX_NATIVE/libgeoidx.so" "$GEOIDX_UNITY_OUT/tests/bin/Program/debug"
 }
@@ -107,10 +150,29 @@ test_under_mono() {
         ends_during_calls leave "$callbacks"
         ends_during_calls unload "$callbacks"
     done
-    mono "$GEOIDX_UNITY_OUT/tests/bin/Program/debug/Program.dll"
+    test_unity_under_mono
+}
+
+test_unity_under_mono() {
+    local programs=$GEOIDX_UNITY_OUT/tests/bin/Program
+    mono "$programs/debug/Program.dll"
+    rm -rf "$programs/without-library"
+    mkdir "$programs/without-library"
+    cp "$programs"/debug/*.dll "$programs/without-library"
+    mono "$programs/without-library/Program.dll" without-library
 }
 
 fill_runtimes
+case ${1:-} in
+--pack)
+    pack
+    exit
+    ;;
+--pack-unity)
+    bindings/unity/pack.sh "$out/unity"
+    exit
+    ;;
+esac
 dotnet build "$csharp/Geoidx.slnx" -c Release "${quiet[@]}"
 dotnet test "$csharp/Geoidx.Tests" -c Release --no-build "${quiet[@]}"
 echo "netstandard2.1 on .NET:"

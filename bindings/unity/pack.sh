@@ -1,12 +1,33 @@
 #!/usr/bin/env bash
 # pack.sh FOLDER: assembles the Unity package in FOLDER/package and packs it as FOLDER/com.geoidx-VERSION.tgz. The C# of
-# ../csharp goes in, those native libraries that are in ../csharp/runtimes, and the licences.
+# ../csharp goes in, the licences, and those native libraries that are in ../csharp/runtimes, or in the folder that
+# GEOIDX_RUNTIMES names; at least one must be.
 set -euo pipefail
+[ $# -eq 1 ] || { echo "usage: pack.sh FOLDER" >&2 && exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
+runtimes=${GEOIDX_RUNTIMES:-$here/../csharp/runtimes}
 mkdir -p "$1"
 out=$(cd "$1" && pwd)
 package=$out/package
-rm -rf "$package"
+rm -rf "$package" "$out"/com.geoidx-*.tgz
+
+native_of() { # META
+    local plugin
+    plugin=$(basename "$(dirname "$1")")
+    echo "$runtimes/$plugin/native/$(basename "$1" .meta)"
+}
+
+with=() without=()
+for meta in "$here"/Runtime/Plugins/*/*.meta; do
+    plugin=$(basename "$(dirname "$meta")")
+    if [ -f "$(native_of "$meta")" ]; then with+=("$plugin"); else without+=("$plugin"); fi
+done
+if [ ${#with[@]} -eq 0 ]; then
+    echo "There is no native library for Unity (${without[*]}) in $runtimes." >&2
+    echo "Run scripts/test_csharp.sh --pack-unity for this platform's, scripts/cross.sh for others." >&2
+    exit 1
+fi
+
 mkdir -p "$package"
 cp -R "$here"/{package.json,README.md,Editor,Samples~} "$package"
 cp "$here"/../../{LICENSE,THIRD-PARTY-NOTICES.txt} "$package"
@@ -17,11 +38,11 @@ cp "$here"/Runtime/{*.cs,*.asmdef,csc.rsp} "$package/Runtime"
     find . -name '*.cs' -not -name '*.LibraryImport.cs' -exec cp --parents -t "$package/Runtime/Geoidx" {} +)
 
 for meta in "$here"/Runtime/Plugins/*/*.meta; do
-    plugin=$(basename "$(dirname "$meta")")/$(basename "$meta" .meta)
-    native=$here/../csharp/runtimes/${plugin%/*}/native/${plugin#*/}
+    native=$(native_of "$meta")
     [ -f "$native" ] || continue
-    mkdir -p "$package/Runtime/Plugins/${plugin%/*}"
-    cp "$native" "$meta" "$package/Runtime/Plugins/${plugin%/*}"
+    plugin=$package/Runtime/Plugins/$(basename "$(dirname "$meta")")
+    mkdir -p "$plugin"
+    cp "$native" "$meta" "$plugin"
 done
 
 importer_of() {
@@ -52,3 +73,5 @@ done
 version=$(sed -n 's/.*"version": "\(.*\)".*/\1/p' "$here/package.json")
 tar -C "$out" --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -cf - package |
     gzip -n >"$out/com.geoidx-$version.tgz"
+echo "$out/com.geoidx-$version.tgz: with the native library of ${with[*]}"
+[ ${#without[@]} -eq 0 ] || echo "without that of ${without[*]}, which scripts/cross.sh builds"

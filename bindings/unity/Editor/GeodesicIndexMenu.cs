@@ -55,7 +55,9 @@ namespace Geoidx.Editor
         {
             if (!(Selection.activeObject is GameObject selected)) return Selection.activeObject as Mesh;
             MeshFilter filter = selected.GetComponentInChildren<MeshFilter>();
-            return filter == null ? null : filter.sharedMesh;
+            if (filter != null && filter.sharedMesh != null) return filter.sharedMesh;
+            SkinnedMeshRenderer skinned = selected.GetComponentInChildren<SkinnedMeshRenderer>();
+            return skinned == null ? null : skinned.sharedMesh;
         }
 
         private static string PathBeside(Mesh mesh)

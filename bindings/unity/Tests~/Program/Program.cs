@@ -5,6 +5,7 @@ using System.Reflection;
 using Geoidx;
 using Geoidx.Editor;
 using Geoidx.Samples;
+using Unity.Collections;
 using UnityEditor;
 using UnityEngine;
 
@@ -23,8 +24,9 @@ internal static class Program
         public void Report(BuildStage stage) => Latest = stage.Fraction;
     }
 
-    private static int Main()
+    private static int Main(string[] arguments)
     {
+        if (arguments.Length == 1 && arguments[0] == "without-library") return WithoutTheLibrary();
         string folder = Path.Combine(Path.GetTempPath(), $"geoidx-unity-{Guid.NewGuid():N}");
         Directory.CreateDirectory(Path.Combine(folder, "Assets", "Models"));
         Directory.SetCurrentDirectory(folder);
@@ -36,6 +38,13 @@ internal static class Program
             AUserCancels();
             TheSampleColours(index);
             TheSampleColours(null);
+            AnUnreadableMeshIsRefused();
+            NothingIsRefusedByName();
+            TheMenuTakesASkinnedMesh();
+            NativeArraysGiveTheSameBits();
+            ThePageMeasures(index);
+            ThePageMeasuresInAJob(index);
+            APageThatNeverStartedIsDestroyed();
             Console.WriteLine("The Unity package works.");
             return 0;
         }
@@ -60,7 +69,7 @@ internal static class Program
 
     private static byte[] TheEditorBuildsAnIndex()
     {
-        Selection.activeObject = new GameObject { Filter = new MeshFilter { mesh = Strip() } };
+        Selection.activeObject = ObjectWith(new MeshFilter { mesh = Strip() });
         Check((bool)Call(typeof(GeodesicIndexMenu), null, "CanBuildSelected")!, "the menu is enabled");
         Call(typeof(GeodesicIndexMenu), null, "BuildSelected");
         string asset = AssetDatabase.Imported.Single();
@@ -103,7 +112,7 @@ internal static class Program
         var filter = new MeshFilter { mesh = Strip() };
         var sample = new ColourByDistance
         {
-            gameObject = new GameObject { Filter = filter },
+            gameObject = ObjectWith(filter),
             indexAsset = index == null ? null : new BytesAsset(index),
         };
         Call(typeof(ColourByDistance), sample, "Start");
@@ -113,6 +122,123 @@ internal static class Program
         Check(colors[8].Equals(sample.unreachable), "an unused vertex is unreachable");
         Call(typeof(ColourByDistance), sample, "OnDestroy");
     }
+
+    private static GameObject ObjectWith(params Component[] components) =>
+        new GameObject { Components = components };
+
+    private static int WithoutTheLibrary()
+    {
+        string message = Failure<GeodesicLibraryException>(() => Strip().ToGeodesicMesh().Build());
+        Check(message.Contains("Unity's plugins"), "the message says where it looked");
+        Check(message.Contains("64-bit Windows and Linux"), "the message says where there is one");
+        Console.WriteLine(message);
+        return 0;
+    }
+
+    private static GeodesicIndex Build(this GeodesicMesh mesh) => GeodesicIndex.Build(mesh);
+
+    private static void AnUnreadableMeshIsRefused()
+    {
+        Mesh mesh = Strip();
+        mesh.isReadable = false;
+        string message = Failure<InvalidOperationException>(() => mesh.ToGeodesicMesh());
+        Check(message.Contains("strip") && message.Contains("Read/Write"), "the message names mesh and remedy");
+    }
+
+    private static void NothingIsRefusedByName()
+    {
+        Check(Failure<ArgumentNullException>(() => ((Mesh)null!).ToGeodesicMesh()).Contains("mesh"), "no mesh");
+        Check(Failure<ArgumentNullException>(() => ((TextAsset)null!).OpenGeodesicIndex()).Contains("asset"), "none");
+    }
+
+    private static void TheMenuTakesASkinnedMesh()
+    {
+        Mesh mesh = Strip("skinned");
+        var skinned = new SkinnedMeshRenderer { sharedMesh = mesh };
+        Component[][] bodies = { new Component[] { skinned }, new Component[] { new MeshFilter(), skinned } };
+        foreach (Component[] components in bodies)
+        {
+            Selection.activeObject = ObjectWith(components);
+            Check((bool)Call(typeof(GeodesicIndexMenu), null, "CanBuildSelected")!, "the menu is enabled");
+            Call(typeof(GeodesicIndexMenu), null, "BuildSelected");
+            string asset = AssetDatabase.Imported.Last();
+            Check(asset == "Assets/Models/skinned.geoidx.bytes", "the asset has the name of the skinned mesh");
+            var options = new OpenOptions { ExpectedMesh = mesh.ToGeodesicMesh() };
+            new BytesAsset(File.ReadAllBytes(asset)).OpenGeodesicIndex(options).Dispose();
+        }
+        Selection.activeObject = ObjectWith();
+        Check(!(bool)Call(typeof(GeodesicIndexMenu), null, "CanBuildSelected")!, "without a mesh it is disabled");
+    }
+
+    private static void NativeArraysGiveTheSameBits()
+    {
+        using GeodesicIndex index = Strip().ToGeodesicMesh().Build();
+        using GeodesicQuery query = index.CreateQuery();
+        using var sources = new NativeArray<int>(new[] { 0, 7 }, Allocator.TempJob);
+        using var pairs = new NativeArray<VertexPair>(new VertexPair[] { (0, 7), (3, 8) }, Allocator.TempJob);
+        float[] nearest = index.FromSources(0, 7), each = index.FromEachSource(0, 7);
+        Check(Written(2, distances => index.Distances(pairs, distances)), index.Distances((0, 7), (3, 8)));
+        Check(Written(9, distances => index.FromSources(sources, distances)), nearest);
+        Check(Written(18, distances => index.FromEachSource(sources, distances)), each);
+        Check(Written(9, distances => query.FromSources(sources, distances)), nearest);
+        Check(Written(18, distances => query.FromEachSource(sources, distances)), each);
+        Check(
+            Written(9, distances => query.FromSourcesWithin(sources, 1.1f, distances)),
+            nearest.Select(distance => distance <= 1.1f ? distance : float.PositiveInfinity).ToArray());
+        query.Prepare(2);
+        Check(
+            Written(2, distances => query.FromPrepared(sources, distances)),
+            new[] { index.Distance(2, 0), index.Distance(2, 7) });
+    }
+
+    private static float[] Written(int length, Action<NativeArray<float>> query)
+    {
+        using var distances = new NativeArray<float>(length, Allocator.TempJob);
+        query(distances);
+        return distances.ToArray();
+    }
+
+    private static void ThePageMeasures(byte[] index)
+    {
+        var page = new Nearness { indexAsset = new BytesAsset(index) };
+        Call(typeof(Nearness), page, "Start");
+        Check(Math.Abs(page.Between(0, 6) - 3) < 1e-3, "the page's lines measure along a side");
+        Call(typeof(Nearness), page, "OnDestroy");
+    }
+
+    private static void ThePageMeasuresInAJob(byte[] index)
+    {
+        var page = new NearnessInAJob { indexAsset = new BytesAsset(index) };
+        Call(typeof(NearnessInAJob), page, "Start");
+        page.MeasureFrom(6);
+        Check(Math.Abs(page.To(0) - 3) < 1e-3, "the page's job measures along a side");
+        page.MeasureFrom(0);
+        Check(page.To(0) == 0 && float.IsInfinity(page.To(8)), "the page's job measures again");
+        Call(typeof(NearnessInAJob), page, "OnDestroy");
+    }
+
+    // Unity destroys what has been active, also when Start failed.
+    private static void APageThatNeverStartedIsDestroyed()
+    {
+        Call(typeof(Nearness), new Nearness(), "OnDestroy");
+        Call(typeof(NearnessInAJob), new NearnessInAJob(), "OnDestroy");
+    }
+
+    private static string Failure<T>(Action call) where T : Exception
+    {
+        try
+        {
+            call();
+        }
+        catch (T exception)
+        {
+            return exception.Message;
+        }
+        throw new InvalidOperationException($"No {typeof(T).Name} was thrown.");
+    }
+
+    private static void Check(float[] distances, float[] expected) =>
+        Check(distances.SequenceEqual(expected), $"{string.Join(", ", distances)} is {string.Join(", ", expected)}");
 
     private static object? Call(Type type, object? instance, string method) =>
         type.GetMethod(method, BindingFlags.NonPublic | BindingFlags.Static | BindingFlags.Instance)!

@@ -1,5 +1,6 @@
 #nullable disable
 using System;
+using System.Linq;
 
 // As much of UnityEngine as the package uses, with the same names and signatures.
 
@@ -56,6 +57,8 @@ namespace UnityEngine
         public int[] triangles { get; set; }
 
         public Color[] colors { get; set; }
+
+        public bool isReadable { get; set; } = true;
     }
 
     public class TextAsset : Object
@@ -65,9 +68,9 @@ namespace UnityEngine
 
     public sealed class GameObject : Object
     {
-        public MeshFilter Filter { get; set; }
+        public Component[] Components { get; set; } = { };
 
-        public T GetComponentInChildren<T>() => (T)(object)Filter;
+        public T GetComponentInChildren<T>() => Components.OfType<T>().FirstOrDefault();
     }
 
     public class Component : Object
@@ -90,6 +93,11 @@ namespace UnityEngine
         public Mesh mesh { get; set; }
 
         public Mesh sharedMesh => mesh;
+    }
+
+    public sealed class SkinnedMeshRenderer : Component
+    {
+        public Mesh sharedMesh { get; set; }
     }
 
     [AttributeUsage(AttributeTargets.Class)]

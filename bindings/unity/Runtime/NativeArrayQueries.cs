@@ -1,0 +1,62 @@
+using System;
+using Unity.Collections;
+using Unity.Collections.LowLevel.Unsafe;
+
+namespace Geoidx
+{
+    /// <summary>
+    /// Queries that read and write native arrays, as jobs have them, without a copy. They do what the methods of the
+    /// same name do that take spans.
+    /// </summary>
+    public static class NativeArrayQueries
+    {
+        /// <summary>The distance of each pair, in the mesh's unit; many at once take less time each.</summary>
+        public static void Distances(
+            this GeodesicIndex index, NativeArray<VertexPair> pairs, NativeArray<float> distances) =>
+            index.Distances(Read(pairs), Written(distances));
+
+        /// <summary>The distance of every vertex to the nearest source (MSAD), in the mesh's unit.</summary>
+        public static void FromSources(
+            this GeodesicIndex index, NativeArray<int> sources, NativeArray<float> distances) =>
+            index.FromSources(Read(sources), Written(distances));
+
+        /// <summary>
+        /// The distances from each source to every vertex, in the mesh's unit: that from sources[i] to v at
+        /// i * VertexCount + v.
+        /// </summary>
+        public static void FromEachSource(
+            this GeodesicIndex index, NativeArray<int> sources, NativeArray<float> distances) =>
+            index.FromEachSource(Read(sources), Written(distances));
+
+        /// <summary>The distance of every vertex to the nearest source (MSAD), in the mesh's unit.</summary>
+        public static void FromSources(
+            this GeodesicQuery query, NativeArray<int> sources, NativeArray<float> distances) =>
+            query.FromSources(Read(sources), Written(distances));
+
+        /// <summary>
+        /// The distance of every vertex to the nearest source (MSAD), in the mesh's unit, infinite beyond a radius.
+        /// </summary>
+        public static void FromSourcesWithin(
+            this GeodesicQuery query, NativeArray<int> sources, float radius, NativeArray<float> distances) =>
+            query.FromSourcesWithin(Read(sources), radius, Written(distances));
+
+        /// <summary>
+        /// The distances from each source to every vertex, in the mesh's unit: that from sources[i] to v at
+        /// i * VertexCount + v.
+        /// </summary>
+        public static void FromEachSource(
+            this GeodesicQuery query, NativeArray<int> sources, NativeArray<float> distances) =>
+            query.FromEachSource(Read(sources), Written(distances));
+
+        /// <summary>The distances from the prepared source to targets, in the mesh's unit.</summary>
+        public static void FromPrepared(
+            this GeodesicQuery query, NativeArray<int> targets, NativeArray<float> distances) =>
+            query.FromPrepared(Read(targets), Written(distances));
+
+        private static unsafe ReadOnlySpan<T> Read<T>(NativeArray<T> array) where T : unmanaged =>
+            new ReadOnlySpan<T>(array.GetUnsafeReadOnlyPtr(), array.Length);
+
+        private static unsafe Span<T> Written<T>(NativeArray<T> array) where T : unmanaged =>
+            new Span<T>(array.GetUnsafePtr(), array.Length);
+    }
+}
