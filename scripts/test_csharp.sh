@@ -179,6 +179,7 @@ echo "netstandard2.1 on .NET:"
 test_netstandard_on_dotnet
 dotnet "$out/artifacts/bin/Geoidx.Bench/release/Geoidx.Bench.dll"
 test_package
+bindings/csharp/test_page.sh "$out/page"
 compile_unity
 if command -v mono >/dev/null; then
     echo "netstandard2.1 on Mono:"
