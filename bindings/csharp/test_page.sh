@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # test_page.sh FOLDER: does in FOLDER, which it makes anew, what README.md and the C# lines of the main README.md tell a
-# new user to do, by the very lines that they show, and expects the distance that their comments state. With
-# GEOIDX_NATIVE the native library is taken to be built already, and the lines that build it are left out.
+# new user to do, by the very lines that they show, and expects the distance that their comments state. This begins with
+# a clone of what is committed, whose native library is built. With GEOIDX_NATIVE, the folder of a library that is built,
+# it is these sources instead, and the lines that build are left out.
 set -euo pipefail
 [ $# -eq 1 ] || { echo "usage: test_page.sh FOLDER" >&2 && exit 2; }
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -10,11 +11,16 @@ rm -rf "$1"
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 export NUGET_PACKAGES=$folder/nuget # a package of this version that was kept from earlier is another one
-ln -s "$root" "$folder/geoidx"
 
-follow() { # NUMBER
-    "$root/scripts/page_block.sh" "$page" Install sh "$1" >"$folder/install-$1.sh"
-    (cd "$folder" && bash -euo pipefail "install-$1.sh")
+install() {
+    if [ -n "${GEOIDX_NATIVE:-}" ]; then
+        ln -s "$root" "$folder/geoidx"
+    else
+        git clone -q "$root" "$folder/geoidx"
+        "$root/scripts/page_block.sh" "$page" Install sh 1
+    fi >"$folder/install.sh"
+    "$root/scripts/page_block.sh" "$page" Install sh 2 >>"$folder/install.sh"
+    (cd "$folder" && bash -euo pipefail install.sh)
 }
 
 run_lines() { # PAGE HEADING
@@ -28,10 +34,7 @@ run_lines() { # PAGE HEADING
     [ -s "$folder/square/square.geoidx" ]
 }
 
-if [ -z "${GEOIDX_NATIVE:-}" ]; then
-    follow 1
-fi
-follow 2
+install
 run_lines "$page" "Ten lines"
 run_lines "$root/README.md" "Ten lines of C#"
 echo "The lines of the pages work."
