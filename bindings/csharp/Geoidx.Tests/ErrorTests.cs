@@ -99,6 +99,10 @@ namespace Geoidx.Tests
 
         public static readonly (string Message, Action Call)[] RefusedArguments =
         {
+            ("Delta is NaN,", () => Build(new BuildOptions { Delta = double.NaN })),
+            ("Delta is NaN,", () => Build(new BuildOptions { Delta = -double.NaN })),
+            ("Delta is Infinity,", () => Build(new BuildOptions { Delta = double.PositiveInfinity })),
+            ("Delta is -Infinity,", () => Build(new BuildOptions { Delta = double.NegativeInfinity })),
             ("Delta is 200", () => Build(new BuildOptions { Delta = 200 })),
             ("Threads is 2000", () => Build(new BuildOptions { Threads = 2000 })),
             ("LevelCount is 9", () => Build(new BuildOptions { LevelCount = 9 })),
@@ -330,7 +334,7 @@ namespace Geoidx.Tests
                 MetricCallback = (_, _, distances) => distances.Fill(double.NaN),
             };
             Fails<GeodesicMetricException>(
-                GeodesicStatus.Callback, "", () => GeodesicIndex.Build(Shapes.Square(), options));
+                GeodesicStatus.Callback, "the distance NaN", () => GeodesicIndex.Build(Shapes.Square(), options));
         }
 
         [Theory]

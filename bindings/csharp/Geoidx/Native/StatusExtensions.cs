@@ -26,7 +26,8 @@ namespace Geoidx
 
         // Others are of files, whose numbers have no sign and whose names are anything.
         private static bool IsOfArguments(GeodesicStatus status) =>
-            status == GeodesicStatus.InvalidArgument || status == GeodesicStatus.BadMesh;
+            status == GeodesicStatus.InvalidArgument || status == GeodesicStatus.BadMesh ||
+            status == GeodesicStatus.Callback;
 
         private static string LatestDetail() => NativeText.FromUtf8(NativeMethods.geoidx_last_error());
     }
