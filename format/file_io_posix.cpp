@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -21,6 +22,7 @@ namespace {
 }
 
 [[noreturn]] void fail_errno(const std::string& doing, const std::string& path, int code) {
+    if (code == ENOMEM) throw std::bad_alloc();
     fail(doing, path, std::generic_category().message(code));
 }
 
@@ -132,6 +134,7 @@ std::string follow_links(const std::string& path) {
     std::error_code error;
     if (!std::filesystem::is_symlink(path, error)) return path;
     const auto target = std::filesystem::canonical(path, error);
+    if (error == std::errc::not_enough_memory) throw std::bad_alloc();
     if (error) fail("write", path, "following the symbolic link: " + error.message());
     return target.string();
 }

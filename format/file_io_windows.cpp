@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <utility>
 
 #define NOMINMAX
@@ -43,6 +44,7 @@ std::string reason_of(DWORD code) {
 }
 
 [[noreturn]] void fail_code(const std::string& doing, const std::string& path, DWORD code) {
+    if (code == ERROR_NOT_ENOUGH_MEMORY || code == ERROR_OUTOFMEMORY) throw std::bad_alloc();
     fail(doing, path, reason_of(code));
 }
 

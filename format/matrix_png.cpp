@@ -5,6 +5,7 @@
 #include <bit>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <string>
@@ -35,6 +36,15 @@ struct Failure {
 }
 
 void on_warning(png_structp, png_const_charp) {}
+
+// libpng and the zlib below it report a lack of memory as one of many errors, and in words only.
+png_voidp on_malloc(png_structp png, png_alloc_size_t size) {
+    void* const memory = std::malloc(size);
+    if (memory == nullptr) static_cast<Failure*>(png_get_mem_ptr(png))->out_of_memory = true;
+    return memory;
+}
+
+void on_free(png_structp, png_voidp memory) { std::free(memory); }
 
 // Written out because std::byteswap is of C++23 and this holds on any host.
 void pack_row(const float* values, std::uint32_t cols, png_bytep row) {
@@ -77,7 +87,8 @@ void check_arguments(std::size_t value_count, std::uint32_t rows, std::uint32_t 
 class Writer {
 public:
     explicit Writer(Failure& failure)
-        : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning)),
+        : png_(png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning, &failure,
+                                         on_malloc, on_free)),
           info_(png_ == nullptr ? nullptr : png_create_info_struct(png_)) {}
     Writer(const Writer&) = delete;
     Writer& operator=(const Writer&) = delete;
@@ -146,7 +157,8 @@ bool write_image(png_structp png, png_infop info, const float* values, std::uint
 class Reader {
 public:
     explicit Reader(Failure& failure)
-        : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning)),
+        : png_(png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning, &failure,
+                                        on_malloc, on_free)),
           info_(png_ == nullptr ? nullptr : png_create_info_struct(png_)) {}
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
@@ -239,8 +251,10 @@ void decode_png(std::span<const std::byte> png, std::uint32_t rows, std::uint32_
     if (!reader.is_open()) throw std::bad_alloc();
     std::span<const std::byte> rest = png;
     png_set_read_fn(reader.png(), &rest, on_read);
-    if (!read_image(reader.png(), reader.info(), rows, cols, out.data()))
+    if (!read_image(reader.png(), reader.info(), rows, cols, out.data())) {
+        if (failure.out_of_memory) throw std::bad_alloc();
         fail_corrupt(failure.message.data());
+    }
     if (!rest.empty()) fail_corrupt(std::to_string(rest.size()) + " bytes after the end of the image");
 }
 

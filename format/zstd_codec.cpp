@@ -1,6 +1,9 @@
 #include "format/zstd_codec.h"
 
+#include <new>
+
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include "format/bytes.h"
 #include "format/error.h"
@@ -10,6 +13,11 @@ namespace {
 
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
     throw Error(GEOIDX_ERROR_CORRUPT, name + ": " + what);
+}
+
+// A lack of memory says nothing about the data.
+void check_memory(std::size_t result) {
+    if (ZSTD_getErrorCode(result) == ZSTD_error_memory_allocation) throw std::bad_alloc();
 }
 
 // zstd reads other things than frames too: frames to be skipped and, when built so, frames of old releases.
@@ -45,6 +53,7 @@ std::vector<std::byte> compress_zstd(std::span<const std::byte> raw) {
     constexpr int LEVEL = 12;
     std::vector<std::byte> stored(ZSTD_compressBound(raw.size()));
     const std::size_t size = ZSTD_compress(stored.data(), stored.size(), raw.data(), raw.size(), LEVEL);
+    check_memory(size);
     if (ZSTD_isError(size) != 0) {
         throw Error(GEOIDX_ERROR_INTERNAL, "zstd cannot compress " + std::to_string(raw.size()) +
                                                " bytes: " + ZSTD_getErrorName(size));
@@ -60,6 +69,7 @@ std::vector<std::byte> decompress_zstd(std::span<const std::byte> stored, std::u
     check_frame_size(stored, name);
     std::vector<std::byte> raw(static_cast<std::size_t>(raw_size));
     const std::size_t size = ZSTD_decompress(raw.data(), raw.size(), stored.data(), stored.size());
+    check_memory(size);
     if (ZSTD_isError(size) != 0) fail(name, std::string("zstd: ") + ZSTD_getErrorName(size));
     if (size != raw.size()) fail(name, "the zstd frame ended after " + std::to_string(size) + " bytes");
     return raw;
