@@ -2,21 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
 
+#include "format/error.h"
+#include "src/concurrency/shared_tasks.h"
 #include "src/concurrency/threads.h"
 
 namespace geodesic {
-
-struct Workers::Failure {
-    std::mutex mutex;
-    std::condition_variable finished;
-    uint32_t running = 0;
-    size_t task = SIZE_MAX;
-    std::exception_ptr error;
-};
 
 Workers::Workers(const Metric& metric, uint32_t threads, ProgressFunction progress)
     : progress_(std::move(progress)) {
@@ -47,53 +38,26 @@ void Workers::report() {
     if (!progress_(reported_, stage_)) cancelled_ = true;
 }
 
-void Workers::work(uint32_t thread, size_t count, const std::function<void(FieldSolver&, size_t)>& task,
-                   Failure& failure) {
-    for (size_t i; !cancelled_ && (i = next_++) < count; ++done_) {
-        try {
-            task(*solvers_[thread], i);
-        } catch (...) {
-            const std::lock_guard lock(failure.mutex);
-            if (i < failure.task) {
-                failure.task = i;
-                failure.error = std::current_exception();
-            }
-            next_ = count;
-        }
-    }
-    const std::lock_guard lock(failure.mutex);
-    --failure.running;
-    failure.finished.notify_all();
-}
-
 void Workers::run(size_t count, const std::function<void(FieldSolver&, size_t)>& task) {
-    Failure failure;
-    next_ = 0;
+    check_cancelled();
     if (stage_count_ == 0) {
         done_ = 0;
         count_ = count;
     }
+    SharedTasks tasks(count, [&](uint32_t thread, size_t i) {
+        task(*solvers_[thread], i);
+        ++done_;
+    });
     const auto used = static_cast<uint32_t>(std::min<size_t>(solvers_.size(), count));
-    {
-        std::vector<std::jthread> threads;
-        for (uint32_t t = 0; t < used; ++t) {
-            {
-                const std::lock_guard lock(failure.mutex);
-                ++failure.running;
-            }
-            threads.emplace_back([&, t] { work(t, count, task, failure); });
-        }
-        std::unique_lock lock(failure.mutex);
-        while (!failure.finished.wait_for(lock, std::chrono::milliseconds(100),
-                                          [&] { return failure.running == 0; })) {
-            lock.unlock();
-            report();
-            lock.lock();
-        }
+    if (tasks.start_threads(0, used) == 0 && used > 0)
+        throw Error(GEOIDX_ERROR_OUT_OF_MEMORY, "out of memory: no thread could be started");
+    while (!tasks.wait_for(std::chrono::milliseconds(100))) {
+        report();
+        check_cancelled();
     }
     report();
     check_cancelled();
-    if (failure.error) std::rethrow_exception(failure.error);
+    tasks.finish();
 }
 
 }

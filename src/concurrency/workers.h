@@ -24,23 +24,21 @@ public:
 
     // Calls task(solver, i) for i in 0 .. count - 1 on all threads, in no particular order. Meanwhile the
     // calling thread reports progress. Rethrows the error of the task with the smallest number that failed;
-    // throws Error CANCELLED when the progress function says so.
+    // throws Error CANCELLED when the progress function says so, and
+    // OUT_OF_MEMORY when not even one thread can be started.
     void run(size_t count, const std::function<void(FieldSolver&, size_t)>& task);
 
     // For long tasks: throws when the work was cancelled.
     void check_cancelled() const;
 
 private:
-    struct Failure;
-    void work(uint32_t thread, size_t count, const std::function<void(FieldSolver&, size_t)>& task,
-              Failure& failure);
     void report();
 
     std::vector<std::unique_ptr<FieldSolver>> solvers_;
     ProgressFunction progress_;
     const char* stage_ = "";
     double stage_begin_ = 0, stage_end_ = 0, reported_ = 0;
-    std::atomic<size_t> next_ = 0, done_ = 0;
+    std::atomic<size_t> done_ = 0;
     size_t count_ = 0;       // of the tasks that done_ counts
     size_t stage_count_ = 0; // of the whole stage; 0: of each run() by itself
     std::atomic<bool> cancelled_ = false;

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <atomic>
+#include <algorithm>
+#include <cstdint>
 #include <span>
-#include <system_error>
-#include <thread>
-#include <vector>
 
+#include "src/concurrency/shared_tasks.h"
 #include "src/index/index.h"
 
 namespace geodesic {
@@ -24,7 +23,8 @@ void descend_into(const Index& index, uint32_t patch, Scratch& scratch, const De
 
 // descend(patch, scratch) for all patches but the whole mesh, parents first, by as many threads as there is
 // scratch: the patches of a level that is fine enough are shared out, each with all that lies inside; those
-// above have `top` as scratch.
+// above have `top` as scratch. The calling thread is one of them, and alone when no other can be started.
+// Throws what descend throws on any of them.
 template <class Scratch, class Descend>
 void descend_everywhere(const Index& index, Scratch& top, std::span<Scratch> scratch,
                         const Descend& descend) {
@@ -35,18 +35,17 @@ void descend_everywhere(const Index& index, Scratch& top, std::span<Scratch> scr
                index.level_begin[level + 1] - index.level_begin[level] < PATCHES_PER_THREAD * scratch.size())
             ++level;
     for (uint32_t p = 1; p < index.level_begin[level]; ++p) descend(p, top);
-    std::atomic<uint32_t> next = index.level_begin[level];
-    const auto work = [&](Scratch& of_thread) {
-        for (uint32_t p; (p = next++) < index.level_begin[level + 1];)
-            descend_into(index, p, of_thread, descend);
-    };
-    std::vector<std::jthread> threads;
-    try {
-        for (size_t t = 1; t < scratch.size(); ++t)
-            threads.emplace_back([&work, &of_thread = scratch[t]] { work(of_thread); });
-    } catch (const std::system_error&) { // no more threads: those that there are do all
+    const uint32_t first = index.level_begin[level], count = index.level_begin[level + 1] - first;
+    if (scratch.size() == 1) {
+        for (uint32_t i = 0; i < count; ++i) descend_into(index, first + i, scratch.front(), descend);
+        return;
     }
-    work(scratch.front());
+    SharedTasks tasks(count, [&](uint32_t thread, size_t i) {
+        descend_into(index, first + static_cast<uint32_t>(i), scratch[thread], descend);
+    });
+    tasks.start_threads(1, static_cast<uint32_t>(std::min<size_t>(scratch.size(), count)));
+    tasks.work(0);
+    tasks.finish();
 }
 
 }
