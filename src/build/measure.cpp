@@ -75,18 +75,28 @@ bool crosses_between_vertices(const Index& index) {
     return index.engine == GEOIDX_ENGINE_OVERLAY && (index.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
 }
 
-// Calls a function while no segment joins border vertices.
-template <class Function>
-void without_segments(Rings& rings, const Function& function) {
-    std::pmr::vector<float> lengths(rings.segment_length.size(), std::numeric_limits<float>::quiet_NaN(),
-                                    rings.segment_length.get_allocator());
-    auto inverses = lengths;
-    lengths.swap(rings.segment_length);
-    inverses.swap(rings.half_inverse);
-    function();
-    lengths.swap(rings.segment_length);
-    inverses.swap(rings.half_inverse);
-}
+// While it lives, no segment joins border vertices. The arrays that are exchanged have one allocator.
+class WithoutSegments {
+public:
+    explicit WithoutSegments(Rings& rings)
+        : rings_(rings), lengths_(rings.segment_length.size(), std::numeric_limits<float>::quiet_NaN(),
+                                  rings.segment_length.get_allocator()),
+          inverses_(lengths_, rings.half_inverse.get_allocator()) {
+        exchange();
+    }
+    ~WithoutSegments() { exchange(); }
+    WithoutSegments(const WithoutSegments&) = delete;
+    WithoutSegments& operator=(const WithoutSegments&) = delete;
+
+private:
+    void exchange() {
+        lengths_.swap(rings_.segment_length);
+        inverses_.swap(rings_.half_inverse);
+    }
+
+    Rings& rings_;
+    Array<float> lengths_, inverses_;
+};
 
 }
 
@@ -110,8 +120,10 @@ MeasuredError measure_error(Index& index, std::span<const uint32_t> vertex_of_nu
     };
     MeasuredError result = measured();
     result.mean_at_vertices = result.mean;
-    if (crosses_between_vertices(index))
-        without_segments(index.overlay_tables.rings, [&] { result.mean_at_vertices = measured().mean; });
+    if (crosses_between_vertices(index)) {
+        const WithoutSegments while_measuring(index.overlay_tables.rings);
+        result.mean_at_vertices = measured().mean;
+    }
     return result;
 }
 

@@ -26,8 +26,11 @@ struct Log {
     }
 };
 
-geoidx_build_options options_with(Log& log, uint32_t threads) {
+constexpr uint32_t ENGINES[] = {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY};
+
+geoidx_build_options options_with(Log& log, uint32_t engine, uint32_t threads) {
     auto options = build_options(GEOIDX_METRIC_EXACT, 2, 1.0);
+    options.engine = engine;
     options.threads = threads;
     options.progress = Log::record;
     options.progress_user = &log;
@@ -37,20 +40,24 @@ geoidx_build_options options_with(Log& log, uint32_t threads) {
 }
 
 TEST_CASE("progress never falls, ends at 1 and comes on the calling thread") {
-    for (uint32_t threads : {1u, 3u}) {
-        Log log;
-        build(hills(20, 20), options_with(log, threads));
-        REQUIRE(log.fractions.size() >= 5);
-        CHECK(log.on_other_threads == 0);
-        CHECK(log.fractions.front() >= 0);
-        CHECK(log.fractions.back() == 1);
-        for (size_t i = 1; i < log.fractions.size(); ++i) CHECK(log.fractions[i - 1] <= log.fractions[i]);
-        for (const std::string& stage : log.stages) CHECK((!stage.empty() && stage != "(null)"));
-        CHECK(std::set(log.stages.begin(), log.stages.end()).size() >= 3);
-    }
+    for (uint32_t engine : ENGINES)
+        for (uint32_t threads : {1u, 3u}) {
+            CAPTURE(engine);
+            Log log;
+            build(hills(20, 20), options_with(log, engine, threads));
+            REQUIRE(log.fractions.size() >= 5);
+            CHECK(log.on_other_threads == 0);
+            CHECK(log.fractions.front() >= 0);
+            CHECK(log.fractions.back() == 1);
+            for (size_t i = 1; i < log.fractions.size(); ++i) CHECK(log.fractions[i - 1] <= log.fractions[i]);
+            for (const std::string& stage : log.stages) CHECK((!stage.empty() && stage != "(null)"));
+            CHECK(std::set(log.stages.begin(), log.stages.end()).size() >= 3);
+        }
 }
 
-TEST_CASE("cancelling at any call stops the build and leaks nothing") {
+namespace {
+
+void cancel_at_every_call(uint32_t engine) {
     const TestMesh mesh = hills(12, 12);
     const geoidx_mesh view = mesh.view();
     std::set<std::string> cancelled_stages, all_stages;
@@ -61,7 +68,7 @@ TEST_CASE("cancelling at any call stops the build and leaks nothing") {
         Log log;
         log.cancel_at = k;
         CountingAllocator allocator;
-        auto options = options_with(log, 2);
+        auto options = options_with(log, engine, 2);
         options.allocator = allocator.get();
         geoidx* index = nullptr;
         const geoidx_status status = geoidx_build(&view, &options, &index);
@@ -82,4 +89,13 @@ TEST_CASE("cancelling at any call stops the build and leaks nothing") {
     }
     CHECK(cancelled_stages == all_stages);
     CHECK(cancelled >= 5);
+}
+
+}
+
+TEST_CASE("cancelling at any call stops the build and leaks nothing") {
+    for (uint32_t engine : ENGINES) {
+        CAPTURE(engine);
+        cancel_at_every_call(engine);
+    }
 }
