@@ -1,0 +1,116 @@
+#include "tests/faults/failing_malloc.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+// The functions of the C library take the place of those that the executable defines here, for all shared
+// libraries too. They pass on to the C library's own or, where there is one, to the sanitizer's.
+
+extern "C" {
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* memory, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+[[gnu::weak]] void* __interceptor_malloc(size_t size);
+[[gnu::weak]] void* __interceptor_calloc(size_t count, size_t size);
+[[gnu::weak]] void* __interceptor_realloc(void* memory, size_t size);
+[[gnu::weak]] void* __interceptor_memalign(size_t alignment, size_t size);
+}
+
+namespace {
+
+std::atomic<bool> is_armed = false, all_from_there = false;
+std::atomic<uint64_t> call_count = 0, failing = 0, failure_count = 0;
+
+bool fails() {
+    if (!is_armed) return false;
+    const uint64_t call = call_count++;
+    if (all_from_there ? call < failing : call != failing) return false;
+    ++failure_count;
+    errno = ENOMEM;
+    return true;
+}
+
+void* allocate_aligned(size_t alignment, size_t size) {
+    if (fails()) return nullptr;
+    return __interceptor_memalign ? __interceptor_memalign(alignment, size)
+                                  : __libc_memalign(alignment, size);
+}
+
+void* allocate_or_throw(size_t size) {
+    if (void* const memory = std::malloc(size ? size : 1)) return memory;
+    throw std::bad_alloc();
+}
+
+void* allocate_or_throw(size_t size, std::align_val_t alignment) {
+    if (void* const memory = allocate_aligned(static_cast<size_t>(alignment), size)) return memory;
+    throw std::bad_alloc();
+}
+
+}
+
+#define REPLACES [[gnu::visibility("default")]]
+
+extern "C" {
+
+REPLACES void* malloc(size_t size) {
+    if (fails()) return nullptr;
+    return __interceptor_malloc ? __interceptor_malloc(size) : __libc_malloc(size);
+}
+
+REPLACES void* calloc(size_t count, size_t size) {
+    if (fails()) return nullptr;
+    return __interceptor_calloc ? __interceptor_calloc(count, size) : __libc_calloc(count, size);
+}
+
+REPLACES void* realloc(void* memory, size_t size) {
+    if (fails()) return nullptr;
+    return __interceptor_realloc ? __interceptor_realloc(memory, size) : __libc_realloc(memory, size);
+}
+
+REPLACES void* memalign(size_t alignment, size_t size) { return allocate_aligned(alignment, size); }
+REPLACES void* aligned_alloc(size_t alignment, size_t size) { return allocate_aligned(alignment, size); }
+
+REPLACES int posix_memalign(void** out, size_t alignment, size_t size) {
+    void* const memory = allocate_aligned(alignment, size);
+    if (!memory) return ENOMEM;
+    *out = memory;
+    return 0;
+}
+}
+
+// A sanitizer has an operator new of its own, which asks no malloc.
+void* operator new(size_t size) { return allocate_or_throw(size); }
+void* operator new[](size_t size) { return allocate_or_throw(size); }
+void* operator new(size_t size, std::align_val_t alignment) { return allocate_or_throw(size, alignment); }
+void* operator new[](size_t size, std::align_val_t alignment) { return allocate_or_throw(size, alignment); }
+void* operator new(size_t size, const std::nothrow_t&) noexcept { return std::malloc(size ? size : 1); }
+void* operator new[](size_t size, const std::nothrow_t&) noexcept { return std::malloc(size ? size : 1); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+
+namespace geodesic::test {
+
+FailingMalloc::FailingMalloc(uint64_t failing_call, bool recovers) {
+    call_count = failure_count = 0;
+    failing = failing_call;
+    all_from_there = !recovers;
+    is_armed = true;
+}
+
+FailingMalloc::~FailingMalloc() { is_armed = false; }
+
+uint64_t FailingMalloc::failures() const { return failure_count; }
+
+}
