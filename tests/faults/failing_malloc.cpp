@@ -6,6 +6,9 @@
 #include <cstdlib>
 #include <new>
 
+#include <dlfcn.h>
+#include <pthread.h>
+
 // The functions of the C library take the place of those that the executable defines here, for all shared
 // libraries too. They pass on to the C library's own or, where there is one, to the sanitizer's.
 
@@ -79,6 +82,13 @@ REPLACES int posix_memalign(void** out, size_t alignment, size_t size) {
     if (!memory) return ENOMEM;
     *out = memory;
     return 0;
+}
+
+REPLACES int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*),
+                            void* argument) {
+    using Create = decltype(pthread_create);
+    static auto* const create = reinterpret_cast<Create*>(dlsym(RTLD_NEXT, "pthread_create"));
+    return fails() ? EAGAIN : create(thread, attributes, run, argument);
 }
 }
 
