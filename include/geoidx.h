@@ -78,6 +78,8 @@ enum {
     GEOIDX_ERROR_UNSUPPORTED_VERSION = -7, /* written by a newer format, or with features unknown here */
     GEOIDX_ERROR_MESH_MISMATCH = -8,       /* the index belongs to another mesh than the one given */
     GEOIDX_ERROR_LIMIT = -9,               /* a count is over what the format or the library can hold */
+    /* The allocator or the system has no more memory, or the system not even one thread for a build. Nothing
+     * leaks, and the handles that the call was given can be used as before. */
     GEOIDX_ERROR_OUT_OF_MEMORY = -10,
     GEOIDX_ERROR_CANCELLED = -11, /* a progress callback returned 0 */
     GEOIDX_ERROR_BAD_MESH = -12,  /* the mesh cannot be used; geoidx_last_error() names the element */
@@ -101,8 +103,9 @@ GEOIDX_API const char* geoidx_last_error(void);
 /* Memory of the caller's choosing. allocate returns `size` bytes aligned to `alignment` (a power of two, at
  * most 64) or NULL; release gets back exactly what allocate was asked for. Both may be called from several
  * threads at once and must not call into the library. Both NULL (the default) means the global heap. The
- * index, its tables and its query scratch come from here; the temporary memory of building and opening does
- * not. */
+ * index, its tables and its query scratch come from here; the temporary memory of building, opening, saving
+ * and verifying, a geoidx_solver and what threads need to begin come from the global heap. When either has no
+ * more, the call returns GEOIDX_ERROR_OUT_OF_MEMORY. */
 typedef struct geoidx_allocator {
     void* (*allocate)(void* user, uint64_t size, uint64_t alignment);
     void (*release)(void* user, void* memory, uint64_t size, uint64_t alignment);
@@ -175,7 +178,7 @@ typedef struct geoidx_build_options {
     double weld_tolerance; /* vertices at most this far apart are one; 0 (default): equal positions only */
     double delta;     /* pruning threshold, % of the bounding-box diagonal (paper 3.3); 0 (default): none */
     uint64_t seed;    /* of every random choice; the same seed gives the same bytes */
-    uint32_t threads; /* 0 (default): one per processor */
+    uint32_t threads; /* 0 (default): one per processor; at most 1024 */
     /* Levels below the whole mesh, at most GEOIDX_MAX_LEVELS; 0 (default): automatic. */
     uint32_t level_count;
     /* patches[0] is n1, the number of patches of level 1; patches[i] how many each patch of level i is split
@@ -359,12 +362,13 @@ GEOIDX_API geoidx_status geoidx_query_msad_within(geoidx_query* query, const uin
                                                   uint32_t distance_count);
 
 /* From then on geoidx_query_msad and geoidx_query_msad_within of this query use so many threads, which begin
- * and end within each call, for the same bits: 1 at first, 0 means one per processor, at most 1024.
- * GEOIDX_ENGINE_GRAPH uses one. */
+ * and end within each call, for the same bits, or as many of them as the system can begin: 1 at first, 0
+ * means one per processor, at most 1024. GEOIDX_ENGINE_GRAPH uses one. */
 GEOIDX_API geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t threads);
 
-/* Keeps what depends on the source, for geoidx_query_prepared, until the next call. GEOIDX_ENGINE_OVERLAY: 4
- * bytes of scratch a vertex, and about half the time of MSAD. */
+/* Keeps what depends on the source, for geoidx_query_prepared, until the next call; one that fails for lack
+ * of memory leaves no source prepared. GEOIDX_ENGINE_OVERLAY: 4 bytes of scratch a vertex, and about half the
+ * time of MSAD. */
 GEOIDX_API geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t source);
 
 /* distances[i]: from the prepared source to targets[i]; GEOIDX_ERROR_INVALID_ARGUMENT without one. By
