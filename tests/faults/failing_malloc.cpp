@@ -28,8 +28,11 @@ namespace {
 std::atomic<bool> is_armed = false, all_from_there = false;
 std::atomic<uint64_t> call_count = 0, failing = 0, failure_count = 0;
 
+// What a sanitizer allocates when a thread begins and ends is its own affair.
+thread_local bool is_at_work = false;
+
 bool fails() {
-    if (!is_armed) return false;
+    if (!is_armed || !is_at_work) return false;
     const uint64_t call = call_count++;
     if (all_from_there ? call < failing : call != failing) return false;
     ++failure_count;
@@ -41,6 +44,20 @@ void* allocate_aligned(size_t alignment, size_t size) {
     if (fails()) return nullptr;
     return __interceptor_memalign ? __interceptor_memalign(alignment, size)
                                   : __libc_memalign(alignment, size);
+}
+
+struct ThreadStart {
+    void* (*run)(void*);
+    void* argument;
+};
+
+void* run_thread(void* given) {
+    const ThreadStart start = *static_cast<ThreadStart*>(given);
+    std::free(given);
+    is_at_work = true;
+    void* const result = start.run(start.argument);
+    is_at_work = false;
+    return result;
 }
 
 void* allocate_or_throw(size_t size) {
@@ -88,7 +105,12 @@ REPLACES int pthread_create(pthread_t* thread, const pthread_attr_t* attributes,
                             void* argument) {
     using Create = decltype(pthread_create);
     static auto* const create = reinterpret_cast<Create*>(dlsym(RTLD_NEXT, "pthread_create"));
-    return fails() ? EAGAIN : create(thread, attributes, run, argument);
+    auto* const start = static_cast<ThreadStart*>(std::malloc(sizeof(ThreadStart)));
+    if (!start) return EAGAIN;
+    *start = {run, argument};
+    const int error = create(thread, attributes, run_thread, start);
+    if (error) std::free(start);
+    return error;
 }
 }
 
@@ -116,10 +138,11 @@ FailingMalloc::FailingMalloc(uint64_t failing_call, bool recovers) {
     call_count = failure_count = 0;
     failing = failing_call;
     all_from_there = !recovers;
+    is_at_work = true;
     is_armed = true;
 }
 
-FailingMalloc::~FailingMalloc() { is_armed = false; }
+FailingMalloc::~FailingMalloc() { is_armed = is_at_work = false; }
 
 uint64_t FailingMalloc::failures() const { return failure_count; }
 
