@@ -19,7 +19,7 @@ struct Sizes {
 };
 
 Sizes random_sizes(Random& random) {
-    switch (random.below(20)) {
+    switch (random.below(24)) {
     case 0:
         return {8, 2, 4, 2, 2}; // deep
     case 1:
@@ -31,8 +31,11 @@ Sizes random_sizes(Random& random) {
     case 4:
         return {3, 2, 2, 1, 40}; // large leaves
     case 5:
+        return random.one_in(4) ? Sizes{1, 200, 300, 0, 2} // may be out of proportion
+                                : Sizes{1, 40, 3, 0, 2};
     case 6:
     case 7:
+    case 8:
         return {4, 3, 30, 12, 8};
     default:
         return {3, 3, 5, 3, 3};

@@ -34,7 +34,6 @@ void* aligned(size_t size, std::align_val_t alignment) {
 
 }
 
-uint64_t memory_at_hand() { return at_hand; }
 uint64_t peak_memory() { return peak; }
 void start_peak() { peak = at_hand.load(); }
 
