@@ -77,7 +77,9 @@ enum {
     GEOIDX_ERROR_CHECKSUM = -6,            /* stored bytes do not match their checksum */
     GEOIDX_ERROR_UNSUPPORTED_VERSION = -7, /* written by a newer format, or with features unknown here */
     GEOIDX_ERROR_MESH_MISMATCH = -8,       /* the index belongs to another mesh than the one given */
-    GEOIDX_ERROR_LIMIT = -9,               /* a count is over what the format or the library can hold */
+    /* A count is over what the format or the library can hold, or an index would take memory out of
+     * proportion to its file: the overlay engine's tables of borders that hundreds of patches share. */
+    GEOIDX_ERROR_LIMIT = -9,
     /* The allocator or the system has no more memory, or the system not even one thread for a build. Nothing
      * leaks, and the handles that the call was given can be used as before. */
     GEOIDX_ERROR_OUT_OF_MEMORY = -10,
@@ -293,7 +295,10 @@ GEOIDX_API geoidx_status geoidx_save(const geoidx* index, const char* utf8_path)
 GEOIDX_API geoidx_status geoidx_save_memory(const geoidx* index, void* buffer, uint64_t capacity,
                                             uint64_t* needed);
 
-/* Opens an index. Everything in the file is checked before it is believed. `options` may be NULL. */
+/* Opens an index. Everything in the file is checked before it is believed. The index, its queries and the
+ * temporary memory of opening take at most 160 times the raw size of the file's sections, and 16 MiB; what
+ * would take more is GEOIDX_ERROR_LIMIT before memory is taken. A small file can hold raw sections 1032 times
+ * its size. `options` may be NULL. */
 GEOIDX_API geoidx_status geoidx_open(const char* utf8_path, const geoidx_open_options* options, geoidx** out);
 
 /* The same from memory; `data` is not needed after the call. */
@@ -309,9 +314,9 @@ GEOIDX_API geoidx_status geoidx_get_info(const geoidx* index, geoidx_info* info)
  * valid during the call. Return 0 to stop. */
 typedef int32_t (*geoidx_issue_fn)(void* user, geoidx_status status, uint64_t offset, const char* message);
 
-/* Checks an index in memory as geoidx_open_memory does, but goes on after a problem where it can: each
- * section's checksum and contents are looked at. Returns GEOIDX_OK when there is none, otherwise the first
- * problem's status. `issue` may be NULL. */
+/* Checks an index in memory as geoidx_open_memory does, and accepts what that accepts, but goes on after a
+ * problem where it can: each section's checksum and contents are looked at. Returns GEOIDX_OK when there is
+ * none, otherwise the first problem's status. `issue` may be NULL. */
 GEOIDX_API geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user);
 
 /* ---- Queries (paper section 3.4)

@@ -16,15 +16,25 @@ constexpr uint32_t FEWEST = 64, LARGEST_STEP = 5;
 // Samples tell the way to what is farther than so many times the distance of two of them.
 constexpr float NEAR_SAMPLES = 8;
 
-// About every `step`-th vertex, evenly, and the ends of an open chain.
+// Samples are about every so manieth vertex of a patch's border.
+uint32_t step_of(const Index& index, uint32_t patch) {
+    return std::clamp(index.border_size(patch) / FEWEST, 1u, LARGEST_STEP);
+}
+
+// Of a chain of so many vertices; the ends of an open one are among them.
+uint32_t sample_count(uint32_t vertices, bool is_closed, uint32_t step) {
+    if (step == 1 || vertices <= 3) return vertices;
+    return std::max(3u, (vertices - !is_closed) / step) + !is_closed;
+}
+
+// Evenly.
 std::vector<uint32_t> sample(const Chain& chain, uint32_t step) {
-    const auto count = static_cast<uint32_t>(chain.positions.size());
-    if (step == 1 || count <= 3) return chain.positions;
-    const uint32_t intervals = chain.is_closed ? count : count - 1;
-    const uint32_t pieces = std::max(3u, intervals / step);
+    const auto vertices = static_cast<uint32_t>(chain.positions.size());
+    const uint32_t count = sample_count(vertices, chain.is_closed, step);
+    if (count == vertices) return chain.positions;
+    const uint32_t intervals = vertices - !chain.is_closed, pieces = count - !chain.is_closed;
     std::vector<uint32_t> samples;
-    for (uint32_t i = 0; i < pieces + !chain.is_closed; ++i)
-        samples.push_back(chain.positions[uint64_t{i} * intervals / pieces]);
+    for (uint32_t i = 0; i < count; ++i) samples.push_back(chain.positions[uint64_t{i} * intervals / pieces]);
     return samples;
 }
 
@@ -37,8 +47,7 @@ float segment_between(const Index& index, uint32_t patch, uint32_t a, uint32_t b
 }
 
 void sample_ring(Index& index, uint32_t patch, RingWriter& writer) {
-    const uint32_t size = index.border_size(patch);
-    const uint32_t step = std::clamp(size / FEWEST, 1u, LARGEST_STEP);
+    const uint32_t step = step_of(index, patch);
     for (const Chain& chain : chains_of_ring(index.overlay_tables.rings, patch)) {
         Chain coarse{sample(chain, step), {}, chain.is_closed};
         const size_t count = coarse.positions.size();
@@ -134,6 +143,20 @@ void clear(OverlayTables& tables) {
     tables.coarse_tables.clear();
 }
 
+}
+
+SampleCount count_samples(const Index& index, uint32_t patch) {
+    const Rings& rings = index.overlay_tables.rings;
+    const uint32_t step = step_of(index, patch);
+    SampleCount count;
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1];) {
+        const auto& [first, last, is_closed] = rings.chains[rings.chain[k]];
+        const uint32_t samples = sample_count(last - first + 1, is_closed != 0, step);
+        count.samples += samples;
+        count.places += samples + 2 * Rings::REACH;
+        k = last + Rings::REACH + 1;
+    }
+    return count;
 }
 
 void make_coarse_tables(Index& index) {

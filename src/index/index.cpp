@@ -5,6 +5,7 @@
 #include <string>
 
 #include "format/error.h"
+#include "src/index/proportion.h"
 
 namespace geodesic {
 
@@ -27,6 +28,7 @@ void require_room(uint64_t entries) {
 }
 
 void allocate_overlay_tables(Index& index) {
+    require_proportion(index);
     OverlayTables& tables = index.overlay_tables;
     tables.outer_begin.assign(2, 0);
     tables.inner_begin.assign(2, 0);
@@ -106,11 +108,23 @@ void derive_overlay_positions(Index& index) {
     }
 }
 
+// Every place in an overlay needs one on a child's border, so that there are no more of these than fit 32
+// bits.
+void require_children_around(const Index& index) {
+    uint64_t places = 0;
+    for (uint32_t p = 0; p < index.first_leaf(); ++p) places += index.overlay_size(p);
+    if (places > index.border.size())
+        throw Error(GEOIDX_ERROR_CORRUPT, "the overlays have " + std::to_string(places) +
+                                              " places, but the borders of children only " +
+                                              std::to_string(index.border.size()));
+}
+
 void derive_slots(Index& index) {
     index.patch_of_slot.resize(index.border.size());
     for (uint32_t p = 0; p < index.patch_count(); ++p)
         std::fill(index.patch_of_slot.begin() + index.border_begin[p],
                   index.patch_of_slot.begin() + index.border_begin[p + 1], p);
+    require_children_around(index);
     index.overlay_begin.assign(1, 0);
     for (uint32_t p = 0; p < index.first_leaf(); ++p)
         index.overlay_begin.push_back(index.overlay_begin.back() + index.overlay_size(p));

@@ -210,7 +210,8 @@ struct Index {
 // graph engine. Throws Error LIMIT when they would not fit.
 void allocate_tables(Index& index);
 
-// Likewise those of the overlay engine, when the rings are laid out.
+// Likewise those of the overlay engine, when the rings are laid out and allocate_tables() was called. Throws
+// Error LIMIT where they, or the labels, would be out of proportion to what the file holds.
 void allocate_overlay_tables(Index& index);
 
 // Fills what is derived; throws Error CORRUPT where a border vertex is on the border of a patch but not in

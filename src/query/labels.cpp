@@ -4,9 +4,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
-#include <string>
 
-#include "format/error.h"
 #include "src/query/inner_sweep.h"
 #include "src/query/steps.h"
 
@@ -16,10 +14,6 @@ namespace {
 
 constexpr size_t SOURCES = InnerSweep::MOST_SOURCES;
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
-
-// Labels of a mesh are about as many as its table entries; a file that needs so many for each is none of a
-// mesh.
-constexpr uint64_t MOST_PER_ENTRY = 64;
 
 void lay_out_labels(Index& index) {
     OverlayTables& tables = index.overlay_tables;
@@ -34,11 +28,6 @@ void lay_out_labels(Index& index) {
         tables.label_begin[p] = size;
         size += uint64_t{index.inner_size(p)} * tables.label_offset[p];
     }
-    const uint64_t entries = tables.outer_tables.size() + tables.inner_tables.size();
-    const uint64_t heads = uint64_t{OverlayTables::LABEL_HEAD} * index.level_count() * index.vertex_count();
-    if (size > heads + MOST_PER_ENTRY * entries)
-        throw Error(GEOIDX_ERROR_LIMIT, "labels would take " + std::to_string(size) +
-                                            " numbers, for tables of " + std::to_string(entries));
     tables.labels.assign(size, SeenCodes::NOT_SEEN);
 }
 

@@ -7,7 +7,7 @@
 namespace geodesic {
 
 // Fills the labels of an index of the overlay engine; nothing of another. Calls look_up() every now and then,
-// which may throw. Throws Error LIMIT where labels would be out of proportion to the tables.
+// which may throw.
 void make_labels(Index& index, const std::function<void()>& look_up);
 
 }
