@@ -27,7 +27,6 @@ std::vector<uint32_t> first_numbers(uint32_t count) {
     return numbers;
 }
 
-// Of distances that are all the same, so that it does not matter where an entry stands.
 Matrix filled(uint64_t rows, uint64_t cols, float code) {
     return {std::vector<float>(rows * cols, code), static_cast<uint32_t>(rows), static_cast<uint32_t>(cols)};
 }
@@ -39,7 +38,8 @@ Matrix filled_triangle(uint64_t size, float code) {
 // all of these on their borders, which are closed chains if is_closed. code(leaf): of its border-internal
 // table.
 FileContent content_of(uint32_t border_vertices, uint32_t levels, const std::vector<Leaf>& leaves,
-                       bool is_closed, const std::function<float(size_t)>& code) {
+                       bool is_closed, const std::function<float(size_t, size_t)>& code,
+                       float overlay_code = 1) {
     FileContent content;
     content.engine = GEOIDX_ENGINE_OVERLAY;
     content.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
@@ -60,8 +60,10 @@ FileContent content_of(uint32_t border_vertices, uint32_t levels, const std::vec
         content.parent.push_back(levels - 1);
         content.borders.push_back(leaves[i].border);
         content.internal.push_back(leaves[i].internal);
-        content.border_internal_tables.push_back(
-            filled(leaves[i].border.size(), leaves[i].internal, code(i)));
+        Matrix& table = content.border_internal_tables.emplace_back(
+            filled(leaves[i].border.size(), leaves[i].internal, 0));
+        for (size_t at = 0; at < table.values.size(); ++at)
+            table.values[at] = code(i, at / leaves[i].internal);
         content.internal_tables.push_back(filled_triangle(leaves[i].internal, 1));
         vertices += leaves[i].internal;
     }
@@ -69,12 +71,12 @@ FileContent content_of(uint32_t border_vertices, uint32_t levels, const std::vec
     content.number_of_id = first_numbers(vertices);
     content.positions.resize(vertices);
     content.quantum.assign(content.patch_count(), 1);
-    content.overlay_tables.push_back(filled_triangle(border_vertices, 1));
+    content.overlay_tables.push_back(filled_triangle(border_vertices, overlay_code));
     for (const auto& border : content.borders) {
         const auto size = static_cast<uint32_t>(border.size());
         content.next.emplace_back(size, UINT32_MAX);
         content.segment_length.emplace_back(size, 0.f);
-        if (!is_closed || size < 3) continue;
+        if (!is_closed || size < 2) continue;
         for (uint32_t i = 0; i < size; ++i) content.next.back()[i] = (i + 1) % size;
         content.segment_length.back().assign(size, 1);
     }
@@ -99,7 +101,8 @@ IndexHandle opened(const FileContent& content) { return open(file_campaign::writ
 }
 
 TEST_CASE("harmful file: patches with an empty border, which no path leaves") {
-    const auto content = content_of(2, 1, {{{0, 1}, 2}, {{}, 2}, {{}, 1}}, false, [](size_t) { return 1.f; });
+    const auto content =
+        content_of(2, 1, {{{0, 1}, 2}, {{}, 2}, {{}, 1}}, false, [](size_t, size_t) { return 1.f; });
     const auto index = opened(content);
     const uint32_t vertices = content.id_count();
     const uint32_t part_of[] = {0, 0, 0, 0, 1, 1, 2};
@@ -112,11 +115,25 @@ TEST_CASE("harmful file: patches with an empty border, which no path leaves") {
         }
 }
 
+TEST_CASE("harmful file: a border of which one vertex is reached, beside an empty one") {
+    const auto content = content_of(
+        2, 1, {{{}, 3}, {{0, 1}, 2}}, true, [](size_t, size_t row) { return row == 0 ? INFINITE : 16010.f; },
+        INFINITE);
+    const auto index = opened(content);
+    for (uint32_t alone : {2u, 3u, 4u})
+        for (uint32_t other : {0u, 1u, 5u, 6u}) {
+            CHECK(sssd(index.get(), alone, other) == INFINITE);
+            CHECK(sssd(index.get(), 0, other) == (other == 0 ? 0 : INFINITE));
+        }
+    CHECK(sssd(index.get(), 1, 5) == 16010);
+    CHECK(sssd(index.get(), 5, 6) == 1);
+}
+
 TEST_CASE("harmful file: a vertex that the border around it cannot be reached from, after a pair that can") {
     // The first pair's way crosses late on a long border, the second one's border has one vertex.
     const std::vector<Leaf> leaves{{first_numbers(300), 1}, {{0}, 1}, {{0, 299}, 1}};
     const auto content =
-        content_of(300, 1, leaves, true, [](size_t leaf) { return leaf == 1 ? INFINITE : 0.f; });
+        content_of(300, 1, leaves, true, [](size_t leaf, size_t) { return leaf == 1 ? INFINITE : 0.f; });
     const auto index = opened(content);
     const auto query = query_of(index.get());
     const uint32_t reached = 300, unreached = 301, other = 302;
@@ -134,18 +151,18 @@ TEST_CASE("harmful file: a vertex that the border around it cannot be reached fr
 TEST_CASE("harmful file: the same border around many leaves, gigabytes from a few thousand bytes") {
     const std::vector<Leaf> leaves(300, {first_numbers(700), 0});
     for (bool is_closed : {false, true})
-        check_limit(content_of(700, 1, leaves, is_closed, [](size_t) { return 1.f; }));
+        check_limit(content_of(700, 1, leaves, is_closed, [](size_t, size_t) { return 1.f; }));
 }
 
 TEST_CASE("harmful file: labels to a border that nothing else is stored of") {
     std::vector<Leaf> leaves(70000, {{}, 1});
     leaves[0] = {first_numbers(400), 0};
-    check_limit(content_of(400, 2, leaves, true, [](size_t) { return 1.f; }));
+    check_limit(content_of(400, 2, leaves, true, [](size_t, size_t) { return 1.f; }));
 }
 
 TEST_CASE("harmful file: labels in proportion are fine, however few the tables") {
     std::vector<Leaf> leaves(3000, {{}, 1});
     leaves[0] = {first_numbers(10), 0};
-    const auto content = content_of(10, 2, leaves, true, [](size_t) { return 1.f; });
+    const auto content = content_of(10, 2, leaves, true, [](size_t, size_t) { return 1.f; });
     CHECK(sssd(opened(content).get(), 10, 11) == INFINITE);
 }
