@@ -120,7 +120,8 @@ enum { GEOIDX_POSITION_FLOAT = 0, GEOIDX_POSITION_DOUBLE = 1 };
  * weld_tolerance), degenerate and duplicate triangles are dropped, a vertex that no triangle uses keeps its
  * id and is unreachable. Any number of components, open boundaries, any genus, either orientation, vertices
  * where several fans of triangles meet, and edges with three or more triangles are fine: paths pass from each
- * of them to every other. A NaN or infinite position and an index out of range are GEOIDX_ERROR_BAD_MESH. */
+ * of them to every other. A NaN or infinite position, a double that is larger than the largest float, and an
+ * id out of range are GEOIDX_ERROR_BAD_MESH. */
 typedef struct geoidx_mesh {
     uint32_t struct_size;
     uint32_t position_type;    /* GEOIDX_POSITION_FLOAT (default) or GEOIDX_POSITION_DOUBLE */
@@ -231,9 +232,12 @@ static inline void geoidx_build_options_init(geoidx_build_options* options) {
 
 typedef struct geoidx_open_options {
     uint32_t struct_size;
-    uint32_t reserved;                /* not read */
-    const geoidx_mesh* expected_mesh; /* may be NULL; otherwise the index must have been built from this very
-                                         mesh (same arrays, same numbers), else GEOIDX_ERROR_MESH_MISMATCH */
+    uint32_t reserved; /* not read */
+    /* May be NULL; otherwise the index must have been built from this very mesh, else
+     * GEOIDX_ERROR_MESH_MISMATCH: the same triangles in the same order, and positions that are equal as
+     * floats, so that it does not matter which of the two was given in double precision. (Two meshes that
+     * differ by less than a float can tell, which may be much far from the origin, count as one.) */
+    const geoidx_mesh* expected_mesh;
     geoidx_allocator allocator;
 } geoidx_open_options;
 
@@ -250,7 +254,7 @@ typedef struct geoidx_info {
     uint64_t vertex_count;        /* of the caller's array */
     uint64_t triangle_count;      /* of the caller's array */
     uint64_t welded_vertex_count; /* distinct vertices after welding that a triangle uses */
-    uint64_t mesh_fingerprint;
+    uint64_t mesh_fingerprint;    /* of triangles and positions, the latter as floats (see expected_mesh) */
     uint64_t table_entries;       /* distances in all tables; of a symmetric one below the diagonal, but for
                                      border tables */
     uint64_t border_vertex_count; /* vertices on a border of the last level, after pruning */

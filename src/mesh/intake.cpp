@@ -55,6 +55,15 @@ Eigen::Vector3d position_at(const std::byte* address) {
     return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2])};
 }
 
+// The file and the fingerprint hold positions as floats.
+void check_position(const Eigen::Vector3d& position, size_t vertex) {
+    if (!position.allFinite())
+        bad_mesh("vertex " + std::to_string(vertex) + " has a position that is NaN or infinite");
+    if (position.cwiseAbs().maxCoeff() > double{FLT_MAX})
+        bad_mesh("vertex " + std::to_string(vertex) +
+                 " has a coordinate that is larger than a 32-bit float holds");
+}
+
 std::vector<Eigen::Vector3d> read_positions(const geoidx_mesh& mesh) {
     const size_t stride = position_stride(mesh);
     const auto* bytes = static_cast<const std::byte*>(mesh.positions);
@@ -62,8 +71,7 @@ std::vector<Eigen::Vector3d> read_positions(const geoidx_mesh& mesh) {
     std::vector<Eigen::Vector3d> positions(mesh.vertex_count);
     for (size_t i = 0; i < positions.size(); ++i) {
         positions[i] = read(bytes + i * stride);
-        if (!positions[i].allFinite())
-            bad_mesh("vertex " + std::to_string(i) + " has a position that is NaN or infinite");
+        check_position(positions[i], i);
     }
     return positions;
 }
@@ -194,9 +202,15 @@ double bounding_box_diagonal(const Mesh& mesh) {
     return (high - low).stableNorm();
 }
 
+// Of floats, so that a mesh is the same one whether its positions are given in single or in double precision.
+// Adding 0 makes -0, which texts and programs may lose, the same as +0.
 uint64_t fingerprint(const std::vector<Eigen::Vector3d>& positions,
                      const std::vector<std::array<uint32_t, 3>>& triangles) {
-    const uint64_t first = XXH3_64bits(positions.data(), positions.size() * sizeof positions[0]);
+    std::vector<std::array<float, 3>> rounded(positions.size());
+    for (size_t i = 0; i < positions.size(); ++i)
+        for (size_t k = 0; k < 3; ++k)
+            rounded[i][k] = static_cast<float>(positions[i][static_cast<Eigen::Index>(k)]) + 0.0f;
+    const uint64_t first = XXH3_64bits(rounded.data(), rounded.size() * sizeof rounded[0]);
     return XXH3_64bits_withSeed(triangles.data(), triangles.size() * sizeof triangles[0], first);
 }
 

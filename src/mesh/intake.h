@@ -29,8 +29,8 @@ struct IntakeOptions {
 // Checks the caller's mesh and makes a clean one of it; throws Error naming the first offending element.
 Intake take_in(const geoidx_mesh& mesh, const IntakeOptions& options);
 
-// Tells one mesh from another by its numbers: positions (as doubles) and triangles in the caller's order.
-// Throws Error where the arrays cannot be read.
+// Tells one mesh from another by its numbers: positions, rounded to float, and triangles in the caller's
+// order. Throws Error where the arrays cannot be read.
 uint64_t mesh_fingerprint(const geoidx_mesh& mesh);
 
 }

@@ -371,24 +371,62 @@ TEST_CASE("the data of open_memory is not needed after the call") {
     CHECK(save(index.get()) == save(original.get()));
 }
 
+namespace {
+
+// Opens the file with that mesh as the expected one.
+geoidx_status status_expecting(const geoidx_mesh& view, const Bytes& bytes) {
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    options.expected_mesh = &view;
+    geoidx* index = not_null();
+    const geoidx_status status = geoidx_open_memory(bytes.data(), bytes.size(), &options, &index);
+    CHECK((index == nullptr) == (status != GEOIDX_OK));
+    geoidx_close(index);
+    return status;
+}
+
+// The same mesh in single precision.
+struct FloatMesh {
+    std::vector<float> positions;
+    const std::vector<uint32_t>& triangles;
+
+    explicit FloatMesh(const TestMesh& mesh) : triangles(mesh.triangles) {
+        for (const double coordinate : mesh.positions) positions.push_back(static_cast<float>(coordinate));
+    }
+
+    geoidx_mesh view() const {
+        geoidx_mesh mesh;
+        geoidx_mesh_init(&mesh);
+        mesh.positions = positions.data();
+        mesh.vertex_count = positions.size() / 3;
+        mesh.triangles = triangles.data();
+        mesh.triangle_count = triangles.size() / 3;
+        return mesh;
+    }
+};
+
+Bytes file_of(const geoidx_mesh& view, double weld_tolerance = 0) {
+    geoidx_build_options options = build_options();
+    options.weld_tolerance = weld_tolerance;
+    geoidx* index = nullptr;
+    REQUIRE(geoidx_build(&view, &options, &index) == GEOIDX_OK);
+    return save(IndexHandle(index).get());
+}
+
+}
+
 TEST_CASE("expected_mesh must be the very mesh") {
     const TestMesh mesh = grid(6, 5, 0.2);
     const Bytes bytes = save(build(mesh, build_options()).get());
     const auto status_with = [&](const TestMesh& expected) {
-        const geoidx_mesh view = expected.view();
-        geoidx_open_options options;
-        geoidx_open_options_init(&options);
-        options.expected_mesh = &view;
-        geoidx* index = not_null();
-        const geoidx_status status = geoidx_open_memory(bytes.data(), bytes.size(), &options, &index);
-        CHECK((index == nullptr) == (status != GEOIDX_OK));
-        geoidx_close(index);
-        return status;
+        return status_expecting(expected.view(), bytes);
     };
     CHECK(status_with(mesh) == GEOIDX_OK);
     TestMesh other = mesh;
-    other.positions[31] = std::nextafter(other.positions[31], 100.0);
+    const float moved = std::nextafter(static_cast<float>(other.positions[31]), 100.0f);
+    other.positions[31] = static_cast<double>(moved);
     CHECK(status_with(other) == GEOIDX_ERROR_MESH_MISMATCH);
+    CHECK(status_expecting(FloatMesh(other).view(), bytes) == GEOIDX_ERROR_MESH_MISMATCH);
     other = mesh;
     std::swap(other.triangles[0], other.triangles[1]);
     CHECK(status_with(other) == GEOIDX_ERROR_MESH_MISMATCH);
@@ -402,6 +440,52 @@ TEST_CASE("expected_mesh must be the very mesh") {
     other = mesh;
     other.triangles[0] = 30;
     CHECK(status_with(other) == GEOIDX_ERROR_BAD_MESH);
+}
+
+TEST_CASE("expected_mesh is the same mesh in single and in double precision") {
+    for (const double offset : {0.0, 1.0 / 3, 1e5 / 7, 1e30 / 7}) {
+        CAPTURE(offset);
+        TestMesh mesh = grid(6, 5, 0.2); // whose jittered coordinates no float holds
+        for (double& coordinate : mesh.positions)
+            coordinate = offset + coordinate * std::max(1.0, offset / 1e3);
+        mesh.add_vertex(1e-60, -1e-50, 1e-40); // below the smallest float, and not used
+        const FloatMesh floats(mesh);
+        const TestMesh widened{{floats.positions.begin(), floats.positions.end()}, mesh.triangles};
+        for (const double weld_tolerance : {0.0, 1e-3})
+            for (const geoidx_mesh& built : {mesh.view(), floats.view(), widened.view()}) {
+                const Bytes bytes = file_of(built, weld_tolerance);
+                for (const geoidx_mesh& expected : {mesh.view(), floats.view(), widened.view()})
+                    CHECK(status_expecting(expected, bytes) == GEOIDX_OK);
+            }
+    }
+}
+
+TEST_CASE("expected_mesh does not tell -0 from 0") {
+    TestMesh mesh = grid(4, 4);
+    TestMesh negative = mesh;
+    for (double& coordinate : negative.positions)
+        if (coordinate == 0) coordinate = -0.0;
+    REQUIRE(std::signbit(FloatMesh(negative).positions[0]));
+    const Bytes bytes = save(build(mesh, build_options()).get());
+    CHECK(status_expecting(negative.view(), bytes) == GEOIDX_OK);
+    CHECK(status_expecting(FloatMesh(negative).view(), bytes) == GEOIDX_OK);
+    CHECK(status_expecting(mesh.view(), file_of(FloatMesh(negative).view())) == GEOIDX_OK);
+}
+
+TEST_CASE("a mesh far from the origin is refused, or its file can be opened") {
+    for (const double offset : {1e37, 3e38, 1e39, 1e300}) {
+        CAPTURE(offset);
+        TestMesh mesh = grid(6, 5);
+        for (size_t i = 0; i < mesh.positions.size(); ++i)
+            mesh.positions[i] = mesh.positions[i] * 1e36 + (i % 3 == 0 ? offset : 0);
+        const geoidx_mesh view = mesh.view();
+        const geoidx_build_options options = build_options();
+        geoidx* made = nullptr;
+        const geoidx_status status = geoidx_build(&view, &options, &made);
+        const IndexHandle index(made);
+        CHECK(status == (offset > 3.4e38 ? GEOIDX_ERROR_BAD_MESH : GEOIDX_OK));
+        if (status == GEOIDX_OK) CHECK(status_expecting(view, save(index.get())) == GEOIDX_OK);
+    }
 }
 
 TEST_CASE("a failed open sets the handle to NULL") {

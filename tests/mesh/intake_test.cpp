@@ -354,14 +354,36 @@ TEST_CASE("intake: a weld tolerance must be a finite number, not negative") {
     CHECK(refusal(view_of(soup), &detail, -0.0) == GEOIDX_OK);
 }
 
+TEST_CASE("intake: a coordinate that no float holds is refused, wherever it is") {
+    const Soup near = square();
+    std::string detail;
+    for (const double sign : {1.0, -1.0})
+        for (const double size : {std::nextafter(double{FLT_MAX}, INFINITY), 1e39, DBL_MAX}) {
+            CAPTURE(size);
+            Soup soup = near;
+            soup.positions.push_back({0, sign * size, 0}); // that no triangle uses
+            CHECK(refusal(view_of(soup), &detail) == GEOIDX_ERROR_BAD_MESH);
+            CHECK(names(detail, 4));
+            for (auto& position : soup.positions)
+                position = {sign * size, 1e37 * position[0], 1e37 * position[1]};
+            CHECK(refusal(view_of(soup), &detail) == GEOIDX_ERROR_BAD_MESH); // though distances would fit
+            CHECK(names(detail, 0));
+        }
+    Soup largest = near;
+    largest.positions.push_back({double{FLT_MAX}, -double{FLT_MAX}, 0});
+    CHECK(refusal(view_of(largest), &detail) == GEOIDX_OK);
+}
+
 TEST_CASE("intake: a mesh whose distances would overflow a float is refused") {
     Soup soup = square();
-    soup.positions[2] = {2.0 * static_cast<double>(FLT_MAX), 1, 0};
+    soup.positions[2] = {double{FLT_MAX}, double{FLT_MAX}, 0};
     std::string detail;
     CHECK(refusal(view_of(soup), &detail) == GEOIDX_ERROR_BAD_MESH);
-    soup.positions[2] = {DBL_MAX, 1, 0};
-    soup.positions[1] = {-DBL_MAX, 1, 0}; // the difference alone is infinite
+    CHECK(contains(detail, "bounding box"));
+    soup.positions[2] = {double{FLT_MAX}, 1, 0};
+    soup.positions[1] = {-double{FLT_MAX}, 1, 0};
     CHECK(refusal(view_of(soup), &detail) == GEOIDX_ERROR_BAD_MESH);
+    CHECK(contains(detail, "bounding box"));
 }
 
 TEST_CASE("intake: the fingerprint changes with any number") {
@@ -373,7 +395,8 @@ TEST_CASE("intake: the fingerprint changes with any number") {
     for (size_t i = 0; i < soup.positions.size(); ++i)
         for (int k = 0; k < 3; ++k) {
             Soup changed = soup;
-            changed.positions[i][k] = std::nextafter(changed.positions[i][k], 2.0);
+            changed.positions[i][k] =
+                static_cast<double>(std::nextafter(static_cast<float>(changed.positions[i][k]), 2.0f));
             CHECK(seen.insert(mesh_fingerprint(view_of(changed))).second);
         }
     for (size_t f = 0; f < soup.triangles.size(); ++f) {

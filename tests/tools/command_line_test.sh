@@ -365,6 +365,20 @@ fails_with 'vertex 4294967295 ' sssd grid.obj.geoidx 4294967295 0
 fails_with 'vertex 441 ' msad grid.obj.geoidx 0 441 -o x.f32
 fails_with 'another mesh|built from' sssd grid.obj.geoidx 0 1 --exact sphere.obj
 fails_with 'another mesh|built from' msad grid.obj.geoidx 0 -o x.f32 --mesh sphere.obj --png x.png
+# A mesh is the same one in more digits than a float holds and in as many, but not in fewer.
+for digits in 17 9 6; do
+    awk -v form="v %.${digits}g %.${digits}g %.${digits}g\n" \
+        '/^v/ { printf form, $2 / 3, $3 / 3, $4 / 3; next } { print }' grid.obj >third_$digits.obj
+done
+for mesh in third_17 third_9; do
+    succeeds build $mesh.obj -o third.geoidx
+    for same in third_17 third_9; do
+        succeeds sssd third.geoidx 0 1 --exact $same.obj
+        succeeds msad third.geoidx 0 -o third.f32 --mesh $same.obj --png third.png
+    done
+    fails_with 'built from' sssd third.geoidx 0 1 --exact third_6.obj
+    fails_with 'built from' msad third.geoidx 0 -o third.f32 --mesh third_6.obj --png third.png
+done
 absent x.f32 x.png
 
 while IFS='|' read -r lines pattern; do

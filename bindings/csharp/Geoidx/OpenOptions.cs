@@ -4,7 +4,8 @@ namespace Geoidx
     public sealed class OpenOptions
     {
         /// <summary>
-        /// The mesh that the index must have been built from: the same arrays with the same numbers. Default: any.
+        /// The mesh that the index must have been built from: the same triangles, and positions that are equal as
+        /// floats, whichever of the two was given in double precision. Default: any.
         /// </summary>
         public GeodesicMesh? ExpectedMesh { get; set; }
 

@@ -80,6 +80,12 @@ class Statuses(unittest.TestCase):
                 expected_mesh=expected,
             )
         geoidx.Index.from_bytes(self.data, expected_mesh=SQUARE)
+        vertices, faces = hills(6, 5)
+        wide, narrow = vertices.astype(np.float64), vertices.astype(np.float32)
+        self.assertFalse(np.array_equal(wide, narrow))
+        for built, expected in ((wide, narrow), (narrow, wide)):
+            data = geoidx.Index.build(built, faces).to_bytes()
+            geoidx.Index.from_bytes(data, expected_mesh=(expected, faces))
 
     def test_limit(self):
         self.raised(

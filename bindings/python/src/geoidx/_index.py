@@ -127,8 +127,8 @@ class Index(Closable):
     ) -> Index:
         """Opens a file: str, bytes or os.PathLike of either. Everything in it is checked before it is believed.
 
-        expected_mesh: the vertices and faces (same arrays, same numbers) that the index must have been built from,
-            else MeshMismatchError.
+        expected_mesh: the vertices and faces that the index must have been built from, else MeshMismatchError: the
+            same faces, and vertices that are equal as float32, whichever of the two was given as float64.
 
         Raises FileError, which is an OSError (MissingFileError, a FileNotFoundError, where there is no such file),
         and FormatError, which is a ValueError. A path that no file can have is an InvalidArgumentError.
