@@ -3,6 +3,11 @@
 #ifndef GEOIDX_HPP
 #define GEOIDX_HPP
 
+// Compilers that know only parts of C++20 yet have a number between those of C++17 and C++20.
+#if __cplusplus <= 201703L && (!defined(_MSVC_LANG) || _MSVC_LANG <= 201703L)
+#error "geoidx.hpp needs C++20: compile with -std=c++20 (MSVC: /std:c++20), or include geoidx.h"
+#endif
+
 #include <cstddef>
 #include <cstdint>
 #include <exception>
