@@ -1,0 +1,108 @@
+#include "tests/campaign/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/campaign/finding.h"
+
+namespace geodesic::campaign {
+
+namespace {
+
+// Sums of a few floats.
+constexpr double FLOAT_ROUNDING = 3e-6;
+// Below this a float has fewer digits, or is 0.
+constexpr double SMALLEST = 1e-36;
+// Faces without area are given one (README, limits), and squares of lengths are lost below their rounding.
+constexpr double METRIC_ROUNDING = 1e-5;
+// How much too short and too long an answer of GEOIDX_ENGINE_OVERLAY may be: gross errors only, since the
+// largest ones of hard surfaces are not bounded yet.
+constexpr double OVERLAY_SHORT = 0.5, OVERLAY_LONG = 2;
+
+bool is_source(const Truth& truth, const Surface& surface, uint32_t target) {
+    return std::ranges::any_of(truth.sources, [&](uint32_t s) { return surface.are_one(s, target); });
+}
+
+}
+
+// A way has two hops a level and one across. Each rounds to half a step of its table, and each passes a
+// border at the vertex that stands for a pruned one, within delta of it. 16-bit tables have at least 2^14
+// steps.
+Bounds::Bounds(const BuildInput& input, const geoidx_info& info, double longest)
+    : is_graph_(info.engine == GEOIDX_ENGINE_GRAPH),
+      unfolds_(!is_graph_ && (info.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0) {
+    const double hops = 2 * info.level_count + 1;
+    detour_ = 2 * hops * input.options().delta / 100 * info.bounding_box_diagonal;
+    rounding_ = is_graph_ ? 0 : hops * longest / 16384;
+}
+
+double Bounds::least(double exact) const {
+    if (is_graph_) return exact * (1 - FLOAT_ROUNDING) - SMALLEST;
+    return exact * (unfolds_ ? OVERLAY_SHORT : 0.98) - rounding_ - SMALLEST;
+}
+
+double Bounds::most(double along_edges) const {
+    if (is_graph_) return (along_edges + detour_) * (1 + FLOAT_ROUNDING) + SMALLEST;
+    return (along_edges + 2 * detour_) * (unfolds_ ? OVERLAY_LONG : 1.02) + rounding_ + SMALLEST;
+}
+
+Truth truth_of(const BuildInput& input, geoidx_solver* solver, std::span<const uint32_t> sources) {
+    const Surface& surface = input.surface();
+    Truth truth{{sources.begin(), sources.end()}, {}, std::vector(surface.vertex_count(), FAR)};
+    truth.exact.resize(surface.vertex_count());
+    succeed(geoidx_solver_distances(solver, sources.data(), static_cast<uint32_t>(sources.size()), nullptr,
+                                    surface.vertex_count(), truth.exact.data()),
+            "geoidx_solver_distances");
+    for (uint32_t source : sources) {
+        const auto field = surface.along_edges(input.edge_bounds(), source);
+        for (uint32_t id = 0; id < field.size(); ++id)
+            truth.along_edges[id] = std::min(truth.along_edges[id], field[id]);
+    }
+    return truth;
+}
+
+void check_truth(const BuildInput& input, const Truth& truth) {
+    const Surface& surface = input.surface();
+    const bool is_straight_bound =
+        input.options().metric == GEOIDX_METRIC_EXACT && !input.options().edge_lengths;
+    for (uint32_t id = 0; id < surface.vertex_count(); ++id) {
+        const double d = truth.exact[id], bound = truth.along_edges[id];
+        const bool is_reached =
+            std::ranges::any_of(truth.sources, [&](uint32_t s) { return surface.are_joined(s, id); });
+        expect((d < FAR) == is_reached && (bound < FAR) == is_reached, "solver reaches",
+               "%u: %.9g, edges %.9g", id, d, bound);
+        expect(d >= 0, "solver not negative", "%u: %.17g", id, d);
+        if (!is_reached) continue;
+        expect(d <= bound * (1 + METRIC_ROUNDING) + SMALLEST, "solver over edges",
+               "%u to %u: %.17g, edges %.17g", truth.sources[0], id, d, bound);
+        if (input.options().metric == GEOIDX_METRIC_EDGES)
+            expect(d >= bound * (1 - METRIC_ROUNDING), "solver under edges", "%u to %u: %.17g, edges %.17g",
+                   truth.sources[0], id, d, bound);
+        double straight = FAR;
+        for (uint32_t source : truth.sources) straight = std::min(straight, input.straight(source, id));
+        if (is_straight_bound)
+            expect(d >= straight * (1 - METRIC_ROUNDING), "solver under straight",
+                   "%u to %u: %.17g, straight %.17g", truth.sources[0], id, d, straight);
+    }
+}
+
+void check_answer(const char* query, const BuildInput& input, const Bounds& bounds, const Truth& truth,
+                  uint32_t target, float answer) {
+    const Surface& surface = input.surface();
+    const double exact = truth.exact[target], d{answer};
+    const std::string values = formatted("%u to %u: %.9g, metric %.9g, edges %.9g", truth.sources[0], target,
+                                         d, exact, truth.along_edges[target]);
+    const auto require = [&](bool holds, const char* what) {
+        if (!holds) throw Finding(std::string(query) + ' ' + what, values);
+    };
+    require(!std::isnan(d), "is NaN");
+    require(d >= 0, "is negative");
+    require((d < FAR) == (exact < FAR), exact < FAR ? "does not reach" : "reaches");
+    if (exact == FAR) return;
+    if (is_source(truth, surface, target)) return require(d == 0, "is not 0 at its source");
+    require(d > 0 || bounds.least(exact) <= 0, "is 0 elsewhere");
+    require(d >= bounds.least(exact), "is too short");
+    require(d <= bounds.most(truth.along_edges[target]), "is too long");
+}
+
+}

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "tests/campaign/build_input.h"
+
+namespace geodesic::campaign {
+
+// What an answer may be, by what the header and the limits in README promise of an engine.
+class Bounds {
+public:
+    Bounds(const BuildInput& input, const geoidx_info& info, double longest);
+
+    // From the metric's own distance and the shortest way along edges.
+    double least(double exact) const;
+    double most(double along_edges) const;
+
+private:
+    bool is_graph_;
+    bool unfolds_;
+    double detour_;   // what pruning may add to a way
+    double rounding_; // of 16-bit tables, over all hops of a way
+};
+
+// The metric and its bounds from one source, or from the nearest of several, to every vertex.
+struct Truth {
+    std::vector<uint32_t> sources;
+    std::vector<double> exact, along_edges;
+};
+Truth truth_of(const BuildInput& input, geoidx_solver* solver, std::span<const uint32_t> sources);
+
+// The metric's own answers are themselves checked: reachable exactly where the surface hangs together, never
+// shorter than straight, never longer than along edges.
+void check_truth(const BuildInput& input, const Truth& truth);
+
+// One answer for the way between the source and `target`.
+void check_answer(const char* query, const BuildInput& input, const Bounds& bounds, const Truth& truth,
+                  uint32_t target, float answer);
+
+}

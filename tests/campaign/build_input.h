@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geoidx.h"
+#include "tests/campaign/oracle.h"
+#include "tests/campaign/random_options.h"
+
+namespace geodesic::campaign {
+
+struct Close {
+    void operator()(geoidx* index) const { geoidx_close(index); }
+    void operator()(geoidx_query* query) const { geoidx_query_close(query); }
+    void operator()(geoidx_solver* solver) const { geoidx_solver_close(solver); }
+};
+using IndexHandle = std::unique_ptr<geoidx, Close>;
+using QueryHandle = std::unique_ptr<geoidx_query, Close>;
+using SolverHandle = std::unique_ptr<geoidx_solver, Close>;
+
+// A call that must succeed.
+void succeed(geoidx_status status, const char* call);
+
+// A mesh and its options as the library takes them, with all arrays that they point to.
+class BuildInput {
+public:
+    BuildInput(const test::Soup& soup, const CaseOptions& chosen);
+    BuildInput(const BuildInput&) = delete;
+    BuildInput& operator=(const BuildInput&) = delete;
+
+    const geoidx_mesh& mesh() const { return mesh_; }
+    const geoidx_build_options& options() const { return options_; }
+    const Surface& surface() const { return surface_; }
+    // No way along edges is shorter than its costs, and the metric knows each of these ways; by
+    // Surface::edges().
+    const std::vector<double>& edge_bounds() const { return edge_bounds_; }
+    // No metric of this kind is shorter.
+    double straight(uint32_t a, uint32_t b) const;
+
+    SolverHandle make_solver() const;
+
+private:
+    static geoidx_status answer(void* user, uint32_t source, const uint32_t* targets, uint32_t count,
+                                double* distances);
+    void give_lengths();
+    void give_edge_costs();
+    void give_face_costs();
+    void measure_callback();
+    double random_cost(uint64_t a, uint64_t b) const;
+
+    CaseOptions chosen_;
+    std::vector<float> positions_; // if the library is given floats
+    test::Soup soup_;
+    Surface surface_;
+    geoidx_mesh mesh_;
+    geoidx_build_options options_;
+    std::vector<double> edge_bounds_, edge_costs_, face_costs_, lengths_;
+    std::vector<double> square_; // distances of the callback
+};
+
+}

@@ -1,0 +1,82 @@
+#include <algorithm>
+
+#include "tests/campaign/mesh_case.h"
+
+namespace geodesic::campaign {
+
+namespace {
+
+bool still_fails(const MeshCase& smaller, const std::string& check) {
+    const auto failure = failure_of(smaller, true);
+    return failure && failure->check == check;
+}
+
+// Without `count` triangles from `first` on; vertices keep their ids.
+MeshCase without(const MeshCase& whole, size_t first, size_t count) {
+    MeshCase rest = whole;
+    const auto begin = rest.soup.triangles.begin() + static_cast<ptrdiff_t>(first);
+    rest.soup.triangles.erase(begin, begin + static_cast<ptrdiff_t>(count));
+    return rest;
+}
+
+bool remove_triangles(MeshCase& failing, const std::string& check, size_t at_once) {
+    bool removed = false;
+    for (size_t first = 0; first < failing.soup.triangles.size();) {
+        const size_t count = std::min(at_once, failing.soup.triangles.size() - first);
+        MeshCase smaller = without(failing, first, count);
+        if (!smaller.soup.triangles.empty() && still_fails(smaller, check)) {
+            failing = std::move(smaller);
+            removed = true;
+        } else {
+            first += count;
+        }
+    }
+    return removed;
+}
+
+void make_plainer(MeshCase& failing, const std::string& check) {
+    const auto attempt = [&](auto&& change) {
+        MeshCase plainer = failing;
+        change(plainer.options);
+        if (still_fails(plainer, check)) failing = std::move(plainer);
+    };
+    attempt([](CaseOptions& o) { o.threads = 1; });
+    attempt([](CaseOptions& o) { o.opened = false; });
+    attempt([](CaseOptions& o) { o.floats = false; });
+    attempt([](CaseOptions& o) { o.own_lengths = false; });
+    attempt([](CaseOptions& o) { o.cost_seed = 0; });
+    attempt([](CaseOptions& o) { o.weld_tolerance = 0; });
+    attempt([](CaseOptions& o) { o.delta = 0; });
+    attempt([](CaseOptions& o) { o.metric = GEOIDX_METRIC_EXACT; });
+    attempt([](CaseOptions& o) { o.lloyd_iterations = 0; });
+    attempt([](CaseOptions& o) { o.exact_vertices = 400; });
+}
+
+MeshCase without_unused_vertices(const MeshCase& whole) {
+    MeshCase result{{{}, {}}, whole.options};
+    std::vector<uint32_t> new_id(whole.soup.positions.size(), UINT32_MAX);
+    for (auto triangle : whole.soup.triangles) {
+        for (uint32_t& id : triangle) {
+            if (new_id[id] == UINT32_MAX) {
+                new_id[id] = result.soup.vertex_count();
+                result.soup.positions.push_back(whole.soup.positions[id]);
+            }
+            id = new_id[id];
+        }
+        result.soup.triangles.push_back(triangle);
+    }
+    return result;
+}
+
+}
+
+MeshCase shrunk(MeshCase failing, const std::string& check) {
+    make_plainer(failing, check);
+    for (size_t at_once = failing.soup.triangles.size() / 2; at_once > 0;)
+        if (!remove_triangles(failing, check, at_once)) at_once /= 2;
+    make_plainer(failing, check);
+    MeshCase compact = without_unused_vertices(failing);
+    return still_fails(compact, check) ? compact : failing;
+}
+
+}
