@@ -112,6 +112,10 @@ int replay(int count, char** paths) {
     for (int i = 0; i < count; ++i) {
         std::ifstream file(paths[i]);
         const MeshCase kept = read_case(file);
+        if (kept.soup.triangles.empty()) {
+            std::fprintf(stderr, "%s has no triangles or cannot be read\n", paths[i]);
+            return 2;
+        }
         const auto failure = failure_of(kept);
         if (failure) std::printf("%s: %s\n", paths[i], failure->text.c_str());
         findings += failure.has_value();

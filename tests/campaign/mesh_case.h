@@ -25,7 +25,7 @@ void write_case(std::ostream& out, const MeshCase& mesh_case, const std::string&
 // What write_case() wrote.
 MeshCase read_case(std::istream& in);
 
-// A smaller mesh, and plainer options, by which the same check fails. Takes as many tries as it needs.
+// A smaller mesh, and plainer options, by which the same check fails, after at most some hundred tries.
 MeshCase shrunk(MeshCase failing, const std::string& check);
 
 }

@@ -6,10 +6,22 @@ namespace geodesic::campaign {
 
 namespace {
 
-bool still_fails(const MeshCase& smaller, const std::string& check) {
-    const auto failure = failure_of(smaller, true);
-    return failure && failure->check == check;
-}
+// Tries smaller cases, only so many: a large mesh need not become the smallest one.
+class SameFailure {
+public:
+    explicit SameFailure(const std::string& check) : check_(check) {}
+
+    bool operator()(const MeshCase& smaller) {
+        if (tries_left_ == 0) return false;
+        --tries_left_;
+        const auto failure = failure_of(smaller, true);
+        return failure && failure->check == check_;
+    }
+
+private:
+    const std::string& check_;
+    uint32_t tries_left_ = 500;
+};
 
 // Without `count` triangles from `first` on; vertices keep their ids.
 MeshCase without(const MeshCase& whole, size_t first, size_t count) {
@@ -19,12 +31,12 @@ MeshCase without(const MeshCase& whole, size_t first, size_t count) {
     return rest;
 }
 
-bool remove_triangles(MeshCase& failing, const std::string& check, size_t at_once) {
+bool remove_triangles(MeshCase& failing, SameFailure& still_fails, size_t at_once) {
     bool removed = false;
     for (size_t first = 0; first < failing.soup.triangles.size();) {
         const size_t count = std::min(at_once, failing.soup.triangles.size() - first);
         MeshCase smaller = without(failing, first, count);
-        if (!smaller.soup.triangles.empty() && still_fails(smaller, check)) {
+        if (!smaller.soup.triangles.empty() && still_fails(smaller)) {
             failing = std::move(smaller);
             removed = true;
         } else {
@@ -34,11 +46,11 @@ bool remove_triangles(MeshCase& failing, const std::string& check, size_t at_onc
     return removed;
 }
 
-void make_plainer(MeshCase& failing, const std::string& check) {
+void make_plainer(MeshCase& failing, SameFailure& still_fails) {
     const auto attempt = [&](auto&& change) {
         MeshCase plainer = failing;
         change(plainer.options);
-        if (still_fails(plainer, check)) failing = std::move(plainer);
+        if (still_fails(plainer)) failing = std::move(plainer);
     };
     attempt([](CaseOptions& o) { o.threads = 1; });
     attempt([](CaseOptions& o) { o.opened = false; });
@@ -71,12 +83,13 @@ MeshCase without_unused_vertices(const MeshCase& whole) {
 }
 
 MeshCase shrunk(MeshCase failing, const std::string& check) {
-    make_plainer(failing, check);
+    SameFailure still_fails(check);
+    make_plainer(failing, still_fails);
     for (size_t at_once = failing.soup.triangles.size() / 2; at_once > 0;)
-        if (!remove_triangles(failing, check, at_once)) at_once /= 2;
-    make_plainer(failing, check);
+        if (!remove_triangles(failing, still_fails, at_once)) at_once /= 2;
+    make_plainer(failing, still_fails);
     MeshCase compact = without_unused_vertices(failing);
-    return still_fails(compact, check) ? compact : failing;
+    return still_fails(compact) ? compact : failing;
 }
 
 }
