@@ -71,6 +71,14 @@ MeasuredError summary(std::vector<double> errors) {
     return result;
 }
 
+// The share by which paths are too long everywhere: the mean of the signed errors, without those of paths
+// that take another way altogether, such as a detour of pruned borders, which say nothing of the others.
+double common_share(std::vector<double> errors) {
+    constexpr double ANOTHER_WAY = 0.1;
+    std::erase_if(errors, [](double error) { return std::abs(error) > ANOTHER_WAY; });
+    return summary(std::move(errors)).signed_mean;
+}
+
 bool crosses_between_vertices(const Index& index) {
     return index.engine == GEOIDX_ENGINE_OVERLAY && (index.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
 }
@@ -104,8 +112,7 @@ void calibrate(Index& index, std::span<const uint32_t> vertex_of_number,
                std::span<const uint32_t> id_of_vertex, Workers& workers) {
     if (!crosses_between_vertices(index)) return;
     const ExactFields exact = exact_fields(index, vertex_of_number, CALIBRATION_SEED, workers);
-    const double share =
-        summary(relative_errors(index, vertex_of_number, id_of_vertex, exact, workers)).signed_mean;
+    const double share = common_share(relative_errors(index, vertex_of_number, id_of_vertex, exact, workers));
     for (uint32_t p = 0; p < index.first_leaf(); ++p)
         index.overlay_tables.quantum[p] =
             static_cast<float>(double{index.overlay_tables.quantum[p]} / (1 + share));

@@ -74,9 +74,9 @@ uint16_t Index::border_code(uint32_t patch, uint32_t i, uint32_t j) const {
         overlay_tables.outer_tables[outer_row(patch, overlay_position[border_begin[patch] + i]) +
                                     overlay_tables.place_of_slot[slot]];
     const double quantum = double{overlay_tables.quantum[patch]};
-    if (code == OverlayTables::UNREACHED || !(quantum > 0)) return code;
+    if (code == 0 || code == OverlayTables::UNREACHED || !(quantum > 0)) return code;
     const double steps = std::round(code * double{overlay_tables.quantum[parent[patch]]} / quantum);
-    return static_cast<uint16_t>(std::min(steps, double{OverlayTables::LARGEST}));
+    return static_cast<uint16_t>(std::clamp(steps, 1.0, double{OverlayTables::LARGEST}));
 }
 
 namespace {

@@ -19,10 +19,12 @@ float longest(std::span<const float> distances) {
     return longest;
 }
 
+// Only a distance of 0 is rounded to 0, so that different vertices stay apart.
 uint16_t code_of(float distance, float quantum) {
     if (distance == INFINITE) return OverlayTables::UNREACHED;
-    const double code = quantum > 0 ? std::round(double{distance} / double{quantum}) : 0;
-    return static_cast<uint16_t>(std::min(code, double{OverlayTables::LARGEST}));
+    if (distance == 0 || !(quantum > 0)) return 0;
+    const double code = std::round(double{distance} / double{quantum});
+    return static_cast<uint16_t>(std::clamp(code, 1.0, double{OverlayTables::LARGEST}));
 }
 
 void encode_outer(const DistanceTables& tables, uint32_t patch, Index& index) {

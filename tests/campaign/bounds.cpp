@@ -37,6 +37,7 @@ Bounds::Bounds(const BuildInput& input, const geoidx_info& info, double longest)
     : is_graph_(info.engine == GEOIDX_ENGINE_GRAPH),
       unfolds_(!is_graph_ && (info.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0),
       pair_long_(has_costs(input.options()) ? PAIR_LONG_BY_COSTS : PAIR_LONG) {
+    for (double length : input.edge_bounds()) longest_edge_ = std::max(longest_edge_, length);
     const double hops = 2 * info.level_count + 1;
     detour_ = 2 * hops * input.options().delta / 100 * info.bounding_box_diagonal;
     rounding_ = is_graph_ ? 0 : hops * longest / 16384;
@@ -44,7 +45,10 @@ Bounds::Bounds(const BuildInput& input, const geoidx_info& info, double longest)
 
 double Bounds::least(double exact) const {
     if (is_graph_) return exact * (1 - FLOAT_ROUNDING) - SMALLEST;
-    return exact * (unfolds_ ? OVERLAY_SHORT : 0.98) - rounding_ - SMALLEST;
+    if (!unfolds_) return exact * 0.98 - rounding_ - SMALLEST;
+    // A way straightened over a segment is never shorter than the way over the nearer end by more than the
+    // segment is long, which says little where needles are longer than the way.
+    return std::min(exact * OVERLAY_SHORT, exact - longest_edge_) - rounding_ - SMALLEST;
 }
 
 double Bounds::most(double along_edges, Asked asked) const {

@@ -26,6 +26,7 @@ private:
     double pair_long_; // how many times a way between two vertices may be too long
     double detour_;    // what pruning may add to a way
     double rounding_;  // of 16-bit tables, over all hops of a way
+    double longest_edge_ = 0;
 };
 
 // The metric and its bounds from one source, or from the nearest of several, to every vertex.
