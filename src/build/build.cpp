@@ -6,9 +6,8 @@
 #include "format/error.h"
 #include "src/build/measure.h"
 #include "src/build/metric_options.h"
-#include "src/concurrency/threads.h"
+#include "src/base/threads.h"
 #include "src/partition/hierarchy.h"
-#include "src/query/labels.h"
 #include "src/tables/borders.h"
 #include "src/tables/fill.h"
 #include "src/tables/layout.h"
@@ -51,25 +50,27 @@ HierarchyOptions hierarchy_options(const Intake& intake, const geoidx_build_opti
     return result;
 }
 
-void describe(const Intake& intake, const geoidx_build_options& options, Index& index) {
-    index.id_count = intake.vertex_of_id.size();
-    index.triangle_count = intake.face_of_triangle.size();
-    index.mesh_fingerprint = intake.fingerprint;
-    index.bounding_box_diagonal = intake.bounding_box_diagonal;
-    index.seed = options.seed;
-    index.engine = options.engine;
-    index.metric = options.metric;
-    index.metric_flags = metric_flags(options);
-    index.metric_fingerprint = metric_fingerprint(options);
-    index.delta = options.delta;
+Description describe(const Intake& intake, const geoidx_build_options& options) {
+    Description about;
+    about.id_count = intake.vertex_of_id.size();
+    about.triangle_count = intake.face_of_triangle.size();
+    about.mesh_fingerprint = intake.fingerprint;
+    about.bounding_box_diagonal = intake.bounding_box_diagonal;
+    about.seed = options.seed;
+    about.engine = options.engine;
+    about.metric = options.metric;
+    about.metric_flags = metric_flags(options);
+    about.metric_fingerprint = metric_fingerprint(options);
+    about.delta = options.delta;
+    return about;
 }
 
 void fill_tables(const Mesh& mesh, const Hierarchy& hierarchy, std::span<const uint32_t> vertex_of_number,
-                 const geoidx_build_options& options, Workers& workers, Index& index) {
-    if (options.engine == GEOIDX_ENGINE_GRAPH) return fill_graph_tables(index, vertex_of_number, workers);
-    const bool unfold = (index.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
+                 const geoidx_build_options& options, Workers& workers, StoredIndex& stored) {
+    if (options.engine == GEOIDX_ENGINE_GRAPH) return fill_graph_tables(vertex_of_number, workers, stored);
+    const bool unfold = (stored.description.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
     fill_overlay_tables(mesh, hierarchy.leaf_of_face, vertex_of_number,
-                        {options.exact_vertices, unfold, TABLES_END}, workers, index);
+                        {options.exact_vertices, unfold, TABLES_END}, workers, stored);
 }
 
 ProgressFunction progress_function(const geoidx_build_options& options) {
@@ -87,8 +88,9 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     if (progress && !progress(0, "mesh")) throw_cancelled();
     const Intake intake = take_in(mesh, intake_options(options));
     const auto metric = make_metric(mesh, intake, options);
-    describe(intake, options, index);
     Workers workers(*metric, options.threads, progress);
+    StoredIndex stored;
+    stored.description = describe(intake, options);
 
     workers.begin_stage("patches", 0.1);
     const Hierarchy hierarchy = build_hierarchy(intake.mesh, hierarchy_options(intake, options), workers);
@@ -96,15 +98,18 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     const auto leaves_at_vertex = leaves_at_vertices(intake.mesh, hierarchy);
     const auto is_border = merge_border_vertices(intake.mesh, leaves_at_vertex,
                                                  options.delta / 100 * intake.bounding_box_diagonal, workers);
-    const auto vertex_of_number = lay_out(intake, hierarchy, leaves_at_vertex, is_border, workers, index);
+    const auto vertex_of_number = lay_out(intake, hierarchy, leaves_at_vertex, is_border, workers, stored);
     workers.begin_stage("tables", options.engine == GEOIDX_ENGINE_OVERLAY ? 0.88 : TABLES_END);
-    fill_tables(intake.mesh, hierarchy, vertex_of_number, options, workers, index);
+    fill_tables(intake.mesh, hierarchy, vertex_of_number, options, workers, stored);
     workers.begin_stage("calibration", 0.95);
-    calibrate(index, vertex_of_number, intake.id_of_vertex, workers);
+    calibrate(vertex_of_number, workers, stored);
     workers.begin_stage("labels", 0.97);
-    workers.run(1, [&](FieldSolver&, size_t) { make_labels(index, [&] { workers.check_cancelled(); }); });
+    workers.run(1, [&](FieldSolver&, size_t) {
+        prepare(stored, index);
+        prepare_pairs(index, [&] { workers.check_cancelled(); });
+    });
     workers.begin_stage("accuracy", 1);
-    index.error = measure_error(index, vertex_of_number, intake.id_of_vertex, workers);
+    index.description.error = measure_error(index, vertex_of_number, workers);
 }
 
 }

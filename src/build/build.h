@@ -1,12 +1,13 @@
 #pragma once
 
 #include "geoidx.h"
-#include "src/concurrency/workers.h"
-#include "src/index/index.h"
+#include "src/metric/workers.h"
+#include "src/query/index.h"
 
 namespace geodesic {
 
-// Builds an index (paper section 3): intake, hierarchy, borders, pruning, tables, measured error.
+// Fills an empty index (paper section 3): intake, hierarchy, borders, pruning, tables, calibration, measured
+// error.
 void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, Index& index);
 
 }

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "src/index/derived_tables.h"
+#include "geoidx.h"
+#include "src/graph/query.h"
+#include "src/overlay/ssad.h"
 #include "src/partition/random.h"
-#include "src/query/query.h"
 
 namespace geodesic {
 
@@ -21,11 +22,12 @@ struct ExactFields {
     std::vector<std::vector<double>> distances;
 };
 
-ExactFields exact_fields(const Index& index, std::span<const uint32_t> vertex_of_number, uint64_t seed,
+ExactFields exact_fields(const Description& about, std::span<const uint32_t> vertex_of_number, uint64_t seed,
                          Workers& workers) {
-    Random random(index.seed ^ seed);
+    Random random(about.seed ^ seed);
     ExactFields fields{std::vector<uint32_t>(SOURCES), std::vector<std::vector<double>>(SOURCES)};
-    for (uint32_t& source : fields.sources) source = random.below(index.vertex_count());
+    for (uint32_t& source : fields.sources)
+        source = random.below(static_cast<uint32_t>(vertex_of_number.size()));
     workers.run(SOURCES, [&](FieldSolver& solver, size_t i) {
         solver.solve({&fields.sources[i], 1}, {});
         for (uint32_t vertex : vertex_of_number) fields.distances[i].push_back(solver.distance(vertex));
@@ -33,19 +35,29 @@ ExactFields exact_fields(const Index& index, std::span<const uint32_t> vertex_of
     return fields;
 }
 
+// MSAD from one source, by number.
+void answer(const Index& index, Crossing crossing, uint32_t source, std::span<float> distance) {
+    std::pmr::memory_resource* const memory = std::pmr::get_default_resource();
+    if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine))
+        OverlaySsad(*overlay, memory, crossing).sweep(source, INFINITE, distance);
+    else
+        GraphQuery(std::get<GraphIndex>(index.engine), memory).msad({&source, 1}, INFINITE, distance);
+}
+
 // Of MSAD, relative to the metric.
-std::vector<double> relative_errors(const Index& index, std::span<const uint32_t> vertex_of_number,
-                                    std::span<const uint32_t> id_of_vertex, const ExactFields& exact,
+std::vector<double> relative_errors(const Index& index, Crossing crossing,
+                                    std::span<const uint32_t> vertex_of_number, const ExactFields& exact,
                                     Workers& workers) {
+    std::vector<uint32_t> number_of_vertex(vertex_of_number.size());
+    for (uint32_t n = 0; n < vertex_of_number.size(); ++n) number_of_vertex[vertex_of_number[n]] = n;
     std::vector<std::vector<double>> errors(SOURCES);
     workers.run(SOURCES, [&](FieldSolver&, size_t i) {
-        Query query(index, std::pmr::get_default_resource());
-        std::vector<float> answered(index.id_count);
-        query.msad({&id_of_vertex[exact.sources[i]], 1}, std::numeric_limits<float>::infinity(), answered);
-        for (uint32_t number = 0; number < index.vertex_count(); ++number) {
+        std::vector<float> answered(vertex_of_number.size());
+        answer(index, crossing, number_of_vertex[exact.sources[i]], answered);
+        for (size_t number = 0; number < answered.size(); ++number) {
             const double distance = exact.distances[i][number];
-            const double answer = double{answered[id_of_vertex[vertex_of_number[number]]]};
-            if (distance > 0 && distance < UNREACHABLE) errors[i].push_back((answer - distance) / distance);
+            if (distance > 0 && distance < UNREACHABLE)
+                errors[i].push_back((double{answered[number]} - distance) / distance);
         }
     });
     std::vector<double> all;
@@ -79,58 +91,32 @@ double common_share(std::vector<double> errors) {
     return summary(std::move(errors)).signed_mean;
 }
 
-bool crosses_between_vertices(const Index& index) {
-    return index.engine == GEOIDX_ENGINE_OVERLAY && (index.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
+bool crosses_between_vertices(const Description& about) {
+    return about.engine == GEOIDX_ENGINE_OVERLAY && (about.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
 }
-
-// While it lives, no segment joins border vertices. The arrays that are exchanged have one allocator.
-class WithoutSegments {
-public:
-    explicit WithoutSegments(Rings& rings)
-        : rings_(rings), lengths_(rings.segment_length.size(), std::numeric_limits<float>::quiet_NaN(),
-                                  rings.segment_length.get_allocator()),
-          inverses_(lengths_, rings.half_inverse.get_allocator()) {
-        exchange();
-    }
-    ~WithoutSegments() { exchange(); }
-    WithoutSegments(const WithoutSegments&) = delete;
-    WithoutSegments& operator=(const WithoutSegments&) = delete;
-
-private:
-    void exchange() {
-        lengths_.swap(rings_.segment_length);
-        inverses_.swap(rings_.half_inverse);
-    }
-
-    Rings& rings_;
-    Array<float> lengths_, inverses_;
-};
 
 }
 
-void calibrate(Index& index, std::span<const uint32_t> vertex_of_number,
-               std::span<const uint32_t> id_of_vertex, Workers& workers) {
-    if (!crosses_between_vertices(index)) return;
-    const ExactFields exact = exact_fields(index, vertex_of_number, CALIBRATION_SEED, workers);
-    const double share = common_share(relative_errors(index, vertex_of_number, id_of_vertex, exact, workers));
-    for (uint32_t p = 0; p < index.first_leaf(); ++p)
-        index.overlay_tables.quantum[p] =
-            static_cast<float>(double{index.overlay_tables.quantum[p]} / (1 + share));
-    derive_tables(index);
+void calibrate(std::span<const uint32_t> vertex_of_number, Workers& workers, StoredIndex& stored) {
+    if (!crosses_between_vertices(stored.description)) return;
+    const ExactFields exact = exact_fields(stored.description, vertex_of_number, CALIBRATION_SEED, workers);
+    Index draft(std::pmr::get_default_resource());
+    prepare(stored, draft);
+    const double share =
+        common_share(relative_errors(draft, Crossing::BETWEEN_VERTICES, vertex_of_number, exact, workers));
+    for (size_t p = 0; p < stored.child_count.size(); ++p)
+        stored.quantum[p] = static_cast<float>(double{stored.quantum[p]} / (1 + share));
 }
 
-MeasuredError measure_error(Index& index, std::span<const uint32_t> vertex_of_number,
-                            std::span<const uint32_t> id_of_vertex, Workers& workers) {
-    const ExactFields exact = exact_fields(index, vertex_of_number, MEASURING_SEED, workers);
-    const auto measured = [&] {
-        return summary(relative_errors(index, vertex_of_number, id_of_vertex, exact, workers));
+MeasuredError measure_error(const Index& index, std::span<const uint32_t> vertex_of_number,
+                            Workers& workers) {
+    const ExactFields exact = exact_fields(index.description, vertex_of_number, MEASURING_SEED, workers);
+    const auto measured = [&](Crossing crossing) {
+        return summary(relative_errors(index, crossing, vertex_of_number, exact, workers));
     };
-    MeasuredError result = measured();
-    result.mean_at_vertices = result.mean;
-    if (crosses_between_vertices(index)) {
-        const WithoutSegments while_measuring(index.overlay_tables.rings);
-        result.mean_at_vertices = measured().mean;
-    }
+    MeasuredError result = measured(Crossing::BETWEEN_VERTICES);
+    result.mean_at_vertices =
+        crosses_between_vertices(index.description) ? measured(Crossing::AT_VERTICES).mean : result.mean;
     return result;
 }
 

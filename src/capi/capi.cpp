@@ -8,14 +8,12 @@
 #include "src/capi/handles.h"
 #include "src/capi/status.h"
 #include "src/capi/structs.h"
-#include "src/index/index_file.h"
-#include "src/query/labels.h"
+#include "src/file/index_file.h"
+#include "src/file/sections.h"
 
 using namespace geodesic;
 
 namespace {
-
-constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
 void check_allocator(const geoidx_allocator& allocator) {
     require(!allocator.allocate == !allocator.release, "an allocator needs both allocate and release");
@@ -34,27 +32,46 @@ OwnedIndex make_index(const geoidx_allocator& allocator) {
     return OwnedIndex(std::pmr::polymorphic_allocator<>(&memory).new_object<geoidx>(allocator));
 }
 
-void check_mesh_matches(const geoidx_mesh* expected, const Index& index) {
+void check_mesh_matches(const geoidx_mesh* expected, const Description& about) {
     if (!expected) return;
     const geoidx_mesh mesh = whole(*expected, geoidx_mesh_init);
-    if (mesh.vertex_count != index.id_count || mesh.triangle_count != index.triangle_count)
+    if (mesh.vertex_count != about.id_count || mesh.triangle_count != about.triangle_count)
         throw Error(GEOIDX_ERROR_MESH_MISMATCH,
-                    "the index was built from a mesh of " + std::to_string(index.id_count) +
-                        " vertices and " + std::to_string(index.triangle_count) +
+                    "the index was built from a mesh of " + std::to_string(about.id_count) +
+                        " vertices and " + std::to_string(about.triangle_count) +
                         " triangles, this one has " + std::to_string(mesh.vertex_count) + " and " +
                         std::to_string(mesh.triangle_count));
-    if (mesh_fingerprint(mesh) != index.mesh_fingerprint)
+    if (mesh_fingerprint(mesh) != about.mesh_fingerprint)
         throw Error(GEOIDX_ERROR_MESH_MISMATCH,
                     "the index was built from a mesh with other positions or triangles");
+}
+
+// Everything in the file is looked at before the index answers.
+void prepare_from(std::span<const std::byte> file, Index& index) {
+    prepare(read_index(file), index);
+    prepare_pairs(index, [] {});
 }
 
 void open_bytes(std::span<const std::byte> file, const geoidx_open_options* given, geoidx** out) {
     const geoidx_open_options options = whole_or_default(given, geoidx_open_options_init);
     OwnedIndex index = make_index(options.allocator);
-    read_index(file, index->index);
-    check_mesh_matches(options.expected_mesh, index->index);
-    make_labels(index->index, [] {});
+    prepare_from(file, index->index);
+    check_mesh_matches(options.expected_mesh, index->index.description);
     *out = index.release();
+}
+
+// All problems that can be told apart: those of the container, then, if it has none, the first one of its
+// content.
+std::vector<format::Issue> issues_of(std::span<const std::byte> file) {
+    auto issues = format::inspect(file, INDEX_TAGS);
+    if (!issues.empty()) return issues;
+    try {
+        Index index(std::pmr::get_default_resource());
+        prepare_from(file, index);
+    } catch (const Error& error) {
+        issues.push_back({error.status, 0, error.what()});
+    }
+    return issues;
 }
 
 std::span<const std::byte> bytes_at(const void* data, uint64_t size) {
@@ -82,40 +99,34 @@ void check_msad(const uint32_t* sources, const float* distances) {
     require(distances, "distances is NULL");
 }
 
-uint64_t table_entries(const Index& index) {
-    uint64_t entries =
-        index.border_tables.size() + index.crossing_table_begin.back() + index.internal_table_begin.back();
-    if (index.engine == GEOIDX_ENGINE_OVERLAY)
-        for (uint32_t p = 0; p < index.first_leaf(); ++p) entries += index.overlay_entries(p);
-    return entries;
-}
-
 void fill_info(const Index& index, geoidx_info& info) {
-    info.metric = index.metric;
-    info.metric_flags = index.metric_flags;
-    info.metric_fingerprint = index.metric_fingerprint;
-    info.vertex_count = index.id_count;
-    info.triangle_count = index.triangle_count;
-    info.welded_vertex_count = index.vertex_count();
-    info.mesh_fingerprint = index.mesh_fingerprint;
-    info.engine = index.engine;
+    const Description& about = index.description;
+    const Numbering& numbering = index.numbering();
+    info.metric = about.metric;
+    info.metric_flags = about.metric_flags;
+    info.metric_fingerprint = about.metric_fingerprint;
+    info.vertex_count = about.id_count;
+    info.triangle_count = about.triangle_count;
+    info.welded_vertex_count = numbering.vertex_count();
+    info.mesh_fingerprint = about.mesh_fingerprint;
+    info.engine = about.engine;
     info.table_entries = table_entries(index);
-    info.border_vertex_count = index.border_vertex_count();
-    info.bounding_box_diagonal = index.bounding_box_diagonal;
-    info.delta = index.delta;
-    info.seed = index.seed;
+    info.border_vertex_count = numbering.border_vertex_count();
+    info.bounding_box_diagonal = about.bounding_box_diagonal;
+    info.delta = about.delta;
+    info.seed = about.seed;
     info.format_major = format::FORMAT_MAJOR;
     info.format_minor = format::FORMAT_MINOR;
-    info.level_count = index.level_count();
-    for (uint32_t l = 1; l <= index.level_count(); ++l)
-        info.patch_count[l - 1] = index.level_begin[l + 1] - index.level_begin[l];
-    info.error_sources = index.error.sources;
-    info.error_mean = index.error.mean;
-    info.error_signed_mean = index.error.signed_mean;
-    info.error_p99 = index.error.p99;
-    info.error_p999 = index.error.p999;
-    info.error_max = index.error.max;
-    info.error_mean_at_vertices = index.error.mean_at_vertices;
+    info.level_count = numbering.level_count();
+    for (uint32_t l = 1; l <= numbering.level_count(); ++l)
+        info.patch_count[l - 1] = numbering.level_begin[l + 1] - numbering.level_begin[l];
+    info.error_sources = about.error.sources;
+    info.error_mean = about.error.mean;
+    info.error_signed_mean = about.error.signed_mean;
+    info.error_p99 = about.error.p99;
+    info.error_p999 = about.error.p999;
+    info.error_max = about.error.max;
+    info.error_mean_at_vertices = about.error.mean_at_vertices;
 }
 
 }
@@ -157,7 +168,7 @@ geoidx_status geoidx_save(const geoidx* index, const char* utf8_path) {
     return guarded([&] {
         require(index, "index is NULL");
         require(utf8_path, "utf8_path is NULL");
-        format::write_file_atomically(utf8_path, write_index(index->index));
+        format::write_file_atomically(utf8_path, write_index(restore(index->index)));
     });
 }
 
@@ -166,7 +177,7 @@ geoidx_status geoidx_save_memory(const geoidx* index, void* buffer, uint64_t cap
         require(index, "index is NULL");
         require(needed, "needed is NULL");
         require(buffer || capacity == 0, "buffer is NULL, but capacity is not 0");
-        const auto bytes = write_index(index->index);
+        const auto bytes = write_index(restore(index->index));
         *needed = bytes.size();
         if (!buffer) return;
         require(bytes.size() <= capacity, "the buffer is too small");
@@ -213,7 +224,7 @@ geoidx_status geoidx_get_info(const geoidx* index, geoidx_info* info) {
 geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user) {
     geoidx_status first = GEOIDX_OK;
     const geoidx_status failure = guarded([&] {
-        for (const auto& found : inspect_index(bytes_at(data, size))) {
+        for (const auto& found : issues_of(bytes_at(data, size))) {
             if (first == GEOIDX_OK) first = fail(found.status, found.message.c_str());
             if (issue && !issue(user, found.status, found.offset, found.message.c_str())) break;
         }

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "geoidx.h"
-#include "src/index/index.h"
 #include "src/mesh/intake.h"
 #include "src/metric/metric.h"
+#include "src/query/index.h"
 #include "src/query/query.h"
 
 namespace geodesic {

@@ -7,9 +7,9 @@
 
 #include <Eigen/Core>
 
-namespace geodesic {
+#include "src/base/numbers.h"
 
-inline constexpr uint32_t NONE = UINT32_MAX;
+namespace geodesic {
 
 // Lists of different lengths in one array: list i is items[begin[i]] .. items[begin[i + 1] - 1].
 template <class T>

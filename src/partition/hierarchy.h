@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/concurrency/workers.h"
 #include "src/mesh/mesh.h"
+#include "src/metric/workers.h"
 
 namespace geodesic {
 
@@ -22,6 +22,12 @@ struct Hierarchy {
     uint32_t patch_count() const { return static_cast<uint32_t>(parent.size()); }
     uint32_t first_leaf() const { return level_begin[level_count()]; }
 };
+
+// Whether a patch is another one or lies in it. A parent has a smaller number than its children.
+inline bool is_within(const Hierarchy& hierarchy, uint32_t patch, uint32_t ancestor) {
+    while (patch != NONE && patch > ancestor) patch = hierarchy.parent[patch];
+    return patch == ancestor;
+}
 
 struct HierarchyOptions {
     std::vector<uint32_t> split; // split[l]: how many patches each patch of level l is split into

@@ -7,32 +7,31 @@
 #include <string>
 
 #include "format/error.h"
-#include "src/concurrency/threads.h"
-#include "src/query/four_at_a_time.h"
-#include "src/query/lanes.h"
+#include "src/base/four_at_a_time.h"
+#include "src/base/threads.h"
+#include "src/overlay/kernels/lanes.h"
 
 namespace geodesic {
 
 namespace {
 
-constexpr float INFINITE = std::numeric_limits<float>::infinity();
-
 std::variant<GraphQuery, OverlayQuery> make_engine(const Index& index, std::pmr::memory_resource* memory) {
-    if (index.engine == GEOIDX_ENGINE_OVERLAY) return OverlayQuery(index, memory);
-    return GraphQuery(index, memory);
+    if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine))
+        return OverlayQuery(*overlay, memory);
+    return GraphQuery(std::get<GraphIndex>(index.engine), memory);
 }
 
 }
 
 Query::Query(const Index& index, std::pmr::memory_resource* memory)
     : index_(index), engine_(make_engine(index, memory)), order_(memory), sources_(memory),
-      distance_(index.vertex_count(), memory) {}
+      distance_(index.numbering().vertex_count(), memory) {}
 
 uint32_t Query::number_of(uint32_t id) const {
-    if (id >= index_.id_count)
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "vertex " + std::to_string(id) +
-                                                       " is out of range: the mesh has " +
-                                                       std::to_string(index_.id_count) + " vertices");
+    if (id >= index_.description.id_count)
+        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
+                    "vertex " + std::to_string(id) + " is out of range: the mesh has " +
+                        std::to_string(index_.description.id_count) + " vertices");
     return index_.number_of_id[id];
 }
 
@@ -81,10 +80,10 @@ float Query::prepared_sssd(uint32_t target_id) {
 }
 
 void Query::check_count(std::span<const float> distances, uint64_t fields) const {
-    if (distances.size() != fields * index_.id_count)
+    if (distances.size() != fields * index_.description.id_count)
         throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
                     "distance_count is " + std::to_string(distances.size()) + ", but the mesh has " +
-                        std::to_string(index_.id_count) + " vertices" +
+                        std::to_string(index_.description.id_count) + " vertices" +
                         (fields == 1 ? "" : " and there are " + std::to_string(fields) + " sources"));
     if (fields == 0) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "there is no source");
 }
@@ -106,8 +105,8 @@ void Query::write_by_id(const SideBySide& fields) const {
     unreached += INFINITE;
     size_t id = 0;
     constexpr size_t AHEAD = 32;
-    for (; id + 4 <= index_.id_count; id += 4) {
-        if (id + AHEAD + 4 <= index_.id_count)
+    for (; id + 4 <= index_.description.id_count; id += 4) {
+        if (id + AHEAD + 4 <= index_.description.id_count)
             for (size_t j = 0; j < 4; ++j)
                 if (const uint32_t number = number_of_id[id + AHEAD + j]; number != NONE)
                     __builtin_prefetch(by_number + size_t{number} * fields.size());
@@ -122,7 +121,7 @@ void Query::write_by_id(const SideBySide& fields) const {
             for (size_t j = 0; j < 4; ++j) std::memcpy(fields[i + j] + id, &four[j], sizeof four[j]);
         }
     }
-    for (; id < index_.id_count; ++id) {
+    for (; id < index_.description.id_count; ++id) {
         const uint32_t number = number_of_id[id];
         for (size_t i = 0; i < fields.size(); ++i)
             fields[i][id] = number == NONE ? INFINITE : by_number[size_t{number} * fields.size() + i];
@@ -138,7 +137,7 @@ void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<f
         if (const uint32_t source = number_of(id); source != NONE) sources_.push_back(source);
     std::ranges::sort(sources_); // so that answers do not depend on their order
     sources_.erase(std::unique(sources_.begin(), sources_.end()), sources_.end());
-    const auto by_number = std::span(distance_).first(index_.vertex_count());
+    const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
     std::visit([&](auto& engine) { engine.msad(sources_, radius, by_number); }, engine_);
     write_by_id(distances);
     if (radius < INFINITE)
@@ -161,7 +160,8 @@ void Query::ssad_each(std::span<const uint32_t> source_ids, std::span<float> dis
         const size_t left = source_ids.size() - done;
         const size_t count = overlay && left >= OverlayQuery::FEWEST_AT_ONCE ? std::min(AT_ONCE, left) : 1;
         const auto ids = source_ids.subspan(done, count);
-        const auto fields = distances.subspan(done * index_.id_count, count * index_.id_count);
+        const auto fields =
+            distances.subspan(done * index_.description.id_count, count * index_.description.id_count);
         if (count == 1)
             msad(ids, INFINITE, fields);
         else
@@ -175,7 +175,7 @@ void Query::ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_
     SideBySide fields;
     sources_.clear();
     for (size_t i = 0; i < source_ids.size(); ++i) {
-        const auto field = distances.subspan(i * index_.id_count, index_.id_count);
+        const auto field = distances.subspan(i * index_.description.id_count, index_.description.id_count);
         if (const uint32_t source = number_of(source_ids[i]); source != NONE) {
             fields[sources_.size()] = field.data();
             sources_.push_back(source);
@@ -184,13 +184,14 @@ void Query::ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_
         }
     }
     if (!sources_.empty()) {
-        distance_.resize(fields.size() * index_.vertex_count());
+        distance_.resize(fields.size() * index_.numbering().vertex_count());
         engine.ssad_each(sources_, distance_);
         // The last source is repeated.
         std::fill(fields.begin() + sources_.size(), fields.end(), fields[sources_.size() - 1]);
         write_by_id(fields);
     }
-    for (size_t i = 0; i < source_ids.size(); ++i) distances[i * index_.id_count + source_ids[i]] = 0;
+    for (size_t i = 0; i < source_ids.size(); ++i)
+        distances[i * index_.description.id_count + source_ids[i]] = 0;
 }
 
 }

@@ -4,8 +4,9 @@
 #include <span>
 #include <variant>
 
-#include "src/query/graph_query.h"
-#include "src/query/overlay_query.h"
+#include "src/graph/query.h"
+#include "src/overlay/query.h"
+#include "src/query/index.h"
 
 namespace geodesic {
 

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/index/unfolding.h"
+#include "src/overlay/unfolding.h"
 
 namespace geodesic {
 
 namespace {
-
-constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
 // What a distance must fall by, as a share of it, to count: less is rounding.
 constexpr float PROGRESS = 1e-6f;
@@ -37,19 +35,19 @@ struct LeastSums {
 };
 
 // Counted over all rings.
-size_t own_place(const Index& index, uint32_t patch, uint32_t position) {
-    return size_t{index.overlay_tables.rings.begin[patch]} +
-           index.overlay_tables.place_of_slot[index.border_begin[patch] + position];
+size_t own_place(const BorderRings& rings, const Numbering& numbering, uint32_t patch, uint32_t position) {
+    return size_t{rings.begin[patch]} + rings.place_of_slot[numbering.border_begin[patch] + position];
 }
 
 // The distances in a patch's overlay from one of its vertices, over the tables of the children.
 class RowFromBelow {
 public:
-    RowFromBelow(uint32_t patch, const Index& index, const DistanceTables& tables, std::span<float> row)
-        : patch_(patch), first_slot_(index.border_begin[index.child_begin[patch]]), index_(index),
-          tables_(tables), row_(row),
-          changed_(index.border_begin[index.child_begin[patch + 1]] - first_slot_, uint8_t{0}),
-          nearest_changed_(index.child_begin[patch + 1] - index.child_begin[patch], INFINITE) {}
+    RowFromBelow(uint32_t patch, const Numbering& numbering, const BorderRings& rings,
+                 const DistanceTables& tables, std::span<float> row)
+        : patch_(patch), first_slot_(numbering.border_begin[numbering.child_begin[patch]]),
+          numbering_(numbering), rings_(rings), tables_(tables), row_(row),
+          changed_(numbering.border_begin[numbering.child_begin[patch + 1]] - first_slot_, uint8_t{0}),
+          nearest_changed_(numbering.child_begin[patch + 1] - numbering.child_begin[patch], INFINITE) {}
 
     void fill(uint32_t source) {
         std::fill(row_.begin(), row_.end(), INFINITE);
@@ -62,26 +60,26 @@ private:
     uint32_t nearest_changed_child() const {
         const auto nearest = std::ranges::min_element(nearest_changed_);
         if (*nearest == INFINITE) return NONE;
-        return index_.child_begin[patch_] + static_cast<uint32_t>(nearest - nearest_changed_.begin());
+        return numbering_.child_begin[patch_] + static_cast<uint32_t>(nearest - nearest_changed_.begin());
     }
 
     // The children that have this vertex on their border are to be crossed from it, but for the one that it
     // was reached over: tables hold distances on the whole surface.
     void mark(uint32_t position, uint32_t reached_over) {
-        for (uint32_t slot : index_.slots_of(patch_, position)) {
-            const uint32_t child = index_.patch_of_slot[slot];
+        for (uint32_t slot : numbering_.slots_of(patch_, position)) {
+            const uint32_t child = numbering_.patch_of_slot[slot];
             if (child == reached_over) continue;
             changed_[slot - first_slot_] = 1;
-            float& nearest = nearest_changed_[child - index_.child_begin[patch_]];
+            float& nearest = nearest_changed_[child - numbering_.child_begin[patch_]];
             nearest = std::min(nearest, row_[position]);
         }
     }
 
     void cross(uint32_t child) {
-        const uint32_t first = index_.border_begin[child], size = index_.border_size(child);
-        const uint32_t* position = index_.overlay_position.data() + first;
+        const uint32_t first = numbering_.border_begin[child], size = numbering_.border_size(child);
+        const uint32_t* position = numbering_.overlay_position.data() + first;
         const float* table = tables_.overlay[child].data(); // begins with the border
-        const size_t stride = index_.overlay_size(child);
+        const size_t stride = numbering_.overlay_size(child);
         from_.clear();
         rows_.clear();
         for (uint32_t i = 0; i < size; ++i) {
@@ -89,16 +87,16 @@ private:
             if (changed_[first + i - first_slot_]) rows_.push_back(i);
             changed_[first + i - first_slot_] = 0;
         }
-        nearest_changed_[child - index_.child_begin[patch_]] = INFINITE;
-        const Rings& rings = index_.overlay_tables.rings;
+        nearest_changed_[child - numbering_.child_begin[patch_]] = INFINITE;
+
         least_.begin(size);
         for (uint32_t i : rows_) least_.add(i, from_[i], table + i * stride);
         for (uint32_t j = 0; j < size; ++j) {
             if (least_.best[j] == INFINITE) continue;
             const float d = straightened(
-                rings, own_place(index_, child, least_.winner[j]),
-                [&](size_t k) { return from_[rings.position[k]]; },
-                [&](size_t k) { return table[rings.position[k] * stride + j]; });
+                rings_, own_place(rings_, numbering_, child, least_.winner[j]),
+                [&](size_t k) { return from_[rings_.position[k]]; },
+                [&](size_t k) { return table[rings_.position[k] * stride + j]; });
             if (!is_lower(d, row_[position[j]], PROGRESS)) continue;
             row_[position[j]] = d;
             mark(position[j], child);
@@ -106,7 +104,8 @@ private:
     }
 
     const uint32_t patch_, first_slot_;
-    const Index& index_;
+    const Numbering& numbering_;
+    const BorderRings& rings_;
     const DistanceTables& tables_;
     std::span<float> row_;
     std::vector<uint8_t> changed_;       // per slot of the children
@@ -125,10 +124,10 @@ void make_symmetric(std::vector<float>& table, size_t size) {
 // Lowers one row of a patch's overlay table by paths over the outside of its border.
 class RowFromAbove {
 public:
-    RowFromAbove(uint32_t patch, const Index& index, const DistanceTables& tables,
-                 std::span<const float> outside)
-        : index_(index), patch_(patch), border_(index.border_size(patch)), size_(index.overlay_size(patch)),
-          table_(tables.overlay[patch]), outside_(outside) {}
+    RowFromAbove(uint32_t patch, const Numbering& numbering, const BorderRings& rings,
+                 const DistanceTables& tables, std::span<const float> outside)
+        : numbering_(numbering), rings_(rings), patch_(patch), border_(numbering.border_size(patch)),
+          size_(numbering.overlay_size(patch)), table_(tables.overlay[patch]), outside_(outside) {}
 
     void fill(size_t row, std::span<float> out) {
         const std::span<const float> old = table_.subspan(row * size_, size_);
@@ -145,20 +144,21 @@ private:
                std::span<float> out) {
         least_.begin(out.size());
         for (uint32_t i = 0; i < border_; ++i) least_.add(i, from[i], table.data() + i * stride);
-        const Rings& rings = index_.overlay_tables.rings;
+
         bool any = false;
         for (size_t x = 0; x < out.size(); ++x) {
             if (!is_lower(least_.best[x], out[x], WORTH_STRAIGHTENING)) continue;
             out[x] = straightened(
-                rings, own_place(index_, patch_, least_.winner[x]),
-                [&](size_t k) { return from[rings.position[k]]; },
-                [&](size_t k) { return table[rings.position[k] * stride + x]; });
+                rings_, own_place(rings_, numbering_, patch_, least_.winner[x]),
+                [&](size_t k) { return from[rings_.position[k]]; },
+                [&](size_t k) { return table[rings_.position[k] * stride + x]; });
             any = true;
         }
         return any;
     }
 
-    const Index& index_;
+    const Numbering& numbering_;
+    const BorderRings& rings_;
     const uint32_t patch_;
     const size_t border_, size_;
     std::span<const float> table_, outside_;
@@ -167,35 +167,38 @@ private:
 };
 
 // The border block of a patch in its parent's table.
-std::vector<float> border_block(uint32_t patch, const Index& index, const DistanceTables& tables) {
-    const uint32_t parent = index.parent[patch], first = index.border_begin[patch];
-    const size_t border = index.border_size(patch), stride = index.overlay_size(parent);
+std::vector<float> border_block(uint32_t patch, const Numbering& numbering, const DistanceTables& tables) {
+    const uint32_t parent = numbering.parent[patch], first = numbering.border_begin[patch];
+    const size_t border = numbering.border_size(patch), stride = numbering.overlay_size(parent);
     std::vector<float> block;
     for (size_t i = 0; i < border; ++i)
         for (size_t j = 0; j < border; ++j)
-            block.push_back(tables.overlay[parent][index.overlay_position[first + i] * stride +
-                                                   index.overlay_position[first + j]]);
+            block.push_back(tables.overlay[parent][numbering.overlay_position[first + i] * stride +
+                                                   numbering.overlay_position[first + j]]);
     return block;
 }
 
 }
 
-void close_from_below(uint32_t patch, const Index& index, Workers& workers, DistanceTables& tables) {
-    const size_t size = index.overlay_size(patch);
+void close_from_below(uint32_t patch, const Numbering& numbering, const BorderRings& rings, Workers& workers,
+                      DistanceTables& tables) {
+    const size_t size = numbering.overlay_size(patch);
     std::vector<float>& table = tables.overlay[patch];
     workers.run(size, [&](FieldSolver&, size_t i) {
-        RowFromBelow(patch, index, tables, std::span(table).subspan(i * size, size))
+        RowFromBelow(patch, numbering, rings, tables, std::span(table).subspan(i * size, size))
             .fill(static_cast<uint32_t>(i));
     });
     make_symmetric(table, size);
 }
 
-void close_from_above(uint32_t patch, const Index& index, Workers& workers, DistanceTables& tables) {
-    const size_t size = index.overlay_size(patch);
-    const auto outside = border_block(patch, index, tables);
+void close_from_above(uint32_t patch, const Numbering& numbering, const BorderRings& rings, Workers& workers,
+                      DistanceTables& tables) {
+    const size_t size = numbering.overlay_size(patch);
+    const auto outside = border_block(patch, numbering, tables);
     std::vector<float> lowered(size * size);
     workers.run(size, [&](FieldSolver&, size_t i) {
-        RowFromAbove(patch, index, tables, outside).fill(i, std::span(lowered).subspan(i * size, size));
+        RowFromAbove(patch, numbering, rings, tables, outside)
+            .fill(i, std::span(lowered).subspan(i * size, size));
     });
     make_symmetric(lowered, size);
     tables.overlay[patch] = std::move(lowered);

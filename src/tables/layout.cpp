@@ -49,15 +49,12 @@ std::vector<Slot> sorted_slots(const Hierarchy& hierarchy, const ListOfLists<uin
     return slots;
 }
 
-// begin[i] .. begin[i + 1] - 1: the slots of group first + i among slots[from] .. slots[to - 1].
-void group_begins(const std::vector<Slot>& slots, size_t from, size_t to, uint32_t first, uint32_t count,
-                  Array<uint32_t>& begin) {
-    begin.assign(size_t{count} + 1, static_cast<uint32_t>(from));
-    size_t next = from;
-    for (uint32_t i = 0; i < count; ++i) {
-        while (next < to && slots[next].group <= first + i) ++next;
-        begin[i + 1] = static_cast<uint32_t>(next);
-    }
+// How many of the vertices from `from` to `to` - 1 belong to each of `count` groups from `first` on.
+std::vector<uint32_t> group_sizes(const std::vector<Slot>& slots, size_t from, size_t to, uint32_t first,
+                                  uint32_t count) {
+    std::vector<uint32_t> sizes(count, 0);
+    for (size_t i = from; i < to; ++i) ++sizes[slots[i].group - first];
+    return sizes;
 }
 
 std::vector<ListOfLists<uint32_t>> faces_by_level(const Hierarchy& hierarchy) {
@@ -72,87 +69,102 @@ std::vector<ListOfLists<uint32_t>> faces_by_level(const Hierarchy& hierarchy) {
     return levels;
 }
 
-// The border of a patch: its vertices that lie on no deeper owner's overlay only, along the boundary; those
-// where the patch merely touches another come last.
-std::vector<uint32_t> border_of_patch(const Mesh& mesh, uint32_t patch, std::span<const uint32_t> faces,
-                                      std::vector<uint8_t>& inside, const std::vector<uint32_t>& number,
-                                      const Index& index) {
-    const auto on_border = [&](uint32_t v) {
-        return index.is_border(number[v]) && !index.is_within(index.owner[number[v]], patch);
-    };
-    for (uint32_t f : faces) inside[f] = 1;
-    auto walks = walk_border(mesh, faces, inside);
-    for (uint32_t f : faces) inside[f] = 0;
-    std::vector<uint32_t> border, touching;
-    for (auto& walk : walks) {
-        // So that what is left of a ring, if a part of it is none of the border, is in one piece.
-        if (const auto other = std::ranges::find_if_not(walk, on_border); other != walk.end())
-            std::rotate(walk.begin(), other, walk.end());
-        for (uint32_t v : walk)
-            if (on_border(v)) border.push_back(number[v]);
+// Which vertices lie on the borders of which patches.
+class BorderFinder {
+public:
+    // `number` of each vertex; `owner` of each border vertex, by number.
+    BorderFinder(const Mesh& mesh, const Hierarchy& hierarchy, const std::vector<uint32_t>& number,
+                 const std::vector<uint32_t>& owner)
+        : mesh_(mesh), hierarchy_(hierarchy), number_(number), owner_(owner), inside_(mesh.face_count(), 0) {}
+
+    // The border of a patch, given by its faces, as numbers along its boundary; those where the patch merely
+    // touches another come last.
+    std::vector<uint32_t> find(uint32_t patch, std::span<const uint32_t> faces) {
+        for (uint32_t f : faces) inside_[f] = 1;
+        auto walks = walk_border(mesh_, faces, inside_);
+        for (uint32_t f : faces) inside_[f] = 0;
+        const auto on_border = [&](uint32_t v) { return is_on_border(v, patch); };
+        std::vector<uint32_t> border;
+        for (auto& walk : walks) {
+            // So that what is left of a ring, if a part of it is none of the border, is in one piece.
+            if (const auto other = std::ranges::find_if_not(walk, on_border); other != walk.end())
+                std::rotate(walk.begin(), other, walk.end());
+            for (uint32_t v : walk)
+                if (on_border(v)) border.push_back(number_[v]);
+        }
+        add_touching(patch, faces, border);
+        return border;
     }
-    for (uint32_t f : faces)
-        for (uint32_t v : mesh.faces[f])
-            if (on_border(v)) touching.push_back(number[v]);
-    std::sort(touching.begin(), touching.end());
-    touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
-    std::vector<uint32_t> known(border);
-    std::sort(known.begin(), known.end());
-    std::set_difference(touching.begin(), touching.end(), known.begin(), known.end(),
-                        std::back_inserter(border));
-    return border;
+
+private:
+    // A vertex lies on the border of a patch unless all leaves around it lie inside.
+    bool is_on_border(uint32_t vertex, uint32_t patch) const {
+        const uint32_t number = number_[vertex];
+        return number < owner_.size() && !is_within(hierarchy_, owner_[number], patch);
+    }
+
+    void add_touching(uint32_t patch, std::span<const uint32_t> faces, std::vector<uint32_t>& border) const {
+        std::vector<uint32_t> touching, known(border);
+        for (uint32_t f : faces)
+            for (uint32_t v : mesh_.faces[f])
+                if (is_on_border(v, patch)) touching.push_back(number_[v]);
+        std::sort(touching.begin(), touching.end());
+        touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+        std::sort(known.begin(), known.end());
+        std::set_difference(touching.begin(), touching.end(), known.begin(), known.end(),
+                            std::back_inserter(border));
+    }
+
+    const Mesh& mesh_;
+    const Hierarchy& hierarchy_;
+    const std::vector<uint32_t>&number_, &owner_;
+    std::vector<uint8_t> inside_; // per face
+};
+
+void lay_out_borders(BorderFinder& finder, const Hierarchy& hierarchy, Workers& workers,
+                     StoredIndex& stored) {
+    const auto faces = faces_by_level(hierarchy);
+    for (uint32_t l = 1; l <= hierarchy.level_count(); ++l)
+        workers.run(1, [&](FieldSolver&, size_t) {
+            for (uint32_t i = 0; i < faces[l].size(); ++i) {
+                const auto border = finder.find(hierarchy.level_begin[l] + i, faces[l][i]);
+                stored.border_size.push_back(static_cast<uint32_t>(border.size()));
+                stored.border.insert(stored.border.end(), border.begin(), border.end());
+            }
+        });
 }
 
-void lay_out_borders(const Mesh& mesh, const Hierarchy& hierarchy, const std::vector<uint32_t>& number,
-                     Workers& workers, Index& index) {
-    const auto faces = faces_by_level(hierarchy);
-    std::vector<std::vector<uint32_t>> borders(hierarchy.patch_count());
-    for (uint32_t l = 1; l <= hierarchy.level_count(); ++l) {
-        const uint32_t first = hierarchy.level_begin[l];
-        workers.run(1, [&](FieldSolver&, size_t) {
-            std::vector<uint8_t> inside(mesh.face_count(), 0);
-            for (uint32_t i = 0; i < faces[l].size(); ++i)
-                borders[first + i] = border_of_patch(mesh, first + i, faces[l][i], inside, number, index);
-        });
-    }
-    index.border_begin.assign(1, 0);
-    for (const auto& border : borders) {
-        index.border.insert(index.border.end(), border.begin(), border.end());
-        index.border_begin.push_back(static_cast<uint32_t>(index.border.size()));
-    }
+std::array<float, 3> rounded(const Eigen::Vector3d& p) {
+    return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
 }
 
 }
 
 std::vector<uint32_t> lay_out(const Intake& intake, const Hierarchy& hierarchy,
                               const ListOfLists<uint32_t>& leaves_at_vertex,
-                              const std::vector<uint8_t>& is_border, Workers& workers, Index& index) {
-    index.level_begin.assign(hierarchy.level_begin.begin(), hierarchy.level_begin.end());
-    index.parent.assign(hierarchy.parent.begin(), hierarchy.parent.end());
-    index.child_begin.assign(hierarchy.child_begin.begin(), hierarchy.child_begin.end());
+                              const std::vector<uint8_t>& is_border, Workers& workers, StoredIndex& stored) {
+    const uint32_t inner_count = hierarchy.first_leaf(), leaf_count = hierarchy.patch_count() - inner_count;
+    stored.level_count = hierarchy.level_count();
+    for (uint32_t p = 0; p < inner_count; ++p)
+        stored.child_count.push_back(hierarchy.child_begin[p + 1] - hierarchy.child_begin[p]);
 
     const auto slots = sorted_slots(hierarchy, leaves_at_vertex, is_border, workers);
     const auto border_count = static_cast<size_t>(
         std::count_if(slots.begin(), slots.end(), [](const Slot& slot) { return !slot.internal; }));
-    group_begins(slots, 0, border_count, 0, hierarchy.patch_count(), index.owned_begin);
-    group_begins(slots, border_count, slots.size(), hierarchy.first_leaf(),
-                 hierarchy.patch_count() - hierarchy.first_leaf(), index.internal_begin);
-    index.owner.clear();
-    for (size_t i = 0; i < border_count; ++i) index.owner.push_back(slots[i].group);
+    stored.owned_count = group_sizes(slots, 0, border_count, 0, inner_count);
+    stored.internal_count = group_sizes(slots, border_count, slots.size(), inner_count, leaf_count);
 
-    std::vector<uint32_t> vertex_of_number, number(slots.size());
+    std::vector<uint32_t> vertex_of_number, owner, number(slots.size());
     for (const Slot& slot : slots) {
         number[slot.vertex] = static_cast<uint32_t>(vertex_of_number.size());
         vertex_of_number.push_back(slot.vertex);
-        const auto& p = intake.mesh.positions[slot.vertex];
-        index.positions.push_back(
-            {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+        if (!slot.internal) owner.push_back(slot.group);
+        stored.positions.push_back(rounded(intake.mesh.positions[slot.vertex]));
     }
     for (uint32_t vertex : intake.vertex_of_id)
-        index.number_of_id.push_back(vertex == NONE ? NONE : number[vertex]);
-    lay_out_borders(intake.mesh, hierarchy, number, workers, index);
-    derive(index);
-    allocate_tables(index);
+        stored.number_of_id.push_back(vertex == NONE ? NONE : number[vertex]);
+    BorderFinder finder(intake.mesh, hierarchy, number, owner);
+    lay_out_borders(finder, hierarchy, workers, stored);
     return vertex_of_number;
 }
 

@@ -4,18 +4,18 @@
 #include <span>
 #include <vector>
 
-#include "src/concurrency/workers.h"
-#include "src/index/index.h"
+#include "src/index/stored.h"
 #include "src/mesh/intake.h"
+#include "src/metric/workers.h"
 #include "src/partition/hierarchy.h"
 
 namespace geodesic {
 
-// Numbers the vertices as Index describes, lays out borders and allocates the tables, still empty.
-// `is_border[v]` of vertices where several leaves meet: false where pruning took it off the border. Returns
-// the mesh vertex of each number.
+// Numbers the vertices as Numbering describes, internal ones by their distance to the border, and fills the
+// sections HIER, VERT, POSI and BORD of what is stored. `is_border[v]` of vertices where several leaves meet:
+// false where pruning took it off the border. Returns the mesh vertex of each number.
 std::vector<uint32_t> lay_out(const Intake& intake, const Hierarchy& hierarchy,
                               const ListOfLists<uint32_t>& leaves_at_vertex,
-                              const std::vector<uint8_t>& is_border, Workers& workers, Index& index);
+                              const std::vector<uint8_t>& is_border, Workers& workers, StoredIndex& stored);
 
 }

@@ -15,22 +15,22 @@ float measured_distance(const FieldSolver& solver, uint32_t vertex) {
     return static_cast<float>(distance);
 }
 
-void measure_internal(const Index& index, std::span<const uint32_t> vertex_of_number, uint32_t number,
-                      FieldSolver& solver, std::span<float> crossing_tables,
+void measure_internal(const Numbering& numbering, std::span<const uint32_t> vertex_of_number, uint32_t number,
+                      FieldSolver& solver, std::span<float> border_internal_tables,
                       std::span<float> internal_tables) {
-    const uint32_t leaf = index.leaf_of(number), first = index.first_internal(leaf);
-    const uint32_t own = number - first, size = index.internal_size(leaf);
-    const auto border = index.border_of(leaf);
+    const uint32_t leaf = numbering.leaf_of(number), first = numbering.first_internal(leaf);
+    const uint32_t own = number - first, size = numbering.internal_size(leaf);
+    const auto border = numbering.border_of(leaf);
     std::vector<uint32_t> targets;
     for (uint32_t other : border) targets.push_back(vertex_of_number[other]);
     for (uint32_t i = own + 1; i < size; ++i) targets.push_back(vertex_of_number[first + i]);
     if (targets.empty()) return;
     solver.solve({&vertex_of_number[number], 1}, targets);
     for (uint32_t i = 0; i < border.size(); ++i)
-        crossing_tables[index.crossing_place(leaf, i, own)] =
+        border_internal_tables[numbering.border_internal_entry(leaf, i, own)] =
             measured_distance(solver, vertex_of_number[border[i]]);
     for (uint32_t i = own + 1; i < size; ++i)
-        internal_tables[index.internal_place(leaf, i, own)] =
+        internal_tables[numbering.internal_entry(leaf, i, own)] =
             measured_distance(solver, vertex_of_number[first + i]);
 }
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "src/index/index.h"
+#include "src/index/numbering.h"
 #include "src/metric/metric.h"
 
 namespace geodesic {
@@ -11,10 +11,10 @@ namespace geodesic {
 float measured_distance(const FieldSolver& solver, uint32_t vertex);
 
 // Measures an internal vertex against the border of its leaf and the internal vertices with larger numbers,
-// and writes the distances to their places in tables laid out as those of Index. vertex_of_number: the mesh
-// vertex of each number.
-void measure_internal(const Index& index, std::span<const uint32_t> vertex_of_number, uint32_t number,
-                      FieldSolver& solver, std::span<float> crossing_tables,
+// and writes the distances to their places in tables laid out as StoredIndex has them. vertex_of_number: the
+// mesh vertex of each number.
+void measure_internal(const Numbering& numbering, std::span<const uint32_t> vertex_of_number, uint32_t number,
+                      FieldSolver& solver, std::span<float> border_internal_tables,
                       std::span<float> internal_tables);
 
 }

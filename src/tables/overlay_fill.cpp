@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "src/index/derived_tables.h"
 #include "src/tables/closure.h"
 #include "src/tables/distance_tables.h"
 #include "src/tables/measuring.h"
@@ -13,53 +12,53 @@ namespace geodesic {
 namespace {
 
 // Vertices inside of each patch, not on its border.
-std::vector<uint64_t> inner_vertices(const Index& index) {
-    std::vector<uint64_t> count(index.patch_count(), 0);
-    for (uint32_t p = index.patch_count(); p-- > 0;) {
-        count[p] +=
-            p < index.first_leaf() ? index.owned_begin[p + 1] - index.owned_begin[p] : index.internal_size(p);
-        if (p > 0) count[index.parent[p]] += count[p];
+std::vector<uint64_t> inner_vertices(const Numbering& numbering) {
+    std::vector<uint64_t> count(numbering.patch_count(), 0);
+    for (uint32_t p = numbering.patch_count(); p-- > 0;) {
+        count[p] += numbering.inner_size(p);
+        if (p > 0) count[numbering.parent[p]] += count[p];
     }
     return count;
 }
 
 // Which overlay tables hold the metric's own distances: at least those above leaves.
-std::vector<uint8_t> exact_patches(const Index& index, uint32_t exact_vertices) {
-    const auto count = inner_vertices(index);
-    std::vector<uint8_t> exact(index.first_leaf());
-    for (uint32_t p = 0; p < index.first_leaf(); ++p)
-        exact[p] = count[p] <= exact_vertices || index.child_begin[p] >= index.first_leaf();
+std::vector<uint8_t> exact_patches(const Numbering& numbering, uint32_t exact_vertices) {
+    const auto count = inner_vertices(numbering);
+    std::vector<uint8_t> exact(numbering.first_leaf());
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
+        exact[p] = count[p] <= exact_vertices || numbering.child_begin[p] >= numbering.first_leaf();
     return exact;
 }
 
 // Rows of the tables that are put together, from below and from above.
-size_t closure_rows(const Index& index, const std::vector<uint8_t>& exact) {
+size_t closure_rows(const Numbering& numbering, const std::vector<uint8_t>& exact) {
     size_t rows = 0;
-    for (uint32_t p = 0; p < index.first_leaf(); ++p)
-        if (!exact[p]) rows += (p > 0 ? 2 : 1) * size_t{index.overlay_size(p)};
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
+        if (!exact[p]) rows += (p > 0 ? 2 : 1) * size_t{numbering.overlay_size(p)};
     return rows;
 }
 
 // Each pair of vertices is measured once, from the smaller number, and written to all of its places.
 class ExactTables {
 public:
-    ExactTables(const Index& index, std::span<const uint32_t> vertex_of_number,
+    ExactTables(const Numbering& numbering, std::span<const uint32_t> vertex_of_number,
                 const std::vector<uint8_t>& exact, DistanceTables& tables)
-        : index_(index), vertex_of_number_(vertex_of_number), exact_(exact), tables_(tables) {}
+        : numbering_(numbering), vertex_of_number_(vertex_of_number), exact_(exact), tables_(tables) {}
 
     void fill(FieldSolver& solver, uint32_t number) {
-        if (index_.is_border(number)) return fill_border(solver, number);
-        measure_internal(index_, vertex_of_number_, number, solver, tables_.crossing, tables_.internal);
+        if (numbering_.is_border(number)) return fill_border(solver, number);
+        measure_internal(numbering_, vertex_of_number_, number, solver, tables_.border_internal,
+                         tables_.internal);
     }
 
 private:
     // The exact overlays that a border vertex is in, and its positions there.
     std::vector<BorderPlace> overlays_of(uint32_t number) const {
         std::vector<BorderPlace> places;
-        const uint32_t owner = index_.owner[number];
-        if (exact_[owner]) places.push_back({owner, index_.position_at_owner(number)});
-        for (const BorderPlace& place : index_.places_of(number))
-            if (place.patch < index_.first_leaf() && exact_[place.patch]) places.push_back(place);
+        const uint32_t owner = numbering_.owner[number];
+        if (exact_[owner]) places.push_back({owner, numbering_.position_at_owner(number)});
+        for (const BorderPlace& place : numbering_.places_of(number))
+            if (place.patch < numbering_.first_leaf() && exact_[place.patch]) places.push_back(place);
         return places;
     }
 
@@ -67,22 +66,22 @@ private:
         const auto overlays = overlays_of(number);
         std::vector<uint32_t> targets;
         for (const auto& [patch, own] : overlays)
-            for (uint32_t i = 0; i < index_.overlay_size(patch); ++i)
-                if (const uint32_t other = index_.overlay_number(patch, i); other > number)
+            for (uint32_t i = 0; i < numbering_.overlay_size(patch); ++i)
+                if (const uint32_t other = numbering_.overlay_number(patch, i); other > number)
                     targets.push_back(vertex_of_number_[other]);
         if (!targets.empty()) solver.solve({&vertex_of_number_[number], 1}, targets);
         for (const auto& [patch, own] : overlays) {
-            const size_t size = index_.overlay_size(patch);
+            const size_t size = numbering_.overlay_size(patch);
             std::vector<float>& table = tables_.overlay[patch];
             table[own * size + own] = 0;
             for (uint32_t i = 0; i < size; ++i)
-                if (const uint32_t other = index_.overlay_number(patch, i); other > number)
+                if (const uint32_t other = numbering_.overlay_number(patch, i); other > number)
                     table[own * size + i] = table[i * size + own] =
                         measured_distance(solver, vertex_of_number_[other]);
         }
     }
 
-    const Index& index_;
+    const Numbering& numbering_;
     std::span<const uint32_t> vertex_of_number_;
     const std::vector<uint8_t>& exact_;
     DistanceTables& tables_;
@@ -99,25 +98,28 @@ bool can_be_squared(const BorderSegments& segments) {
 
 void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
                          std::span<const uint32_t> vertex_of_number, const OverlayOptions& options,
-                         Workers& workers, Index& index) {
-    DistanceTables tables(index);
-    const auto exact = exact_patches(index, options.exact_vertices);
-    ExactTables filler(index, vertex_of_number, exact, tables);
-    workers.run(index.vertex_count(), [&](FieldSolver& solver, size_t number) {
+                         Workers& workers, StoredIndex& stored) {
+    Numbering numbering(std::pmr::get_default_resource());
+    number_vertices(stored, numbering);
+    DistanceTables tables(numbering);
+    const auto exact = exact_patches(numbering, options.exact_vertices);
+    ExactTables filler(numbering, vertex_of_number, exact, tables);
+    workers.run(numbering.vertex_count(), [&](FieldSolver& solver, size_t number) {
         filler.fill(solver, static_cast<uint32_t>(number));
     });
-    BorderSegments segments(index.border.size());
-    if (options.unfold) segments = find_segments(mesh, leaf_of_face, vertex_of_number, tables, index);
-    if (!can_be_squared(segments)) segments = BorderSegments(index.border.size());
-    lay_out_rings(segments, index);
-    allocate_overlay_tables(index);
-    workers.begin_stage("closure", options.stage_end, closure_rows(index, exact));
-    for (uint32_t p = index.first_leaf(); p-- > 0;)
-        if (!exact[p]) close_from_below(p, index, workers, tables);
-    for (uint32_t p = 1; p < index.first_leaf(); ++p)
-        if (!exact[p]) close_from_above(p, index, workers, tables);
-    quantize(tables, index);
-    derive_tables(index);
+    BorderSegments segments(numbering.border.size());
+    if (options.unfold) segments = find_segments(mesh, leaf_of_face, vertex_of_number, tables, numbering);
+    if (!can_be_squared(segments)) segments = BorderSegments(numbering.border.size());
+    BorderRings rings(std::pmr::get_default_resource());
+    lay_out_rings(segments.end, segments.length, numbering, rings);
+    workers.begin_stage("closure", options.stage_end, closure_rows(numbering, exact));
+    for (uint32_t p = numbering.first_leaf(); p-- > 0;)
+        if (!exact[p]) close_from_below(p, numbering, rings, workers, tables);
+    for (uint32_t p = 1; p < numbering.first_leaf(); ++p)
+        if (!exact[p]) close_from_above(p, numbering, rings, workers, tables);
+    stored.segment_end = std::move(segments.end);
+    stored.segment_length = std::move(segments.length);
+    hand_over(std::move(tables), numbering, stored);
 }
 
 }

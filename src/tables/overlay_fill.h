@@ -2,8 +2,9 @@
 
 #include <span>
 
-#include "src/concurrency/workers.h"
-#include "src/index/index.h"
+#include "src/index/stored.h"
+#include "src/mesh/mesh.h"
+#include "src/metric/workers.h"
 
 namespace geodesic {
 
@@ -13,12 +14,12 @@ struct OverlayOptions {
     double stage_end;        // of the stage of putting together, as Workers::begin_stage()
 };
 
-// Fills the overlay tables of a laid out index with distances on the whole surface: those of small patches
-// and leaves are the metric's, those of larger ones are put together from their children's, and then
-// shortened by paths that leave the patch. Besides the index it takes 4 bytes a table entry, and 4 more an
-// entry of one table at a time. vertex_of_number: the mesh vertex of each number.
+// Fills what the overlay engine stores besides the layout with distances on the whole surface: the tables of
+// small patches and leaves are the metric's, those of larger ones are put together from their children's, and
+// then shortened by paths that leave the patch. It takes 4 bytes a table entry, and 4 more an entry of one
+// table at a time. vertex_of_number: the mesh vertex of each number.
 void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
                          std::span<const uint32_t> vertex_of_number, const OverlayOptions& options,
-                         Workers& workers, Index& index);
+                         Workers& workers, StoredIndex& stored);
 
 }

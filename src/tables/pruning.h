@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/concurrency/workers.h"
 #include "src/mesh/mesh.h"
+#include "src/metric/workers.h"
 
 namespace geodesic {
 

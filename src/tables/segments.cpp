@@ -10,14 +10,14 @@ class SegmentFinder {
 public:
     SegmentFinder(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
                   std::span<const uint32_t> vertex_of_number, const DistanceTables& tables,
-                  const Index& index, BorderSegments& segments)
-        : mesh_(mesh), leaf_of_face_(leaf_of_face), tables_(tables), index_(index), segments_(segments),
-          edges_(index.border_vertex_count()) {
+                  const Numbering& numbering, BorderSegments& segments)
+        : mesh_(mesh), leaf_of_face_(leaf_of_face), tables_(tables), numbering_(numbering),
+          segments_(segments), edges_(numbering.border_vertex_count()) {
         std::vector<uint32_t> number(mesh.vertex_count());
         for (uint32_t n = 0; n < vertex_of_number.size(); ++n) number[vertex_of_number[n]] = n;
         for (uint32_t e = 0; e < mesh.edges.size(); ++e) {
             const uint32_t a = number[mesh.edges[e][0]], b = number[mesh.edges[e][1]];
-            if (!index.is_border(a) || !index.is_border(b)) continue;
+            if (!numbering.is_border(a) || !numbering.is_border(b)) continue;
             edges_[a].push_back({b, e});
             edges_[b].push_back({a, e});
         }
@@ -25,7 +25,7 @@ public:
 
     // Rings follow each other in a border; the last vertex of each may be joined to its first.
     void find(uint32_t patch) {
-        const uint32_t size = index_.border_size(patch);
+        const uint32_t size = numbering_.border_size(patch);
         uint32_t ring = 0;
         for (uint32_t i = 0; i < size; ++i) {
             if (i + 1 < size && join(patch, i, i + 1)) continue;
@@ -40,34 +40,37 @@ private:
     };
 
     bool join(uint32_t patch, uint32_t i, uint32_t j) {
-        const uint32_t first = index_.border_begin[patch];
-        const uint32_t a = index_.border[first + i], b = index_.border[first + j];
+        const uint32_t first = numbering_.border_begin[patch];
+        const uint32_t a = numbering_.border[first + i], b = numbering_.border[first + j];
         if (std::ranges::none_of(
                 edges_[a], [&](const Edge& edge) { return edge.other_end == b && parts(edge.edge, patch); }))
             return false;
         const float length = length_of(a, b);
         if (!(length > 0)) return false;
-        segments_.next[first + i] = j;
+        segments_.end[first + i] = j;
         segments_.length[first + i] = length;
         return true;
     }
 
     // Whether an edge lies between a patch and others.
     bool parts(uint32_t edge, uint32_t patch) const {
-        const auto is_inside = [&](uint32_t face) { return index_.is_within(leaf_of_face_[face], patch); };
+        const auto is_inside = [&](uint32_t face) {
+            return numbering_.is_within(leaf_of_face_[face], patch);
+        };
         const auto faces = mesh_.edge_faces[edge];
         return std::ranges::any_of(faces, is_inside) && !std::ranges::all_of(faces, is_inside);
     }
 
     // Both ends lie on the border of a leaf on one side of the edge.
     float length_of(uint32_t a, uint32_t b) const {
-        for (const BorderPlace& at : index_.places_of(a))
-            for (const BorderPlace& bt : index_.places_of(b)) {
-                if (at.patch != bt.patch || at.patch < index_.first_leaf()) continue;
-                const uint32_t parent = index_.parent[at.patch], first = index_.border_begin[at.patch];
-                const size_t row = index_.overlay_position[first + at.position];
-                return tables_.overlay[parent][row * index_.overlay_size(parent) +
-                                               index_.overlay_position[first + bt.position]];
+        for (const BorderPlace& at : numbering_.places_of(a))
+            for (const BorderPlace& bt : numbering_.places_of(b)) {
+                if (at.patch != bt.patch || at.patch < numbering_.first_leaf()) continue;
+                const uint32_t parent = numbering_.parent[at.patch],
+                               first = numbering_.border_begin[at.patch];
+                const size_t row = numbering_.overlay_position[first + at.position];
+                return tables_.overlay[parent][row * numbering_.overlay_size(parent) +
+                                               numbering_.overlay_position[first + bt.position]];
             }
         return 0;
     }
@@ -75,7 +78,7 @@ private:
     const Mesh& mesh_;
     std::span<const uint32_t> leaf_of_face_;
     const DistanceTables& tables_;
-    const Index& index_;
+    const Numbering& numbering_;
     BorderSegments& segments_;
     std::vector<std::vector<Edge>> edges_; // per border vertex: to other border vertices
 };
@@ -84,10 +87,10 @@ private:
 
 BorderSegments find_segments(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
                              std::span<const uint32_t> vertex_of_number, const DistanceTables& tables,
-                             const Index& index) {
-    BorderSegments segments(index.border.size());
-    SegmentFinder finder(mesh, leaf_of_face, vertex_of_number, tables, index, segments);
-    for (uint32_t p = 1; p < index.patch_count(); ++p) finder.find(p);
+                             const Numbering& numbering) {
+    BorderSegments segments(numbering.border.size());
+    SegmentFinder finder(mesh, leaf_of_face, vertex_of_number, tables, numbering, segments);
+    for (uint32_t p = 1; p < numbering.patch_count(); ++p) finder.find(p);
     return segments;
 }
 

@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "src/index/index.h"
-#include "src/index/rings.h"
+#include "src/index/numbering.h"
 #include "src/mesh/mesh.h"
+#include "src/overlay/rings.h"
 #include "src/tables/distance_tables.h"
 
 namespace geodesic {
@@ -13,6 +13,6 @@ namespace geodesic {
 // is by the tables above the leaves.
 BorderSegments find_segments(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
                              std::span<const uint32_t> vertex_of_number, const DistanceTables& tables,
-                             const Index& index);
+                             const Numbering& numbering);
 
 }

@@ -12,7 +12,7 @@
 
 #include <doctest/doctest.h>
 
-#include "src/concurrency/shared_tasks.h"
+#include "src/base/shared_tasks.h"
 
 using namespace geodesic;
 

@@ -11,7 +11,7 @@
 #include <doctest/doctest.h>
 
 #include "format/error.h"
-#include "src/concurrency/workers.h"
+#include "src/metric/workers.h"
 
 using namespace geodesic;
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "format/container.h"
-#include "src/index/index_sections.h"
+#include "src/file/sections.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/copied_matrices.h"
 

@@ -195,7 +195,7 @@ TEST_CASE("a vertex that stands twice on one border is refused") {
 }
 
 TEST_CASE("crafted tables") {
-    for (uint32_t tag : {TAG_BORDER_TABLES, TAG_CROSSING_TABLES, TAG_INTERNAL_TABLES}) {
+    for (uint32_t tag : {TAG_BORDER_TABLES, TAG_BORDER_INTERNAL_TABLES, TAG_INTERNAL_TABLES}) {
         REQUIRE(original().parts.tables.at(tag).size() > 10);
         for (float entry : {NOT_A_NUMBER, -1.0f, -INFINITE, -1e-40f})
             for (size_t i : {size_t{0}, original().parts.tables.at(tag).size() - 1})
@@ -205,7 +205,7 @@ TEST_CASE("crafted tables") {
 
 TEST_CASE("matrices of another shape, and too many or too few, are refused") {
     const TakenApart& good = original().parts;
-    for (uint32_t tag : {TAG_BORDER_TABLES, TAG_CROSSING_TABLES, TAG_INTERNAL_TABLES}) {
+    for (uint32_t tag : {TAG_BORDER_TABLES, TAG_BORDER_INTERNAL_TABLES, TAG_INTERNAL_TABLES}) {
         const auto file_with = [&](const std::function<void(std::vector<format::MatrixView>&)>& change) {
             format::ContainerWriter writer(original().fingerprint);
             const auto container = format::Container::parse(original().file, INDEX_TAGS);

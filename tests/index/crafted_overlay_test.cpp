@@ -6,8 +6,8 @@
 
 #include "format/bytes.h"
 #include "format/container.h"
-#include "src/index/folded_triangle.h"
-#include "src/index/index_sections.h"
+#include "src/file/folded_triangle.h"
+#include "src/file/sections.h"
 #include "tests/capi/calls.h"
 #include "tests/support/copied_matrices.h"
 

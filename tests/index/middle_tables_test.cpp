@@ -1,5 +1,5 @@
 // What a sweep reads beside the tables of the file.
-#include "src/index/middle_tables.h"
+#include "src/overlay/middles.h"
 
 #include <cmath>
 
@@ -15,33 +15,34 @@ TEST_CASE("middle tables: in the plane, straight lines to the middles of segment
     const TestMesh mesh = grid(30, 30);
     geoidx_build_options options = build_options(GEOIDX_METRIC_EXACT, 2);
     options.engine = GEOIDX_ENGINE_OVERLAY;
-    Index index(std::pmr::get_default_resource());
-    build_index(mesh.view(), options, index);
+    Index built(std::pmr::get_default_resource());
+    build_index(mesh.view(), options, built);
+    const auto& index = std::get<OverlayIndex>(built.engine);
+    const Numbering& numbering = index.numbering;
 
-    const OverlayTables& tables = index.overlay_tables;
     uint64_t wrong = 0, middles = 0;
-    for (uint32_t p = 1; p < index.patch_count(); ++p)
-        for (uint32_t i = 0; i < index.inner_size(p); ++i)
-            for (uint32_t k = 0; k < index.ring_size(p); ++k) {
-                const uint32_t place = tables.rings.begin[p] + k;
-                const uint16_t code = tables.inner_middles[index.inner_row(p, i) + k];
-                if (std::isnan(tables.rings.segment_length[place])) {
-                    wrong += code != OverlayTables::UNREACHED;
+    for (uint32_t p = 1; p < numbering.patch_count(); ++p)
+        for (uint32_t i = 0; i < numbering.inner_size(p); ++i)
+            for (uint32_t k = 0; k < index.rings.size(p); ++k) {
+                const uint32_t place = index.rings.begin[p] + k;
+                const uint16_t code = index.hops.inner_middles[index.inner_row(p, i) + k];
+                if (std::isnan(index.rings.segment_length[place])) {
+                    wrong += code != TableCode::UNREACHED;
                     continue;
                 }
-                const auto& target = index.positions[index.first_inner(p) + i];
-                const auto &first = index.positions[tables.rings.vertex[place]],
-                           &second = index.positions[tables.rings.vertex[place + 1]];
+                const auto& target = numbering.positions[numbering.first_inner(p) + i];
+                const auto &first = numbering.positions[index.rings.vertex[place]],
+                           &second = numbering.positions[index.rings.vertex[place + 1]];
                 double square = 0;
                 for (size_t axis = 0; axis < 3; ++axis)
                     square += std::pow(
                         double{target[axis]} - 0.5 * (double{first[axis]} + double{second[axis]}), 2);
-                const double quantum = double{tables.quantum[p]}, distance = std::sqrt(square);
+                const double quantum = double{index.quantum[p]}, distance = std::sqrt(square);
                 // Entries are rounded by half a step, the middle's once more; near a segment that counts
                 // more. What is no leaf's is calibrated.
-                const double length = double{tables.rings.segment_length[place]};
+                const double length = double{index.rings.segment_length[place]};
                 const double rounding = quantum * (1 + 2 * (distance + length) / distance) +
-                                        (p < index.first_leaf() ? 1e-3 * distance : 0);
+                                        (p < numbering.first_leaf() ? 1e-3 * distance : 0);
                 wrong += std::abs(code * quantum - distance) > rounding;
                 ++middles;
             }

@@ -1,5 +1,5 @@
 // What the overlay engine derives from a file, foreseen from its counts.
-#include "src/index/proportion.h"
+#include "src/overlay/proportion.h"
 
 #include <doctest/doctest.h>
 
@@ -11,15 +11,17 @@ using namespace geodesic::test;
 
 namespace {
 
-void build_overlay(const TestMesh& mesh, geoidx_build_options options, Index& index) {
+OverlayIndex build_overlay(const TestMesh& mesh, geoidx_build_options options) {
     options.engine = GEOIDX_ENGINE_OVERLAY;
+    Index index(std::pmr::get_default_resource());
     build_index(mesh.view(), options, index);
+    return std::get<OverlayIndex>(std::move(index.engine));
 }
 
 // As it was made, without padding.
-uint64_t codes_made(const OverlayTables& tables) {
-    return tables.outer_tables.size() + tables.inner_tables.size() + tables.inner_middles.size() +
-           tables.coarse_tables.size() + tables.labels.size() - 4 * OverlayTables::PADDING;
+uint64_t codes_made(const OverlayIndex& index) {
+    return index.hops.outer.size() + index.hops.inner.size() + index.hops.inner_middles.size() +
+           index.samples.tables.size() + index.labels.codes.size() - 4 * TableCode::PADDING;
 }
 
 }
@@ -31,9 +33,8 @@ TEST_CASE("proportion: as many codes are derived as are foreseen, and they are f
             CAPTURE(levels);
             auto options = build_options(metric, levels);
             options.patches[0] = 2; // a border that is sampled
-            Index index(std::pmr::get_default_resource());
-            build_overlay(grid(4, 220), options, index);
-            CHECK(derived_codes(index) == codes_made(index.overlay_tables));
+            const OverlayIndex index = build_overlay(grid(4, 220), options);
+            CHECK(derived_codes(index) == codes_made(index));
             CHECK(derived_codes(index) < 40 * stored_numbers(index));
         }
 }
@@ -42,7 +43,6 @@ TEST_CASE("proportion: coarse tables and labels to samples are foreseen") {
     auto options = build_options(GEOIDX_METRIC_EDGES, 2);
     options.patches[0] = options.patches[1] = 3;
     options.exact_vertices = 1;
-    Index index(std::pmr::get_default_resource());
-    build_overlay(grid(300, 6), options, index);
-    CHECK(derived_codes(index) == codes_made(index.overlay_tables));
+    const OverlayIndex index = build_overlay(grid(300, 6), options);
+    CHECK(derived_codes(index) == codes_made(index));
 }

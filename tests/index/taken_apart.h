@@ -5,7 +5,7 @@
 
 #include "format/bytes.h"
 #include "format/container.h"
-#include "src/index/index_sections.h"
+#include "src/file/sections.h"
 #include "tests/capi/calls.h"
 
 namespace geodesic::test {
@@ -99,7 +99,7 @@ inline std::vector<std::pair<uint32_t, uint32_t>> shapes_of(const TakenApart& pa
         for (uint32_t size : parts.border_sizes) folded(size);
     if (tag == TAG_INTERNAL_TABLES)
         for (uint32_t size : parts.internal) folded(size);
-    if (tag == TAG_CROSSING_TABLES)
+    if (tag == TAG_BORDER_INTERNAL_TABLES)
         for (size_t i = 0; i < parts.internal.size(); ++i)
             if (parts.border_sizes[first_leaf + i] && parts.internal[i])
                 shapes.push_back({parts.border_sizes[first_leaf + i], parts.internal[i]});
@@ -108,7 +108,7 @@ inline std::vector<std::pair<uint32_t, uint32_t>> shapes_of(const TakenApart& pa
 
 inline void take_tables_apart(std::span<const std::byte> file, TakenApart& parts) {
     const auto container = format::Container::parse(file, INDEX_TAGS);
-    for (uint32_t tag : {TAG_BORDER_TABLES, TAG_CROSSING_TABLES, TAG_INTERNAL_TABLES}) {
+    for (uint32_t tag : {TAG_BORDER_TABLES, TAG_BORDER_INTERNAL_TABLES, TAG_INTERNAL_TABLES}) {
         size_t entries = 0;
         for (const auto& [rows, cols] : shapes_of(parts, tag)) entries += size_t{rows} * cols;
         auto& values = parts.tables[tag];
@@ -163,7 +163,7 @@ inline Bytes put_together(const TakenApart& parts, const TakenApart& shapes, uin
     for (const auto* numbers : {&parts.owned, &parts.internal, &parts.border_sizes, &parts.border})
         bytes.u32_array(*numbers);
     add(TAG_BORDERS, bytes);
-    for (uint32_t tag : {TAG_BORDER_TABLES, TAG_CROSSING_TABLES, TAG_INTERNAL_TABLES}) {
+    for (uint32_t tag : {TAG_BORDER_TABLES, TAG_BORDER_INTERNAL_TABLES, TAG_INTERNAL_TABLES}) {
         if (tag == parts.missing_tag) continue;
         std::vector<format::MatrixView> matrices;
         const std::span<const float> values(parts.tables.at(tag));

@@ -27,11 +27,12 @@ TEST_CASE("SSSD is the shortest path over the overlays of both vertices' ancesto
     for (const QueryCase& test : query_cases()) {
         CAPTURE(test.name);
         const geoidx* handle = index_of(test);
-        const Index& index = handle->index;
+        const Array<uint32_t>& number_of_id = handle->index.number_of_id;
+        const auto& index = std::get<GraphIndex>(handle->index.engine);
         uint64_t searched = 0;
         for (uint32_t a : some_ids(test.mesh, 4))
             for (uint32_t b : some_ids(test.mesh, 9)) {
-                const uint32_t from = index.number_of_id[a], to = index.number_of_id[b];
+                const uint32_t from = number_of_id[a], to = number_of_id[b];
                 double expected = a == b ? 0 : FAR;
                 if (from != NONE && to != NONE) expected = brute_force_sssd(index, from, to);
                 const double answer{sssd(handle, a, b)};
@@ -50,7 +51,8 @@ TEST_CASE("MSAD is the three phases over the tables, and never under the shortes
     for (const QueryCase& test : query_cases()) {
         CAPTURE(test.name);
         const geoidx* handle = index_of(test);
-        const Index& index = handle->index;
+        const Array<uint32_t>& number_of_id = handle->index.number_of_id;
+        const auto& index = std::get<GraphIndex>(handle->index.engine);
         const Arcs every_arc = all_arcs(index);
         const auto ids = some_ids(test.mesh, 6);
         for (const auto& sources :
@@ -58,15 +60,15 @@ TEST_CASE("MSAD is the three phases over the tables, and never under the shortes
               std::vector<uint32_t>{ids[3], ids[4], ids[5], ids[3]}}) {
             std::vector<uint32_t> numbers;
             for (uint32_t id : sources)
-                if (index.number_of_id[id] != NONE) numbers.push_back(index.number_of_id[id]);
+                if (number_of_id[id] != NONE) numbers.push_back(number_of_id[id]);
             const auto expected = brute_force_msad(index, numbers);
-            std::vector<double> least(index.vertex_count(), FAR);
+            std::vector<double> least(index.numbering.vertex_count(), FAR);
             for (uint32_t number : numbers) least[number] = 0;
             relax(every_arc, least);
             const auto answers = msad(handle, sources, test.mesh.vertex_count());
             for (uint32_t id = 0; id < answers.size(); ++id) {
                 const bool is_source = std::ranges::count(sources, id) > 0;
-                const uint32_t number = index.number_of_id[id];
+                const uint32_t number = number_of_id[id];
                 const double three_phases = is_source ? 0 : number == NONE ? FAR : expected[number];
                 const double answer{answers[id]};
                 if (!agree(answer, three_phases)) {

@@ -1,5 +1,5 @@
 // The innermost loop of the overlay engine: every kernel that this processor can run.
-#include "src/query/crossing.h"
+#include "src/overlay/kernels/crossing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "src/overlay/near.h"
 #include "tests/query/flat_border.h"
 
 using namespace geodesic;
@@ -84,7 +85,7 @@ TEST_CASE("crossing: near segments of a jagged border, by every kernel") {
             near.height = height.data();
             const Sight sight = kernel.see(near, is_own.data(), code.data(), foot.data(), height.data());
             REQUIRE(sight.is_near());
-            CHECK(double{sight.reach} == doctest::Approx(double{OverlayTables::NEAR} * 10));
+            CHECK(double{sight.reach} == doctest::Approx(50.0));
             auto distances = cross(kernel, near, border.rows).distances;
             const auto before = distances;
             kernel.cross_near(near, sight, border.rows, distances.data());
@@ -111,7 +112,7 @@ TEST_CASE("crossing: what is far stays as it is") {
         for (const CrossingKernel& kernel : crossing_kernels()) {
             CAPTURE(kernel.name);
             const float longest = *std::max_element(border.length.begin(), border.length.begin() + 29);
-            const float reach = OverlayTables::NEAR * longest;
+            const float reach = near_radius(longest);
             const bool is_near = -source.y < double{reach};
             const Sight sight{0, reach, is_near ? size_t{0} : size_t{1}, is_near ? size_t{29} : size_t{0}};
             std::vector<float> distances{reach, reach * 2};
@@ -130,9 +131,9 @@ TEST_CASE("crossing: the first place with the least sum wins, by every kernel, a
             FlatBorder border(places, {1, -1}, points, random);
             for (uint16_t& code : border.codes) code = static_cast<uint16_t>(random() % (largest + 1));
             for (size_t k = 2; k + 2 < places; ++k)
-                border.code[k] = static_cast<int16_t>(SeenCodes::NEAREST +
+                border.code[k] = static_cast<int16_t>(SourceCode::NEAREST +
                                                       static_cast<int32_t>(random() % (largest / 2 + 1)));
-            border.code[2 + random() % (places - 4)] = SeenCodes::NEAREST;
+            border.code[2 + random() % (places - 4)] = SourceCode::NEAREST;
             const SeenBorder seen = border.seen();
             Crossed first;
             for (const CrossingKernel& kernel : crossing_kernels()) {
@@ -157,8 +158,8 @@ TEST_CASE("crossing: ways of which one end is out of reach") {
     const std::vector<Point> points(3, Point{5, 3});
     FlatBorder border(40, {5, -3}, points, random);
     for (size_t k = 0; k < 40; ++k) {
-        border.codes[k] = OverlayTables::UNREACHED;                   // row 0: no place at all
-        if (k != 30) border.codes[40 + k] = OverlayTables::UNREACHED; // row 1: one far off
+        border.codes[k] = TableCode::UNREACHED;                   // row 0: no place at all
+        if (k != 30) border.codes[40 + k] = TableCode::UNREACHED; // row 1: one far off
     }
     border.codes[40 + 30] = 0x7ffe;
     const SeenBorder seen = border.seen();
@@ -202,12 +203,12 @@ TEST_CASE("crossing: what is seen of a border, by every kernel") {
             CHECK(kernel.see(seen, is_own.data(), code.data(), foot.data(), height.data()).nearest ==
                   nearest);
             uint64_t wrong = 0;
-            for (size_t k = 0; k < (places + SeenCodes::BLOCK - 1) / SeenCodes::BLOCK * SeenCodes::BLOCK;
+            for (size_t k = 0; k < (places + SourceCode::BLOCK - 1) / SourceCode::BLOCK * SourceCode::BLOCK;
                  ++k) {
                 const bool is_seen = k < places && is_own[k] && border.to_source[k] < INFINITE;
                 const double steps = (double{border.to_source[k]} - double{nearest}) / double{border.quantum};
-                wrong += is_seen ? std::abs(code[k] - SeenCodes::NEAREST - std::min(steps, 32766.0)) > 0.51
-                                 : code[k] != SeenCodes::NOT_SEEN;
+                wrong += is_seen ? std::abs(code[k] - SourceCode::NEAREST - std::min(steps, 32766.0)) > 0.51
+                                 : code[k] != SourceCode::UNREACHED;
             }
             for (size_t k = 0; k + 1 < places; ++k) {
                 if (border.to_source[k] == INFINITE || border.to_source[k + 1] == INFINITE) continue;

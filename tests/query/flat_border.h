@@ -6,12 +6,10 @@
 #include <random>
 #include <vector>
 
-#include "src/index/overlay_tables.h"
-#include "src/query/crossing.h"
+#include "src/overlay/kernels/crossing.h"
+#include "src/overlay/tables.h"
 
 namespace geodesic::test {
-
-inline constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
 struct Point {
     double x, y;
@@ -37,16 +35,16 @@ struct FlatBorder {
         double longest = 0;
         for (const Point& target : targets)
             for (const Point& at : border) longest = std::max(longest, geodesic_distance(target, at));
-        quantum = static_cast<float>(longest / OverlayTables::LARGEST);
-        const size_t room = (places / SeenCodes::BLOCK + 2) * SeenCodes::BLOCK;
-        code.assign(room, SeenCodes::NOT_SEEN);
+        quantum = static_cast<float>(longest / TableCode::LARGEST);
+        const size_t room = (places / SourceCode::BLOCK + 2) * SourceCode::BLOCK;
+        code.assign(room, SourceCode::UNREACHED);
         for (auto* values : {&to_source, &length, &half_inverse, &foot, &height}) values->assign(room, 0);
         double nearest = longest;
         for (const Point& at : border) nearest = std::min(nearest, geodesic_distance(source, at));
         for (size_t k = 0; k < places; ++k) {
             to_source[k] = static_cast<float>(geodesic_distance(source, border[k]));
             code[k] = static_cast<int16_t>(
-                SeenCodes::NEAREST +
+                SourceCode::NEAREST +
                 std::lround(std::min((double{to_source[k]} - nearest) / double{quantum}, 32766.0)));
             const Point next = border[std::min(k + 1, places - 1)];
             const Point along{next.x - border[k].x, next.y - border[k].y};
@@ -57,8 +55,8 @@ struct FlatBorder {
             height[k] = static_cast<float>(std::abs(seen.x * along.y - seen.y * along.x) / double{length[k]});
         }
         // The ends are there to be neighbours only.
-        for (size_t k : {size_t{0}, size_t{1}, places - 2, places - 1}) code[k] = SeenCodes::NOT_SEEN;
-        codes.assign(targets.size() * places + SeenCodes::BLOCK, 0);
+        for (size_t k : {size_t{0}, size_t{1}, places - 2, places - 1}) code[k] = SourceCode::UNREACHED;
+        codes.assign(targets.size() * places + SourceCode::BLOCK, 0);
         for (size_t r = 0; r < targets.size(); ++r)
             for (size_t k = 0; k < places; ++k)
                 codes[r * places + k] = static_cast<uint16_t>(
@@ -70,7 +68,7 @@ struct FlatBorder {
     static double geodesic_distance(Point a, Point b) { return test::distance(a, b); }
 
     SeenBorder seen() const {
-        return {rows.size() > 1 ? static_cast<size_t>(rows[1] - rows[0]) : codes.size() - SeenCodes::BLOCK,
+        return {rows.size() > 1 ? static_cast<size_t>(rows[1] - rows[0]) : codes.size() - SourceCode::BLOCK,
                 code.data(),
                 to_source.data(),
                 length.data(),

@@ -1,7 +1,6 @@
 // Queries against the metric itself, computed without an index.
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "src/capi/handles.h"
@@ -12,23 +11,21 @@ using namespace geodesic::test;
 
 namespace {
 
-constexpr float INFINITE = std::numeric_limits<float>::infinity();
-
 // The leaves that hold a vertex, inside or on their border.
-std::vector<uint32_t> leaves_of(const Index& index, uint32_t number) {
+std::vector<uint32_t> leaves_of(const Numbering& numbering, uint32_t number) {
     std::vector<uint32_t> leaves;
-    for (uint32_t leaf = index.first_leaf(); leaf < index.patch_count(); ++leaf) {
-        const auto border = index.border_of(leaf);
-        const uint32_t first = index.first_internal(leaf);
+    for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf) {
+        const auto border = numbering.border_of(leaf);
+        const uint32_t first = numbering.first_internal(leaf);
         if (std::ranges::count(border, number) > 0 ||
-            (number >= first && number < first + index.internal_size(leaf)))
+            (number >= first && number < first + numbering.internal_size(leaf)))
             leaves.push_back(leaf);
     }
     return leaves;
 }
 
-bool share_a_leaf(const Index& index, uint32_t a, uint32_t b) {
-    const auto of_a = leaves_of(index, a), of_b = leaves_of(index, b);
+bool share_a_leaf(const Numbering& numbering, uint32_t a, uint32_t b) {
+    const auto of_a = leaves_of(numbering, a), of_b = leaves_of(numbering, b);
     return std::ranges::find_first_of(of_a, of_b) != of_a.end();
 }
 
@@ -52,7 +49,7 @@ TEST_CASE("SSSD: sound, symmetric bit for bit, exact within a leaf") {
         CAPTURE(test.name);
         const geoidx* handle = index_of(test);
         const auto metric = solver(test.mesh, test.options);
-        const Index& index = handle->index;
+        const Index& prepared = handle->index;
         uint64_t unsound = 0, asymmetric = 0, inexact = 0, of_one_leaf = 0;
         for (uint32_t a : random_ids(test.mesh, 6, 1)) {
             const auto exact = metric_distances(metric.get(), a, test.mesh.vertex_count());
@@ -60,8 +57,9 @@ TEST_CASE("SSSD: sound, symmetric bit for bit, exact within a leaf") {
                 const float there = sssd(handle, a, b), back = sssd(handle, b, a);
                 asymmetric += std::bit_cast<uint32_t>(there) != std::bit_cast<uint32_t>(back);
                 unsound += !is_sound(there, exact[b]);
-                const uint32_t from = index.number_of_id[a], to = index.number_of_id[b];
-                if (from == NONE || to == NONE || a == b || !share_a_leaf(index, from, to)) continue;
+                const uint32_t from = prepared.number_of_id[a], to = prepared.number_of_id[b];
+                if (from == NONE || to == NONE || a == b || !share_a_leaf(prepared.numbering(), from, to))
+                    continue;
                 ++of_one_leaf;
                 inexact += std::abs(double{there} - exact[b]) > 2e-7 * exact[b];
             }

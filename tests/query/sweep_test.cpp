@@ -1,5 +1,5 @@
 // The innermost loop of MSAD: every kernel that this processor can run.
-#include "src/query/sweep.h"
+#include "src/overlay/kernels/sweep.h"
 
 #include <array>
 #include <cstring>
@@ -23,18 +23,18 @@ struct Plane {
         double longest = 0;
         for (const Point& target : targets)
             for (const Point& at : border) longest = std::max(longest, distance(target, at));
-        quantum = static_cast<float>(longest / OverlayTables::LARGEST);
-        length.assign(places + SeenCodes::BLOCK, 1);
+        quantum = static_cast<float>(longest / TableCode::LARGEST);
+        length.assign(places + SourceCode::BLOCK, 1);
         for (size_t k = 0; k + 1 < places; ++k)
             length[k] = static_cast<float>(distance(border[k], border[k + 1]));
         length[places - 1] = NAN;
-        codes.assign(targets.size() * places + SeenCodes::BLOCK, 0);
+        codes.assign(targets.size() * places + SourceCode::BLOCK, 0);
         middles = codes;
         for (size_t r = 0; r < targets.size(); ++r)
             for (size_t k = 0; k < places; ++k) {
                 codes[r * places + k] = code_of(distance(targets[r], border[k]));
                 middles[r * places + k] =
-                    k + 1 < places ? code_of(distance(targets[r], middle(k))) : OverlayTables::UNREACHED;
+                    k + 1 < places ? code_of(distance(targets[r], middle(k))) : TableCode::UNREACHED;
             }
     }
 
@@ -45,7 +45,7 @@ struct Plane {
 
     void add_gap(size_t k) {
         length[k] = NAN;
-        for (size_t r = 0; r < targets.size(); ++r) middles[r * border.size() + k] = OverlayTables::UNREACHED;
+        for (size_t r = 0; r < targets.size(); ++r) middles[r * border.size() + k] = TableCode::UNREACHED;
     }
     void add_source(Point source) {
         std::vector<float> distances(border.size());
@@ -78,7 +78,7 @@ struct Plane {
 // Distances by row, of `count` sources from `first` on, side by side.
 std::vector<float> sweep(const SweepKernel& kernel, const Plane& plane, size_t first, size_t count) {
     const size_t places = plane.border.size();
-    const size_t room = (SeenCodes::whole_blocks(places) + SeenCodes::BLOCK) * count;
+    const size_t room = (SourceCode::whole_blocks(places) + SourceCode::BLOCK) * count;
     std::vector<float> from(room, INFINITE), middle_from(room, 12345);
     std::vector<int16_t> code(room, -77), middle(room, -77);
     for (size_t k = 0; k < places; ++k)
@@ -179,16 +179,15 @@ TEST_CASE("sweep: targets out of reach") {
     std::mt19937 random(3);
     Plane plane = random_plane(40, 9, random);
     for (size_t k = 0; k < 40; ++k) {
-        plane.codes[k] = plane.middles[k] = OverlayTables::UNREACHED; // row 0: from everywhere
-        plane.middles[40 + k] = OverlayTables::UNREACHED;
-        if (k != 30) plane.codes[40 + k] = OverlayTables::UNREACHED; // row 1: but from one place, far off
+        plane.codes[k] = plane.middles[k] = TableCode::UNREACHED; // row 0: from everywhere
+        plane.middles[40 + k] = TableCode::UNREACHED;
+        if (k != 30) plane.codes[40 + k] = TableCode::UNREACHED; // row 1: but from one place, far off
     }
-    plane.codes[40 + 30] = OverlayTables::LARGEST;
+    plane.codes[40 + 30] = TableCode::LARGEST;
     const auto distances = sweep_every_way(plane);
     for (size_t i = 0; i < SOURCES; ++i) {
         CHECK(distances[i] == INFINITE);
         CHECK(double{distances[SOURCES + i]} ==
-              doctest::Approx(double{plane.from[i][30] + OverlayTables::LARGEST * plane.quantum})
-                  .epsilon(1e-4));
+              doctest::Approx(double{plane.from[i][30] + TableCode::LARGEST * plane.quantum}).epsilon(1e-4));
     }
 }

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "format/container.h"
+#include "src/index/stored.h"
+
+namespace geodesic {
+
+// The bytes of an index as format/SPEC.md describes them.
+std::vector<std::byte> write_index(const StoredIndex& stored);
+
+// Throws Error where the bytes are not those of an index. What needs the numbering to be checked, prepare()
+// checks.
+StoredIndex read_index(std::span<const std::byte> file);
+
+}

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "format/container.h"
+#include "src/index/stored.h"
+
+namespace geodesic {
+
+// The sections of an index; format/SPEC.md describes their content.
+inline constexpr uint32_t TAG_META = format::make_tag("META");
+inline constexpr uint32_t TAG_HIERARCHY = format::make_tag("HIER");
+inline constexpr uint32_t TAG_VERTICES = format::make_tag("VERT");
+inline constexpr uint32_t TAG_POSITIONS = format::make_tag("POSI");
+inline constexpr uint32_t TAG_BORDERS = format::make_tag("BORD");
+inline constexpr uint32_t TAG_BORDER_TABLES = format::make_tag("BVBV");
+inline constexpr uint32_t TAG_BORDER_INTERNAL_TABLES = format::make_tag("BVIV");
+inline constexpr uint32_t TAG_INTERNAL_TABLES = format::make_tag("IVIV");
+
+// Of the overlay engine only.
+inline constexpr uint32_t TAG_QUANTA = format::make_tag("QUAN");
+inline constexpr uint32_t TAG_SEGMENTS = format::make_tag("SEGM");
+inline constexpr uint32_t TAG_OVERLAY_TABLES = format::make_tag("OVOV");
+
+inline constexpr std::array INDEX_TAGS{TAG_META,
+                                       TAG_HIERARCHY,
+                                       TAG_VERTICES,
+                                       TAG_POSITIONS,
+                                       TAG_BORDERS,
+                                       TAG_BORDER_TABLES,
+                                       TAG_BORDER_INTERNAL_TABLES,
+                                       TAG_INTERNAL_TABLES,
+                                       TAG_QUANTA,
+                                       TAG_SEGMENTS,
+                                       TAG_OVERLAY_TABLES};
+
+// Each pair writes and reads a group of sections: common.cpp those of either engine, graph.cpp and
+// overlay.cpp those of one. They are to be read in this order, since later ones are as large as earlier ones
+// say. Reading throws Error CORRUPT for what format/SPEC.md refuses.
+void write_common(const StoredIndex& stored, format::ContainerWriter& writer);
+void read_common(const format::Container& container, StoredIndex& stored);
+
+void write_graph(const StoredIndex& stored, format::ContainerWriter& writer);
+void read_graph(const format::Container& container, StoredIndex& stored);
+
+void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer);
+void read_overlay(const format::Container& container, StoredIndex& stored);
+
+[[noreturn]] void refuse_as_corrupt(const std::string& detail);
+
+}

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "format/container.h"
+#include "src/index/stored.h"
+
+namespace geodesic {
+
+// The tables of one section, as matrices of float32. Values lie end to end as in StoredIndex; a file folds
+// the entries below a diagonal into a rectangle.
+class TableSection {
+public:
+    explicit TableSection(uint32_t tag) : tag_(tag) {}
+
+    // The next table: full, or below the diagonal of so many rows.
+    void add(uint32_t rows, uint32_t cols);
+    void add_below_diagonal(uint32_t size);
+
+    void write(std::span<const float> values, format::ContainerWriter& writer) const;
+
+    // The section's size is compared before anything is allocated. Throws Error CORRUPT also where an entry
+    // is negative or NaN.
+    std::vector<float> read(const format::Container& container) const;
+
+private:
+    struct Table {
+        uint32_t rows, cols; // of the matrix
+        uint32_t size;       // of the triangle that it folds, or 0
+    };
+
+    uint32_t tag_;
+    std::vector<Table> tables_;
+    uint64_t entries_ = 0;
+};
+
+// Those of leaves, whichever engine's.
+TableSection border_internal_section(const StoredIndex& stored);
+TableSection internal_section(const StoredIndex& stored);
+
+}

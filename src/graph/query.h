@@ -1,0 +1,72 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "src/graph/arc_queue.h"
+#include "src/graph/tables.h"
+
+namespace geodesic {
+
+// Queries by a search over the tables of borders (paper 3.4). Vertices are given by their numbers.
+class GraphQuery {
+public:
+    GraphQuery(const GraphIndex& index, std::pmr::memory_resource* memory);
+
+    // Symmetric bit for bit if low < high.
+    float sssd(uint32_t low, uint32_t high);
+
+    // From then on prepared_sssd() is from this source; nothing is gained by that.
+    void prepare(uint32_t source) { prepared_ = source; }
+    float prepared_sssd(uint32_t target) {
+        return sssd(std::min(prepared_, target), std::max(prepared_, target));
+    }
+
+    // distance[number], of every vertex, whatever the radius.
+    void msad(std::span<const uint32_t> sources, float radius, std::span<float> distance);
+
+private:
+    // msad.cpp
+    void start_from(uint32_t source);
+    void start_from_internal(uint32_t source);
+    void climb();
+    void descend();
+    void cross_overlay(uint32_t patch, uint32_t start_count);
+    void activate(uint32_t slot);
+    uint32_t nearest_active_child(uint32_t patch) const;
+    void cross_child(uint32_t patch, uint32_t child);
+    void pass_on(uint32_t patch, uint32_t slot, float distance);
+    void fill_leaf(uint32_t leaf);
+
+    // sssd.cpp
+    float same_leaf_distance(uint32_t a, uint32_t b) const;
+    float search(uint32_t source, uint32_t target);
+    void allow_ancestors(uint32_t source, uint32_t target);
+    void open(uint32_t node, float distance, uint32_t target);
+    void relax_border_vertex(uint32_t node, float distance, uint32_t target);
+
+    const GraphIndex& index_;
+    const Numbering& numbering_;
+    uint32_t prepared_ = NONE;
+    ArcQueue queue_; // of SSSD
+
+    // MSAD: distances by number, the caller's; which inner patches have sources below them.
+    std::span<float> distance_;
+    Array<uint8_t> has_sources_;
+    // The overlay that is being crossed: distances per slot, so that a table row meets them side by side; per
+    // child the slots whose rows have not been looked at since their distance fell, in the child's part of
+    // the array.
+    Array<float> slot_distance_;
+    Array<uint8_t> slot_is_active_;
+    Array<uint32_t> active_slots_;
+    Array<uint32_t> active_count_; // per patch
+    Array<float> nearest_active_;  // per patch: no active slot is nearer; infinity without one
+    Array<float> crossed_;         // of one child's border, while its rows are looked at
+
+    // SSSD: distances of border vertices, valid where the epoch is the current one; likewise allowed patches.
+    Array<float> search_distance_;
+    Array<uint32_t> search_epoch_, allowed_epoch_;
+    uint32_t epoch_ = 0;
+};
+
+}

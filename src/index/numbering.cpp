@@ -1,0 +1,204 @@
+#include "src/index/numbering.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "format/error.h"
+#include "src/index/stored.h"
+
+namespace geodesic {
+
+Numbering::Numbering(std::pmr::memory_resource* memory)
+    : level_begin(memory), parent(memory), child_begin(memory), positions(memory), owned_begin(memory),
+      internal_begin(memory), border_begin(memory), border(memory), leaf_of_internal(memory), owner(memory),
+      overlay_position(memory), patch_of_slot(memory), overlay_begin(memory), slot_begin(memory),
+      slots(memory), place_begin(memory), places(memory), border_internal_begin(memory),
+      internal_table_begin(memory) {}
+
+namespace {
+
+// ---- From the counts of the file
+
+void number_patches(const StoredIndex& stored, Numbering& numbering) {
+    numbering.parent.assign(1, NONE);
+    numbering.level_begin.assign({0, 1});
+    for (uint32_t l = 0; l < stored.level_count; ++l) {
+        for (uint32_t p = numbering.level_begin[l]; p < numbering.level_begin[l + 1]; ++p) {
+            numbering.child_begin.push_back(numbering.patch_count());
+            numbering.parent.insert(numbering.parent.end(), stored.child_count[p], p);
+        }
+        numbering.level_begin.push_back(numbering.patch_count());
+    }
+    numbering.child_begin.resize(size_t{numbering.patch_count()} + 1, numbering.patch_count());
+}
+
+// begin[i + 1] = begin[i] + counts[i].
+void add_up(uint32_t first, const std::vector<uint32_t>& counts, Array<uint32_t>& begin) {
+    begin.assign(1, first);
+    for (const uint32_t count : counts) begin.push_back(begin.back() + count);
+}
+
+void number_borders(const StoredIndex& stored, Numbering& numbering) {
+    numbering.positions.assign(stored.positions.begin(), stored.positions.end());
+    add_up(0, stored.owned_count, numbering.owned_begin);
+    numbering.owned_begin.resize(size_t{numbering.patch_count()} + 1, numbering.owned_begin.back());
+    add_up(numbering.owned_begin.back(), stored.internal_count, numbering.internal_begin);
+    add_up(0, stored.border_size, numbering.border_begin);
+    numbering.border_begin.insert(numbering.border_begin.begin(), 0); // the root has no border
+    numbering.border.assign(stored.border.begin(), stored.border.end());
+}
+
+// ---- What follows
+
+void derive_owners(Numbering& numbering) {
+    numbering.owner.resize(numbering.border_vertex_count());
+    for (uint32_t p = 0; p < numbering.patch_count(); ++p)
+        for (uint32_t v = numbering.owned_begin[p]; v < numbering.owned_begin[p + 1]; ++v)
+            numbering.owner[v] = p;
+}
+
+void derive_overlay_positions(Numbering& numbering) {
+    numbering.overlay_position.assign(numbering.border.size(), NONE);
+    std::vector<uint32_t> position(numbering.border_vertex_count(), NONE); // in the overlay of one parent
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
+        const auto outer = numbering.border_of(p);
+        for (uint32_t i = 0; i < outer.size(); ++i) position[outer[i]] = i;
+        const auto size = static_cast<uint32_t>(outer.size());
+        for (uint32_t v = numbering.owned_begin[p]; v < numbering.owned_begin[p + 1]; ++v)
+            position[v] = size + v - numbering.owned_begin[p];
+        for (uint32_t i = numbering.border_begin[numbering.child_begin[p]];
+             i < numbering.border_begin[numbering.child_begin[p + 1]]; ++i) {
+            numbering.overlay_position[i] = position[numbering.border[i]];
+            if (numbering.overlay_position[i] == NONE)
+                throw Error(GEOIDX_ERROR_CORRUPT, "border vertex " + std::to_string(numbering.border[i]) +
+                                                      " is not in the overlay of patch " + std::to_string(p));
+        }
+        for (uint32_t v : outer) position[v] = NONE;
+        for (uint32_t v = numbering.owned_begin[p]; v < numbering.owned_begin[p + 1]; ++v) position[v] = NONE;
+    }
+}
+
+// Every position in an overlay needs a slot on a child's border, so that there are no more of them than fit
+// 32 bits.
+void require_children_around(const Numbering& numbering) {
+    uint64_t positions = 0;
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) positions += numbering.overlay_size(p);
+    if (positions > numbering.border.size())
+        throw Error(GEOIDX_ERROR_CORRUPT, "the overlays have " + std::to_string(positions) +
+                                              " positions, but the borders of children only " +
+                                              std::to_string(numbering.border.size()));
+}
+
+void derive_slots(Numbering& numbering) {
+    require_children_around(numbering);
+    numbering.patch_of_slot.resize(numbering.border.size());
+    for (uint32_t p = 0; p < numbering.patch_count(); ++p)
+        std::fill(numbering.patch_of_slot.begin() + numbering.border_begin[p],
+                  numbering.patch_of_slot.begin() + numbering.border_begin[p + 1], p);
+    numbering.overlay_begin.assign(1, 0);
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
+        numbering.overlay_begin.push_back(numbering.overlay_begin.back() + numbering.overlay_size(p));
+    const auto overlay_of = [&](size_t slot) {
+        return numbering.overlay_begin[numbering.parent[numbering.patch_of_slot[slot]]] +
+               numbering.overlay_position[slot];
+    };
+    numbering.slot_begin.assign(size_t{numbering.overlay_begin.back()} + 1, 0);
+    for (size_t slot = 0; slot < numbering.border.size(); ++slot)
+        ++numbering.slot_begin[overlay_of(slot) + 1];
+    for (size_t i = 1; i < numbering.slot_begin.size(); ++i)
+        numbering.slot_begin[i] += numbering.slot_begin[i - 1];
+    numbering.slots.resize(numbering.border.size());
+    std::vector<uint32_t> next(numbering.slot_begin.begin(), numbering.slot_begin.end() - 1);
+    for (uint32_t slot = 0; slot < numbering.border.size(); ++slot)
+        numbering.slots[next[overlay_of(slot)]++] = slot;
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
+        for (uint32_t i = 0; i < numbering.overlay_size(p); ++i)
+            if (numbering.slots_of(p, i).empty())
+                throw Error(GEOIDX_ERROR_CORRUPT,
+                            "border vertex " + std::to_string(numbering.overlay_number(p, i)) +
+                                " is on the border of no child of patch " + std::to_string(p));
+}
+
+void derive_places(Numbering& numbering) {
+    numbering.place_begin.assign(size_t{numbering.border_vertex_count()} + 1, 0);
+    for (uint32_t v : numbering.border) ++numbering.place_begin[v + 1];
+    for (size_t v = 1; v < numbering.place_begin.size(); ++v)
+        numbering.place_begin[v] += numbering.place_begin[v - 1];
+    numbering.places.resize(numbering.border.size());
+    std::vector<uint32_t> next(numbering.place_begin.begin(), numbering.place_begin.end() - 1);
+    for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
+        const auto border = numbering.border_of(p);
+        for (uint32_t i = 0; i < border.size(); ++i) numbering.places[next[border[i]]++] = {p, i};
+    }
+}
+
+void derive_leaves(Numbering& numbering) {
+    numbering.leaf_of_internal.resize(numbering.vertex_count() - numbering.border_vertex_count());
+    for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf)
+        std::fill_n(numbering.leaf_of_internal.begin() + numbering.first_internal(leaf) -
+                        numbering.border_vertex_count(),
+                    numbering.internal_size(leaf), leaf);
+}
+
+void place_tables(Numbering& numbering) {
+    numbering.border_internal_begin.assign(1, 0);
+    numbering.internal_table_begin.assign(1, 0);
+    for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf) {
+        const uint64_t border = numbering.border_size(leaf), internal = numbering.internal_size(leaf);
+        numbering.border_internal_begin.push_back(numbering.border_internal_begin.back() + border * internal);
+        numbering.internal_table_begin.push_back(numbering.internal_table_begin.back() +
+                                                 triangle_size(internal));
+        require_room_for(numbering.border_internal_begin.back());
+        require_room_for(numbering.internal_table_begin.back());
+    }
+}
+
+// The differences of neighbours.
+template <class Begin>
+std::vector<uint32_t> counts_of(const Begin& begin, size_t count) {
+    std::vector<uint32_t> counts(count);
+    for (size_t i = 0; i < count; ++i) counts[i] = begin[i + 1] - begin[i];
+    return counts;
+}
+
+}
+
+void number_vertices(const StoredIndex& stored, Numbering& numbering) {
+    number_patches(stored, numbering);
+    number_borders(stored, numbering);
+    derive_owners(numbering);
+    derive_overlay_positions(numbering);
+    derive_slots(numbering);
+    derive_places(numbering);
+    derive_leaves(numbering);
+    place_tables(numbering);
+}
+
+void restore_numbering(const Numbering& numbering, StoredIndex& stored) {
+    const size_t inner = numbering.first_leaf(), leaves = numbering.patch_count() - inner;
+    stored.level_count = numbering.level_count();
+    stored.child_count = counts_of(numbering.child_begin, inner);
+    stored.positions.assign(numbering.positions.begin(), numbering.positions.end());
+    stored.owned_count = counts_of(numbering.owned_begin, inner);
+    stored.internal_count = counts_of(numbering.internal_begin, leaves);
+    stored.border_size = counts_of(std::span(numbering.border_begin).subspan(1), inner + leaves - 1);
+    stored.border.assign(numbering.border.begin(), numbering.border.end());
+}
+
+void require_room_for(uint64_t entries) {
+    constexpr uint64_t MOST = uint64_t{1} << 40;
+    if (entries > MOST)
+        throw Error(GEOIDX_ERROR_LIMIT, "the tables would have " + std::to_string(entries) + " entries");
+}
+
+double straight_distance(const Numbering& numbering, uint32_t a, uint32_t b) {
+    double square = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const double difference = double{numbering.positions[a][k]} - double{numbering.positions[b][k]};
+        square += difference * difference;
+    }
+    return std::sqrt(square);
+}
+
+}

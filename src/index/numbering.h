@@ -1,0 +1,165 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+
+#include "src/base/array.h"
+#include "src/base/numbers.h"
+
+namespace geodesic {
+
+struct StoredIndex;
+
+// Number of entries below the diagonal of a symmetric table of `size` rows, and the place of (i, j), i > j.
+constexpr uint64_t triangle_size(uint64_t size) { return size < 2 ? 0 : size * (size - 1) / 2; }
+constexpr uint64_t below_diagonal(uint64_t i, uint64_t j) { return i * (i - 1) / 2 + j; }
+
+// A border vertex's place in a patch's border.
+struct BorderPlace {
+    uint32_t patch;
+    uint32_t position;
+};
+
+// What follows for either engine from the hierarchy, the borders and the counts of vertices: who is whose,
+// under which number, and where tables begin. Vertices are numbered anew: first the border vertices, grouped
+// by their *owner*, the patch on whose children's borders they first appear, then the internal vertices,
+// grouped by leaf. Patches are numbered as in Hierarchy.
+//
+// The overlay of an inner patch P is the union of its children's borders: the border of P itself, in its
+// order, then the vertices that P owns. Positions in it are called overlay positions.
+struct Numbering {
+    explicit Numbering(std::pmr::memory_resource* memory);
+
+    // The hierarchy.
+    Array<uint32_t> level_begin; // level l: patches level_begin[l] .. level_begin[l + 1] - 1
+    Array<uint32_t> parent;      // per patch; the root's is NONE
+    Array<uint32_t> child_begin; // children of p: child_begin[p] .. child_begin[p + 1] - 1; none of a leaf
+
+    // Vertices.
+    Array<std::array<float, 3>> positions; // per number
+    Array<uint32_t> owned_begin;           // numbers owned by p: owned_begin[p] .. owned_begin[p + 1] - 1
+    Array<uint32_t> internal_begin;        // internal vertices of leaf first_leaf() + i: likewise; [0] is the
+                                           // number of border vertices
+    Array<uint32_t> border_begin;          // the border of patch p: border[border_begin[p]] ..
+    Array<uint32_t> border;                // numbers
+    Array<uint32_t> leaf_of_internal;      // [number - border_vertex_count()]
+    Array<uint32_t> owner;                 // per border vertex
+
+    // A slot is an index in `border`: a place of a vertex in one patch's border.
+    Array<uint32_t> overlay_position; // per slot: position in the overlay of the patch's parent
+    Array<uint32_t> patch_of_slot;
+    Array<uint32_t> overlay_begin; // per inner patch: where its overlay positions begin in slot_begin
+    Array<uint32_t>
+        slot_begin; // slots of overlay position i of patch p: from slot_begin[overlay_begin[p] + i]
+    Array<uint32_t> slots;
+    Array<uint32_t> place_begin; // per border vertex: its places, in ascending order of patches
+    Array<BorderPlace> places;
+
+    // Where the tables of a leaf begin; the last one's end is behind it.
+    Array<uint64_t> border_internal_begin, internal_table_begin;
+
+    uint32_t level_count() const { return static_cast<uint32_t>(level_begin.size()) - 2; }
+    uint32_t patch_count() const { return static_cast<uint32_t>(parent.size()); }
+    uint32_t first_leaf() const { return level_begin[level_count()]; }
+    uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size()); }
+    uint32_t border_vertex_count() const { return internal_begin[0]; }
+    bool is_border(uint32_t number) const { return number < border_vertex_count(); }
+    uint32_t leaf_of(uint32_t internal) const { return leaf_of_internal[internal - border_vertex_count()]; }
+    bool is_within(uint32_t patch, uint32_t ancestor) const {
+        while (patch != NONE && patch > ancestor) patch = parent[patch];
+        return patch == ancestor;
+    }
+
+    std::span<const uint32_t> border_of(uint32_t patch) const {
+        return {border.data() + border_begin[patch], border.data() + border_begin[patch + 1]};
+    }
+    uint32_t border_size(uint32_t patch) const { return border_begin[patch + 1] - border_begin[patch]; }
+    uint32_t internal_size(uint32_t leaf) const {
+        return internal_begin[leaf - first_leaf() + 1] - internal_begin[leaf - first_leaf()];
+    }
+    uint32_t first_internal(uint32_t leaf) const { return internal_begin[leaf - first_leaf()]; }
+    uint32_t overlay_size(uint32_t patch) const {
+        return border_size(patch) + owned_begin[patch + 1] - owned_begin[patch];
+    }
+    std::span<const uint32_t> slots_of(uint32_t patch, uint32_t overlay_position) const {
+        const uint32_t* begin = slot_begin.data() + overlay_begin[patch] + overlay_position;
+        return {slots.data() + begin[0], slots.data() + begin[1]};
+    }
+    std::span<const BorderPlace> places_of(uint32_t border_vertex) const {
+        return {places.data() + place_begin[border_vertex], places.data() + place_begin[border_vertex + 1]};
+    }
+
+    // The vertex at a position in a patch's overlay, and the position of a border vertex in that of its
+    // owner.
+    uint32_t overlay_number(uint32_t patch, uint32_t position) const {
+        const uint32_t size = border_size(patch);
+        return position < size ? border[border_begin[patch] + position]
+                               : owned_begin[patch] + position - size;
+    }
+    uint32_t position_at_owner(uint32_t border_vertex) const {
+        const uint32_t patch = owner[border_vertex];
+        return border_size(patch) + border_vertex - owned_begin[patch];
+    }
+
+    // The inner vertices of a patch, one hop from its border: what it owns, or the internal vertices of a
+    // leaf.
+    uint32_t inner_size(uint32_t patch) const {
+        return patch < first_leaf() ? owned_begin[patch + 1] - owned_begin[patch] : internal_size(patch);
+    }
+    uint32_t first_inner(uint32_t patch) const {
+        return patch < first_leaf() ? owned_begin[patch] : first_internal(patch);
+    }
+    // The patch that a vertex is an inner one of: its owner or its leaf.
+    uint32_t entry(uint32_t number) const { return is_border(number) ? owner[number] : leaf_of(number); }
+
+    // Distances that the overlay engine stores of an inner patch: from what it owns to its border, and among
+    // what it owns.
+    uint64_t overlay_entries(uint32_t patch) const {
+        return uint64_t{inner_size(patch)} * border_size(patch) + triangle_size(inner_size(patch));
+    }
+
+    // Where an entry lies in the tables of leaves: internal vertices by position in the leaf, i != j.
+    uint64_t border_internal_entry(uint32_t leaf, uint32_t border_position, uint32_t internal) const {
+        return border_internal_begin[leaf - first_leaf()] + uint64_t{border_position} * internal_size(leaf) +
+               internal;
+    }
+    uint64_t internal_entry(uint32_t leaf, uint32_t i, uint32_t j) const {
+        return internal_table_begin[leaf - first_leaf()] +
+               (i > j ? below_diagonal(i, j) : below_diagonal(j, i));
+    }
+
+    uint32_t largest_border_size() const {
+        uint32_t largest = 0;
+        for (uint32_t p = 0; p < patch_count(); ++p) largest = std::max(largest, border_size(p));
+        return largest;
+    }
+    uint32_t largest_inner_size() const {
+        uint32_t largest = 0;
+        for (uint32_t p = 0; p < patch_count(); ++p) largest = std::max(largest, inner_size(p));
+        return largest;
+    }
+    uint32_t largest_overlay_size() const {
+        uint32_t largest = 0;
+        for (uint32_t p = 0; p < first_leaf(); ++p) largest = std::max(largest, overlay_size(p));
+        return largest;
+    }
+};
+
+// Fills a numbering from HIER, POSI and BORD. Throws Error CORRUPT where a border vertex is on the border of
+// a patch but not in its parent's overlay, or in the overlay of a patch, but on no border of its children,
+// and Error LIMIT where tables would be too large.
+void number_vertices(const StoredIndex& stored, Numbering& numbering);
+
+// The opposite: HIER, POSI and BORD of a numbering.
+void restore_numbering(const Numbering& numbering, StoredIndex& stored);
+
+// Throws Error LIMIT where tables of so many entries are too large.
+void require_room_for(uint64_t entries);
+
+// The length of the straight line between two vertices, given by their numbers.
+double straight_distance(const Numbering& numbering, uint32_t a, uint32_t b);
+
+}

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "src/index/description.h"
+
+namespace geodesic {
+
+// What a file holds, a field for each field of format/SPEC.md and in its order. The builder and the reader
+// fill it, prepare() takes it to what queries answer from, restore() takes it back from there, and the writer
+// writes it. Nothing in it follows from anything else in it.
+//
+// Tables of several patches lie end to end, in the order of the patches, each row by row; of a symmetric
+// table only the entries below the diagonal are there, rows with fewer entries first. (How a file folds them
+// into images is a matter of src/file.)
+struct StoredIndex {
+    Description description; // the header and META
+
+    // HIER
+    uint32_t level_count = 0;
+    std::vector<uint32_t> child_count; // per inner patch
+
+    // VERT
+    std::vector<uint32_t> number_of_id; // per caller's id; NONE: no triangle uses it
+
+    // POSI
+    std::vector<std::array<float, 3>> positions; // per number; their count is the vertex count of VERT
+
+    // BORD
+    std::vector<uint32_t> owned_count;    // per inner patch
+    std::vector<uint32_t> internal_count; // per leaf
+    std::vector<uint32_t> border_size;    // per patch but the root
+    std::vector<uint32_t> border;         // numbers, in the order of the patches
+
+    // Graph engine: distances; infinite where there is no path.
+    std::vector<float> border_tables;          // BVBV: of every patch but the root, below the diagonal
+    std::vector<float> border_internal_tables; // BVIV: of every leaf, a row for each border vertex
+    std::vector<float> internal_tables;        // IVIV: of every leaf, below the diagonal
+
+    // Overlay engine: codes of distances (src/overlay/codes.h), in steps of the quantum of the patch.
+    std::vector<float> quantum;                  // QUAN: per patch
+    std::vector<uint32_t> segment_end;           // SEGM: per entry of `border`, a position there, or NONE
+    std::vector<float> segment_length;           // SEGM: per entry of `border`
+    std::vector<uint16_t> overlay_codes;         // OVOV: of every inner patch, owned x border, then owned x
+                                                 // owned below the diagonal
+    std::vector<uint16_t> border_internal_codes; // BVIV: of every leaf, a row for each border vertex
+    std::vector<uint16_t> internal_codes;        // IVIV: of every leaf, below the diagonal
+};
+
+}

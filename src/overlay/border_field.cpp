@@ -1,0 +1,25 @@
+#include "src/overlay/border_field.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace geodesic {
+
+namespace {
+
+constexpr size_t BLOCK = SourceCode::BLOCK;
+
+}
+
+BorderField::BorderField(const OverlayIndex& index, std::pmr::memory_resource* memory)
+    : kernel_(crossing_kernels().back()),
+      distance_(SourceCode::whole_blocks(index.rings.largest_size()) + BLOCK, memory),
+      code_(distance_.size(), memory), foot_(distance_.size(), memory), height_(distance_.size(), memory) {}
+
+bool BorderField::finish() {
+    std::fill_n(distance_.data() + border_.places, BLOCK, INFINITE);
+    sight_ = kernel_.see(border_, is_own_, code_.data(), foot_.data(), height_.data());
+    return sight_.nearest < INFINITE;
+}
+
+}

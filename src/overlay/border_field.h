@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory_resource>
+#include <span>
+
+#include "src/overlay/kernels/crossing.h"
+#include "src/overlay/ring_segments.h"
+#include "src/overlay/tables.h"
+
+namespace geodesic {
+
+// The distances of a source from the border of one patch after the other, ready for crossing it.
+class BorderField {
+public:
+    BorderField(const OverlayIndex& index, std::pmr::memory_resource* memory);
+
+    // Begins with `count` places from `first` on, counted over all rings: their distances are to be written
+    // to the result. `quantum` is that of the rows to be added.
+    std::span<float> begin(const Rings& rings, size_t first, size_t count, float quantum) {
+        return begin(rings, first, count, quantum, segments_from(rings, first));
+    }
+    std::span<float> begin(const Rings& rings, size_t first, size_t count, float quantum,
+                           const RingSegments& segments) {
+        border_ = {count,        code_.data(),   distance_.data(), segments.length, segments.half_inverse,
+                   foot_.data(), height_.data(), quantum};
+        is_own_ = rings.is_own.data() + first;
+        return std::span(distance_).first(count);
+    }
+
+    // Returns whether the source reaches any.
+    bool finish();
+
+    // If finish() returned true, as CrossingKernel has them.
+    bool is_near() const { return sight_.is_near(); }
+    float reach() const { return sight_.reach; }
+    void cross(Rows rows, float* distances, uint16_t* winners = nullptr) const {
+        kernel_.cross(border_, rows, distances, winners);
+    }
+    void cross_near(Rows rows, float* distances) const {
+        if (is_near()) kernel_.cross_near(border_, sight_, rows, distances);
+    }
+
+private:
+    const CrossingKernel& kernel_;
+    SeenBorder border_{};
+    const int32_t* is_own_ = nullptr;
+    Sight sight_{};
+    Array<float> distance_;
+    Array<int16_t> code_;
+    Array<float> foot_, height_;
+};
+
+}

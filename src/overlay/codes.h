@@ -1,0 +1,89 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "src/base/numbers.h"
+
+namespace geodesic {
+
+// Everywhere in the overlay engine a distance is a code, a whole number of steps of a quantum. This file has
+// all kinds of codes and how distances are rounded to them. (The kernels round as StepsOf does, many at a
+// time.)
+
+// An entry of a table: steps of the quantum of its patch.
+struct TableCode {
+    static constexpr uint16_t LARGEST = 0x7ffe;
+    static constexpr uint16_t UNREACHED = 0x7fff; // there is no path
+    // Entries behind the last table: rows are read in blocks of up to this many.
+    static constexpr size_t PADDING = 32;
+
+    // Only a distance of 0 is rounded to 0, so that different vertices stay apart.
+    static uint16_t nearest_to(float distance, float quantum) {
+        if (distance == INFINITE) return UNREACHED;
+        if (distance == 0 || !(quantum > 0)) return 0;
+        return in_range(std::round(double{distance} / double{quantum}));
+    }
+
+    // The same distance in steps of another quantum.
+    static uint16_t converted(uint16_t code, float from_quantum, float to_quantum) {
+        if (code == 0 || code == UNREACHED || !(to_quantum > 0)) return code;
+        return in_range(std::round(code * double{from_quantum} / double{to_quantum}));
+    }
+
+    static float distance(uint16_t code, float quantum) {
+        return code == UNREACHED ? INFINITE : static_cast<float>(code) * quantum;
+    }
+
+private:
+    static uint16_t in_range(double steps) {
+        return static_cast<uint16_t>(std::clamp(steps, 1.0, double{LARGEST}));
+    }
+};
+
+// The distance of a source from a border vertex, as a code that kernels add table entries to in 16 bits:
+// steps beyond the nearest vertex of the border, which has the smallest number, so that sums fit. A vertex
+// that is not reached has UNREACHED, and so have those behind the last one up to whole blocks.
+struct SourceCode {
+    static constexpr int16_t NEAREST = std::numeric_limits<int16_t>::min(), UNREACHED = 0;
+
+    // Sums from here on may be of vertices that are not reached, or of no path.
+    static constexpr int32_t NO_SUM = NEAREST + TableCode::UNREACHED;
+
+    // Codes are read in so many at once.
+    static constexpr size_t BLOCK = 32;
+    static constexpr size_t whole_blocks(size_t count) { return (count + BLOCK - 1) / BLOCK * BLOCK; }
+    static_assert(TableCode::PADDING >= BLOCK, "the last row of a table is read in whole blocks");
+};
+
+// Rounds the distances of one source to codes: steps beyond the nearest one, which is at least nearest()
+// whole steps away.
+class StepsOf {
+public:
+    StepsOf(std::span<const float> distances, float quantum)
+        : scale_(quantum > 0 ? std::min(1 / quantum, std::numeric_limits<float>::max()) : 0) {
+        float nearest = INFINITE;
+        for (const float d : distances) nearest = std::min(nearest, d);
+        if (nearest < INFINITE) nearest_ = static_cast<uint32_t>(std::min(nearest * scale_, 0x1p30f));
+    }
+
+    uint32_t nearest() const { return nearest_; }
+
+    int16_t code(float distance) const {
+        if (distance == INFINITE) return SourceCode::UNREACHED;
+        const float steps = std::clamp(distance * scale_ - static_cast<float>(nearest_) + 0.5f, 0.f, MOST);
+        return static_cast<int16_t>(SourceCode::NEAREST + static_cast<int32_t>(steps));
+    }
+
+private:
+    static constexpr float MOST = SourceCode::UNREACHED - 2 - SourceCode::NEAREST;
+
+    float scale_;
+    uint32_t nearest_ = 0;
+};
+
+}

@@ -1,0 +1,83 @@
+#include "src/overlay/inner_sweep.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "src/base/four_at_a_time.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr size_t BLOCK = SourceCode::BLOCK;
+
+}
+
+InnerSweep::InnerSweep(const OverlayIndex& index, size_t sources, std::pmr::memory_resource* memory)
+    : index_(index), numbering_(index.numbering), rings_(index.rings), kernel_(sweep_kernels().back()),
+      sources_(sources), distance_(memory), middle_distance_(memory), code_(memory), middle_(memory),
+      field_(index, memory), rows_(memory), inside_(memory) {
+    const size_t room = (SourceCode::whole_blocks(rings_.largest_size()) + BLOCK) * sources;
+    for (Array<float>* distances : {&distance_, &middle_distance_}) distances->resize(room);
+    for (Array<int16_t>* codes : {&code_, &middle_}) codes->resize(room);
+    rows_.resize(index.numbering.largest_inner_size());
+    inside_.resize(rows_.size());
+}
+
+float InnerSweep::see(uint32_t patch, const float* distances, const RingSegments& segments) {
+    patch_ = patch;
+    segments_ = segments;
+    const uint32_t places = rings_.size(patch);
+    border_ = {places, distance_.data(), segments.length, index_.quantum[patch]};
+    const uint32_t* vertex = rings_.vertex.data() + rings_.begin[patch];
+    if (sources_ == 1)
+        four_at_a_time(places, [&](size_t k) { distance_[k] = distances[vertex[k]]; });
+    else
+        for (size_t k = 0; k < places; ++k)
+            std::copy_n(distances + size_t{vertex[k]} * MOST_SOURCES, MOST_SOURCES,
+                        distance_.data() + k * MOST_SOURCES);
+    std::fill_n(distance_.data() + places * sources_, BLOCK * sources_, INFINITE);
+    codes_ = {code_.data(), middle_.data(), nearest_.data()};
+    (sources_ == 1 ? kernel_.see : kernel_.see_each)(border_, codes_, middle_distance_.data());
+    return *std::min_element(nearest_.begin(), nearest_.begin() + static_cast<std::ptrdiff_t>(sources_));
+}
+
+void InnerSweep::cross(float* inside) {
+    const uint64_t first_row = index_.inner_row(patch_, 0);
+    const SweptRows rows{numbering_.inner_size(patch_), index_.hops.inner.data() + first_row,
+                         index_.hops.inner_middles.data() + first_row};
+    (sources_ == 1 ? kernel_.sweep : kernel_.sweep_each)(border_, codes_, rows, inside);
+    for (size_t i = 0; i < sources_; ++i)
+        if (nearest_[i] <= index_.near[patch_]) cross_near(i, inside);
+}
+
+void InnerSweep::cross(float* inside, uint16_t* winners) {
+    see_from(0);
+    field_.cross(inner_rows(), inside, winners);
+    field_.cross_near(inner_rows(), inside);
+}
+
+// Returns whether it reaches any of the border.
+bool InnerSweep::see_from(size_t source) {
+    const uint32_t places = rings_.size(patch_);
+    const auto border = field_.begin(rings_, rings_.begin[patch_], places, border_.quantum, segments_);
+    for (size_t k = 0; k < places; ++k) border[k] = distance_[k * sources_ + source];
+    return field_.finish();
+}
+
+Rows InnerSweep::inner_rows() {
+    const uint32_t count = numbering_.inner_size(patch_), places = rings_.size(patch_);
+    const uint16_t* row = index_.hops.inner.data() + index_.inner_row(patch_, 0);
+    for (size_t r = 0; r < count; ++r) rows_[r] = row + r * places;
+    return {rows_.data(), count};
+}
+
+void InnerSweep::cross_near(size_t source, float* inside) {
+    if (!see_from(source) || !field_.is_near()) return;
+    const Rows rows = inner_rows();
+    for (size_t r = 0; r < rows.size(); ++r) inside_[r] = inside[r * sources_ + source];
+    field_.cross_near(rows, inside_.data());
+    for (size_t r = 0; r < rows.size(); ++r) inside[r * sources_ + source] = inside_[r];
+}
+
+}

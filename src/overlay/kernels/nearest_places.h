@@ -1,0 +1,175 @@
+#pragma once
+
+#include <bit>
+#include <limits>
+
+#include "src/overlay/kernels/crossing.h"
+#include "src/overlay/kernels/lanes.h"
+
+namespace geodesic {
+
+// Those of up to 64 that have no way.
+struct Missing {
+    uint64_t bits = 0;
+    template <class Function>
+    void for_each(const Function& function) const {
+        for (uint64_t left = bits; left; left &= left - 1)
+            function(static_cast<size_t>(std::countr_zero(left)));
+    }
+};
+
+// A key is a sum, and below it a place: the least one is the first place with the least sum.
+constexpr int32_t PLACE_BITS = 16, PLACE_MASK = 0xffff;
+
+// Of each 16 bytes the keys of the four low places, and of the four high ones.
+template <size_t BYTES, size_t... I>
+[[gnu::always_inline]] inline void
+make_keys(const typename Lanes<BYTES>::Codes& sum, const typename Lanes<BYTES>::Codes& place,
+          typename Lanes<BYTES>::Keys& low, typename Lanes<BYTES>::Keys& high, std::index_sequence<I...>) {
+    using Keys = typename Lanes<BYTES>::Keys;
+    constexpr auto lane = [](size_t i, size_t half) {
+        return static_cast<int>(i / 8 * 8 + half * 4 + i % 8 / 2 + i % 2 * sizeof...(I));
+    };
+    low = reinterpret_cast<Keys>(__builtin_shufflevector(place, sum, lane(I, 0)...));
+    high = reinterpret_cast<Keys>(__builtin_shufflevector(place, sum, lane(I, 1)...));
+}
+
+// Where the number of vectors that hold the places is known, 1 .. 8, the border's codes stay in registers;
+// BLOCKS = 0: any number.
+template <size_t BYTES, size_t BLOCKS>
+struct NearestPlaces {
+    using Codes = typename Lanes<BYTES>::Codes;
+    using CodesAnywhere = typename Lanes<BYTES>::CodesAnywhere;
+    using Keys = typename Lanes<BYTES>::Keys;
+    static constexpr size_t LANES = Lanes<BYTES>::CODES;
+
+    [[gnu::always_inline]] static void find(const SeenBorder& border, Rows rows, int32_t* keys) {
+        Codes codes[BLOCKS + 1];
+        for (size_t b = 0; b < BLOCKS; ++b) codes[b] = at(border.code, b);
+        size_t r = 0;
+        for (; r + 4 <= rows.size(); r += 4) find_four(border, codes, rows.data() + r, keys + r);
+        if (r == rows.size()) return;
+        const uint16_t* last[4];
+        int32_t last_keys[4];
+        for (size_t i = 0; i < 4; ++i) last[i] = rows[r + i < rows.size() ? r + i : r];
+        find_four(border, codes, last, last_keys);
+        for (size_t i = 0; r + i < rows.size(); ++i) keys[r + i] = last_keys[i];
+    }
+
+private:
+    template <class Code>
+    [[gnu::always_inline]] static const CodesAnywhere& at(const Code* first, size_t block) {
+        return *reinterpret_cast<const CodesAnywhere*>(first + block * LANES);
+    }
+
+    [[gnu::always_inline]] static void find_four(const SeenBorder& border, const Codes* codes,
+                                                 const uint16_t* const* rows, int32_t* keys) {
+        const size_t blocks = BLOCKS ? BLOCKS : (border.places + LANES - 1) / LANES;
+        Codes lanes;
+        for (size_t i = 0; i < LANES; ++i) lanes[i] = static_cast<int16_t>(i);
+        Codes least[4], place[4], here = lanes;
+        for (size_t i = 0; i < 4; ++i) {
+            least[i] = at(rows[i], 0) + (BLOCKS ? codes[0] : at(border.code, 0));
+            place[i] = lanes;
+        }
+        for (size_t b = 1; b < blocks; ++b) {
+            here += static_cast<int16_t>(LANES);
+            const Codes code = BLOCKS ? codes[b] : at(border.code, b);
+            for (size_t i = 0; i < 4; ++i) {
+                const Codes sum = at(rows[i], b) + code;
+                place[i] = sum < least[i] ? here : place[i];
+                lower(least[i], sum);
+            }
+        }
+        FourKeys row_keys[4];
+        for (size_t i = 0; i < 4; ++i) {
+            Keys low, high;
+            make_keys<BYTES>(least[i], place[i], low, high, std::make_index_sequence<LANES>());
+            lower(low, high);
+            fold(low, row_keys[i]);
+        }
+        FourKeys least_keys;
+        least_lanes(row_keys, least_keys);
+        std::memcpy(keys, &least_keys, sizeof least_keys);
+    }
+};
+
+template <size_t BYTES>
+[[gnu::always_inline]] inline void find_keys(const SeenBorder& border, Rows rows, int32_t* keys) {
+    switch ((border.places + Lanes<BYTES>::CODES - 1) / Lanes<BYTES>::CODES) {
+    case 1:
+        return NearestPlaces<BYTES, 1>::find(border, rows, keys);
+    case 2:
+        return NearestPlaces<BYTES, 2>::find(border, rows, keys);
+    case 3:
+        return NearestPlaces<BYTES, 3>::find(border, rows, keys);
+    case 4:
+        return NearestPlaces<BYTES, 4>::find(border, rows, keys);
+    case 5:
+        return NearestPlaces<BYTES, 5>::find(border, rows, keys);
+    case 6:
+        return NearestPlaces<BYTES, 6>::find(border, rows, keys);
+    case 7:
+        return NearestPlaces<BYTES, 7>::find(border, rows, keys);
+    case 8:
+        return NearestPlaces<BYTES, 8>::find(border, rows, keys);
+    default:
+        return NearestPlaces<BYTES, 0>::find(border, rows, keys);
+    }
+}
+
+// One place after the other, for what the sums of codes do not tell apart: ways of which one end is out of
+// reach. sum_of(k) is the way over place k. Returns NO_PLACE if there is no way.
+template <class SumOf>
+int32_t find_place(const SeenBorder& border, const uint16_t* row, const SumOf& sum_of) {
+    float least = INFINITE;
+    int32_t nearest = SeenBorder::NO_PLACE;
+    for (size_t k = 0; k < border.places; ++k) {
+        if (border.code[k] == SourceCode::UNREACHED || row[k] == TableCode::UNREACHED) continue;
+        const float sum = sum_of(k);
+        if (sum >= least) continue;
+        least = sum;
+        nearest = static_cast<int32_t>(k);
+    }
+    return nearest;
+}
+
+// By distances, of which codes are rounded.
+inline int32_t find_nearest_place(const SeenBorder& border, const uint16_t* row) {
+    return find_place(border, row, [&](size_t k) {
+        return border.distance[k] + static_cast<float>(row[k]) * border.quantum;
+    });
+}
+
+// By codes alone.
+inline int32_t choose_place(const SeenBorder& border, const uint16_t* row) {
+    return find_place(border, row, [&](size_t k) { return static_cast<float>(border.code[k] + row[k]); });
+}
+
+// Where there is no way, the place is some one.
+template <class FindOne>
+[[gnu::always_inline]] inline Missing take_places(int32_t* keys, size_t count, const FindOne& find_one) {
+    Missing missing;
+    int32_t most = SourceCode::NO_SUM * (1 << PLACE_BITS) - 1;
+    for (size_t r = 0; r < count; ++r) most = std::max(most, keys[r]);
+    if (most >= SourceCode::NO_SUM * (1 << PLACE_BITS)) [[unlikely]]
+        for (size_t r = 0; r < count; ++r) {
+            if (keys[r] < SourceCode::NO_SUM * (1 << PLACE_BITS)) continue;
+            keys[r] = find_one(r);
+            if (keys[r] != SeenBorder::NO_PLACE) continue;
+            keys[r] = Rings::REACH;
+            missing.bits |= uint64_t{1} << r;
+        }
+    for (size_t r = 0; r < count; ++r) keys[r] &= PLACE_MASK;
+    return missing;
+}
+
+// Of each of up to 64 rows.
+template <size_t BYTES>
+[[gnu::always_inline]] inline Missing find_nearest_places(const SeenBorder& border, Rows rows,
+                                                          int32_t* places) {
+    find_keys<BYTES>(border, rows, places);
+    return take_places(places, rows.size(), [&](size_t r) { return find_nearest_place(border, rows[r]); });
+}
+
+}

@@ -1,0 +1,145 @@
+#include "src/overlay/labels.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include "src/overlay/codes.h"
+#include "src/overlay/inner_sweep.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr size_t SOURCES = InnerSweep::MOST_SOURCES;
+
+void lay_out_labels(OverlayIndex& index) {
+    index.labels.offset.assign(index.numbering.patch_count(), 0);
+    index.labels.begin.assign(index.numbering.patch_count(), 0);
+    uint64_t size = 0;
+    for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) {
+        const uint32_t parent = index.numbering.parent[p];
+        if (parent != 0)
+            index.labels.offset[p] = index.labels.offset[parent] + Labels::HEAD + index.label_size(parent);
+        index.labels.begin[p] = size;
+        size += uint64_t{index.numbering.inner_size(p)} * index.labels.offset[p];
+    }
+    index.labels.codes.assign(size, SourceCode::UNREACHED);
+}
+
+// Distances from the labelled vertices of a patch's border to all that lies inside of its descendants,
+// SOURCES of them at a time.
+class LabelSweep {
+public:
+    explicit LabelSweep(OverlayIndex& index)
+        : index_(index), numbering_(index.numbering),
+          sweep_(index, SOURCES, std::pmr::get_default_resource()),
+          distances_(SOURCES * index.numbering.vertex_count()) {}
+
+    void label(uint32_t patch) {
+        descendants_.clear();
+        add_descendants(patch);
+        positions_.resize(index_.label_size(patch));
+        if (index_.is_labelled_whole(patch))
+            std::iota(positions_.begin(), positions_.end(), 0u);
+        else
+            std::ranges::copy(index_.samples.of(patch), positions_.begin());
+        lay_out_distances();
+        for (size_t first = 0; first < positions_.size(); first += SOURCES) {
+            start(patch, std::span(positions_).subspan(first, std::min(SOURCES, positions_.size() - first)));
+            for (uint32_t p : descendants_) descend(p, first);
+        }
+        for (uint32_t p : descendants_) encode(p, patch);
+    }
+
+private:
+    void add_descendants(uint32_t patch) {
+        if (patch >= numbering_.first_leaf()) return;
+        for (uint32_t child = numbering_.child_begin[patch]; child < numbering_.child_begin[patch + 1];
+             ++child) {
+            descendants_.push_back(child);
+            add_descendants(child);
+        }
+    }
+
+    void lay_out_distances() {
+        size_t inside = 0;
+        begin_.resize(numbering_.patch_count());
+        for (uint32_t p : descendants_) {
+            begin_[p] = inside * positions_.size();
+            inside += numbering_.inner_size(p);
+        }
+        of_border_.resize(inside * positions_.size());
+    }
+
+    // To the overlay of the patch, from the border vertices at these positions; the last one is repeated.
+    void start(uint32_t patch, std::span<const uint32_t> positions) {
+        count_ = positions.size();
+        for (uint32_t i = 0; i < numbering_.overlay_size(patch); ++i) {
+            float* distance = distances_.data() + size_t{numbering_.overlay_number(patch, i)} * SOURCES;
+            for (size_t s = 0; s < SOURCES; ++s) {
+                const uint32_t position = positions[std::min(s, count_ - 1)];
+                distance[s] =
+                    i == position ? 0 : index_.distance(index_.overlay_code(patch, i, position), patch);
+            }
+        }
+    }
+
+    void descend(uint32_t patch, size_t first) {
+        const uint32_t count = numbering_.inner_size(patch);
+        if (count == 0) return;
+        float* const inside = distances_.data() + size_t{numbering_.first_inner(patch)} * SOURCES;
+        if (sweep_.see(patch, distances_.data()) < INFINITE)
+            sweep_.cross(inside);
+        else
+            std::fill_n(inside, count * SOURCES, INFINITE);
+        float* to_border = of_border_.data() + begin_[patch] + first;
+        for (uint32_t i = 0; i < count; ++i, to_border += positions_.size())
+            std::copy_n(inside + i * SOURCES, count_, to_border);
+    }
+
+    void encode(uint32_t patch, uint32_t labelled) {
+        const uint32_t count = numbering_.inner_size(patch);
+        if (count == 0) return;
+        const float quantum = index_.quantum[numbering_.parent[labelled]];
+        const float* distance = of_border_.data() + begin_[patch];
+        int16_t* label =
+            index_.labels.codes.data() + index_.labels.begin[patch] + index_.labels.offset[labelled];
+        for (uint32_t i = 0; i < count; ++i) {
+            write_label({distance, positions_.size()}, quantum, label);
+            distance += positions_.size();
+            label += index_.labels.offset[patch];
+        }
+    }
+
+    static void write_label(std::span<const float> distances, float quantum, int16_t* label) {
+        const StepsOf steps(distances, quantum);
+        *label++ = static_cast<int16_t>(steps.nearest() & 0xffff);
+        *label++ = static_cast<int16_t>(steps.nearest() >> 16);
+        for (const float distance : distances) *label++ = steps.code(distance);
+    }
+
+    OverlayIndex& index_;
+    const Numbering& numbering_;
+    InnerSweep sweep_;
+    size_t count_ = 0;
+    std::vector<float> distances_; // [number * SOURCES + source], of those at hand
+    std::vector<float> of_border_; // of all: rows of what lies inside of each descendant
+    std::vector<size_t> begin_;    // of these, per patch
+    std::vector<uint32_t> descendants_;
+    std::vector<uint32_t> positions_; // of the labelled vertices, in the border
+};
+
+}
+
+void make_labels(OverlayIndex& index, const std::function<void()>& look_up) {
+    lay_out_labels(index);
+    LabelSweep sweep(index);
+    for (uint32_t p = 1; p < index.numbering.first_leaf(); ++p) {
+        sweep.label(p);
+        look_up();
+    }
+}
+
+}

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <span>
+
+#include "src/overlay/inner_sweep.h"
+#include "src/overlay/near_sources.h"
+#include "src/overlay/outer_crossing.h"
+#include "src/overlay/seen_sources.h"
+#include "src/overlay/tables.h"
+
+namespace geodesic {
+
+// Multiple sources, all destinations on overlay tables: one sweep up from the leaves of all sources, one down
+// to all leaves, and on the way, which source each border vertex is nearest to. Vertices are given by their
+// numbers.
+class OverlayMsad {
+public:
+    OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory);
+
+    // At least 1, which it is at first.
+    void set_threads(uint32_t count);
+
+    // distance[number], of every vertex; patches beyond `radius` are left out, and their vertices at
+    // infinity.
+    void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance);
+
+private:
+    // What one thread needs.
+    struct Scratch {
+        Scratch(const OverlayIndex& index, std::pmr::memory_resource* memory);
+        void begin();
+
+        InnerSweep sweep;
+        SeenSources seen;
+        NearCrossing near;
+        NearSources near_sources; // that it found
+        Array<NearVertex> near_vertices;
+        Array<float> inside; // per row, as are these
+        Array<uint32_t> source;
+        Array<uint16_t> winners;
+    };
+
+    void start_from(uint32_t source, std::span<float> distance);
+    void look_around(uint32_t source, std::span<const float> distance);
+    void ascend(uint32_t child, std::span<float> distance);
+    void descend(uint32_t patch, float radius, std::span<float> distance, Scratch& scratch);
+    template <class VertexOf>
+    void cross_near(uint32_t patch, bool from_inside, const NearCrossing::Targets& targets,
+                    const VertexOf& vertex_of, Scratch& scratch) const;
+
+    const OverlayIndex& index_;
+    const Numbering& numbering_;
+    OuterCrossing ascent_;
+    Scratch top_; // of the ascent, and of patches that are not shared out to threads
+    Array<Scratch> of_thread_;
+    uint32_t source_count_ = 0;
+    Array<uint32_t> sources_below_;  // per patch
+    Array<uint32_t> nearest_source_; // by number, of border vertices that are reached
+};
+
+}

@@ -1,0 +1,56 @@
+#include "src/overlay/near_sources.h"
+
+#include <algorithm>
+
+#include "src/overlay/near.h"
+
+namespace geodesic {
+
+NearSources::NearSources(const OverlayIndex& index, std::pmr::memory_resource* memory)
+    : index_(index), numbering_(index.numbering), entries_(memory), first_entry_(memory) {}
+
+void NearSources::clear() {
+    longest_reach_ = near_radius(*std::ranges::max_element(index_.longest_segment));
+    entries_.clear();
+    first_entry_.assign(numbering_.patch_count(), NONE);
+}
+
+void NearSources::add_near(const NearVertex& vertex, float nearest) {
+    for (const BorderPlace& place : numbering_.places_of(vertex.border_vertex)) {
+        const float segment = index_.longest_segment[place.patch];
+        if (vertex.distance > std::min(near_radius(segment), nearest + 2 * segment)) continue;
+        entries_.push_back({vertex, first_entry_[place.patch]});
+        first_entry_[place.patch] = static_cast<uint32_t>(entries_.size() - 1);
+    }
+}
+
+void NearSources::collect(uint32_t patch, Array<NearVertex>& vertices) const {
+    for (uint32_t e = first_entry_[patch]; e != NONE; e = entries_[e].next)
+        vertices.push_back(entries_[e].vertex);
+}
+
+NearCrossing::NearCrossing(const OverlayIndex& index, size_t most_rows, std::pmr::memory_resource* memory)
+    : index_(index), numbering_(index.numbering), field_(index, memory), own_(memory),
+      way_(most_rows, memory) {}
+
+void NearCrossing::cross_from_one(uint32_t patch, std::span<const NearVertex> vertices,
+                                  const Targets& targets) {
+    const Rings& rings = index_.rings;
+    const uint32_t first = rings.begin[patch], places = rings.size(patch);
+    const auto border = field_.begin(rings, first, places, targets.quantum);
+    for (const NearVertex& v : vertices) own_[v.border_vertex] = std::min(own_[v.border_vertex], v.distance);
+    for (uint32_t k = 0; k < places; ++k) border[k] = own_[rings.vertex[first + k]];
+    for (const NearVertex& v : vertices) own_[v.border_vertex] = INFINITE;
+    const size_t count = targets.rows.size();
+    std::fill_n(way_.data(), count, INFINITE);
+    if (!field_.finish() || !field_.is_near()) return;
+    constexpr float UNKNOWN = -1;
+    const float reach = field_.reach();
+    for (size_t r = 0; r < count; ++r)
+        if (targets.distance[r] <= reach) way_[r] = UNKNOWN;
+    field_.cross_near(targets.rows, way_.data());
+    for (size_t r = 0; r < count; ++r)
+        if (way_[r] == UNKNOWN) way_[r] = INFINITE;
+}
+
+}

@@ -1,0 +1,172 @@
+#include "src/overlay/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "src/overlay/middles.h"
+#include "src/overlay/proportion.h"
+#include "src/overlay/samples.h"
+
+namespace geodesic {
+
+namespace {
+
+void measure_segments(OverlayIndex& index) {
+    const Rings& rings = index.rings;
+    index.longest_segment.assign(index.numbering.patch_count(), 0.f);
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p)
+        for (uint32_t k = rings.begin[p]; k < rings.begin[p + 1]; ++k)
+            index.longest_segment[p] = std::fmax(index.longest_segment[p], rings.segment_length[k]);
+}
+
+void place_hop_tables(OverlayIndex& index) {
+    const Numbering& numbering = index.numbering;
+    HopTables& hops = index.hops;
+    hops.outer_begin.assign(2, 0);
+    hops.inner_begin.assign(2, 0);
+    for (uint32_t p = 1; p < numbering.patch_count(); ++p) {
+        const uint64_t places = index.rings.size(p);
+        hops.outer_begin.push_back(hops.outer_begin.back() +
+                                   numbering.overlay_size(numbering.parent[p]) * places);
+        hops.inner_begin.push_back(hops.inner_begin.back() + numbering.inner_size(p) * places);
+        require_room_for(hops.outer_begin.back());
+        require_room_for(hops.inner_begin.back());
+    }
+    hops.outer.resize(hops.outer_begin.back() + TableCode::PADDING);
+    hops.inner.resize(hops.inner_begin.back() + TableCode::PADDING);
+}
+
+// ---- From the stored tables to rows along rings
+
+// The overlay table of a patch as a square. Entries of two vertices on its border are 0: they are not stored.
+class OverlaySquare {
+public:
+    OverlaySquare(const Numbering& numbering, uint32_t patch, const uint16_t* stored)
+        : size_(numbering.overlay_size(patch)), codes_(size_ * size_, 0) {
+        const size_t border = numbering.border_size(patch), owned = numbering.inner_size(patch);
+        for (size_t i = 0; i < owned; ++i)
+            for (size_t j = 0; j < border; ++j) set(border + i, j, *stored++);
+        for (size_t i = 0; i < owned; ++i)
+            for (size_t j = 0; j < i; ++j) set(border + i, border + j, *stored++);
+    }
+
+    uint16_t at(size_t i, size_t j) const { return codes_[i * size_ + j]; }
+
+private:
+    void set(size_t i, size_t j, uint16_t code) { codes_[i * size_ + j] = codes_[j * size_ + i] = code; }
+
+    size_t size_;
+    std::vector<uint16_t> codes_;
+};
+
+// Writes `count` rows for the ring of a patch, end to end, of code(row, position in the border).
+template <class Code>
+void write_rows(const OverlayIndex& index, uint32_t patch, uint32_t count, const Code& code, uint16_t* rows) {
+    const uint32_t* position = index.rings.position.data() + index.rings.begin[patch];
+    const uint32_t places = index.rings.size(patch);
+    for (uint32_t row = 0; row < count; ++row)
+        for (uint32_t k = 0; k < places; ++k) *rows++ = code(row, position[k]);
+}
+
+void write_outer_table(const OverlaySquare& of_parent, uint32_t patch, OverlayIndex& index) {
+    const Numbering& numbering = index.numbering;
+    const uint32_t* overlay_position = numbering.overlay_position.data() + numbering.border_begin[patch];
+    write_rows(
+        index, patch, numbering.overlay_size(numbering.parent[patch]),
+        [&](uint32_t row, uint32_t position) { return of_parent.at(row, overlay_position[position]); },
+        index.hops.outer.data() + index.outer_row(patch, 0));
+}
+
+void write_overlay_tables(const StoredIndex& stored, OverlayIndex& index) {
+    const Numbering& numbering = index.numbering;
+    const uint16_t* codes = stored.overlay_codes.data();
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
+        const OverlaySquare square(numbering, p, codes);
+        codes += numbering.overlay_entries(p);
+        for (uint32_t child = numbering.child_begin[p]; child < numbering.child_begin[p + 1]; ++child)
+            write_outer_table(square, child, index);
+        if (p == 0) continue;
+        const size_t border = numbering.border_size(p);
+        write_rows(
+            index, p, numbering.inner_size(p),
+            [&](uint32_t row, uint32_t position) { return square.at(border + row, position); },
+            index.hops.inner.data() + index.inner_row(p, 0));
+    }
+}
+
+void write_leaf_tables(const StoredIndex& stored, OverlayIndex& index) {
+    for (uint32_t leaf = index.numbering.first_leaf(); leaf < index.numbering.patch_count(); ++leaf)
+        write_rows(
+            index, leaf, index.numbering.internal_size(leaf),
+            [&](uint32_t row, uint32_t position) {
+                return stored
+                    .border_internal_codes[index.numbering.border_internal_entry(leaf, position, row)];
+            },
+            index.hops.inner.data() + index.inner_row(leaf, 0));
+    index.hops.internal.assign(stored.internal_codes.begin(), stored.internal_codes.end());
+}
+
+// Two border positions of a patch, by the table of its parent, in the patch's own steps.
+uint16_t code_by_parent(const OverlayIndex& index, uint32_t patch, uint32_t i, uint32_t j) {
+    const Numbering& numbering = index.numbering;
+    const uint32_t slot = numbering.border_begin[patch];
+    const uint64_t row = index.outer_row(patch, numbering.overlay_position[slot + i]);
+    return TableCode::converted(index.hops.outer[row + index.rings.place_of_slot[slot + j]],
+                                index.quantum[numbering.parent[patch]], index.quantum[patch]);
+}
+
+// The distance of two vertices on a patch's border is stored once, in the table of the patch's parent.
+// Parents come first, so that theirs are complete.
+void take_border_codes_from_parents(OverlayIndex& index) {
+    const Numbering& numbering = index.numbering;
+    for (uint32_t child = numbering.child_begin[1]; child < numbering.patch_count(); ++child) {
+        const uint32_t patch = numbering.parent[child], border = numbering.border_size(patch);
+        const uint32_t* overlay_position = numbering.overlay_position.data() + numbering.border_begin[child];
+        const uint32_t* position = index.rings.position.data() + index.rings.begin[child];
+        uint16_t* code = index.hops.outer.data() + index.outer_row(child, 0);
+        for (uint32_t i = 0; i < border; ++i)
+            for (uint32_t k = 0; k < index.rings.size(child); ++k, ++code)
+                if (const uint32_t j = overlay_position[position[k]]; j < border && i != j)
+                    *code = code_by_parent(index, patch, std::max(i, j), std::min(i, j));
+    }
+}
+
+}
+
+void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
+    number_vertices(stored, index.numbering);
+    index.quantum.assign(stored.quantum.begin(), stored.quantum.end());
+    lay_out_rings(stored.segment_end, stored.segment_length, index.numbering, index.rings);
+    require_proportion(index);
+    measure_segments(index);
+    place_hop_tables(index);
+    write_overlay_tables(stored, index);
+    write_leaf_tables(stored, index);
+    take_border_codes_from_parents(index);
+    make_samples(index);
+    make_middle_tables(index);
+}
+
+void restore_overlay(const OverlayIndex& index, StoredIndex& stored) {
+    const Numbering& numbering = index.numbering;
+    restore_numbering(numbering, stored);
+    stored.quantum.assign(index.quantum.begin(), index.quantum.end());
+    BorderSegments segments = segments_of_rings(index.rings, numbering);
+    stored.segment_end = std::move(segments.end);
+    stored.segment_length = std::move(segments.length);
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
+        const uint32_t border = numbering.border_size(p), size = numbering.overlay_size(p);
+        for (uint32_t i = border; i < size; ++i)
+            for (uint32_t j = 0; j < border; ++j) stored.overlay_codes.push_back(index.overlay_code(p, i, j));
+        for (uint32_t i = border; i < size; ++i)
+            for (uint32_t j = border; j < i; ++j) stored.overlay_codes.push_back(index.overlay_code(p, i, j));
+    }
+    for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf)
+        for (uint32_t i = 0; i < numbering.border_size(leaf); ++i)
+            for (uint32_t j = 0; j < numbering.internal_size(leaf); ++j)
+                stored.border_internal_codes.push_back(index.border_internal_code(leaf, i, j));
+    stored.internal_codes.assign(index.hops.internal.begin(), index.hops.internal.end());
+}
+
+}

@@ -1,0 +1,80 @@
+#include "src/overlay/proportion.h"
+
+#include <string>
+#include <vector>
+
+#include "format/error.h"
+#include "src/overlay/samples.h"
+
+namespace geodesic {
+
+namespace {
+
+// None of the sums wraps around: a ring has fewer than 2^15 places, and there are fewer than 2^32 vertices.
+class Derived {
+public:
+    explicit Derived(const OverlayIndex& index)
+        : index_(index), numbering_(index.numbering), label_size_(index.numbering.patch_count(), 0) {
+        for (uint32_t p = 0; p < index.numbering.patch_count(); ++p)
+            samples_.push_back(count_samples(index, p));
+    }
+
+    uint64_t outer_and_inner(uint32_t patch) const {
+        return index_.rings.size(patch) * (uint64_t{numbering_.overlay_size(numbering_.parent[patch])} +
+                                           2 * uint64_t{numbering_.inner_size(patch)});
+    }
+
+    uint64_t coarse(uint32_t parent) const {
+        uint64_t rows = samples_[parent].samples, places = 0;
+        for (uint32_t child = numbering_.child_begin[parent]; child < numbering_.child_begin[parent + 1];
+             ++child) {
+            rows += samples_[child].samples;
+            if (samples_[child].places < index_.rings.size(child)) places += samples_[child].places;
+        }
+        return rows * places;
+    }
+
+    // Of what lies just inside of a patch; parents come first.
+    uint64_t labels(uint32_t patch) {
+        const uint32_t parent = numbering_.parent[patch];
+        if (parent == 0) return 0;
+        const uint32_t size = numbering_.border_size(parent);
+        label_size_[patch] =
+            label_size_[parent] + Labels::HEAD + (size <= Labels::WHOLE ? size : samples_[parent].samples);
+        return uint64_t{numbering_.inner_size(patch)} * label_size_[patch];
+    }
+
+private:
+    const OverlayIndex& index_;
+    const Numbering& numbering_;
+    std::vector<SampleCount> samples_; // per patch, as is this
+    std::vector<uint32_t> label_size_;
+};
+
+}
+
+uint64_t derived_codes(const OverlayIndex& index) {
+    Derived derived(index);
+    uint64_t codes = 0;
+    for (uint32_t p = 1; p < index.numbering.patch_count(); ++p)
+        codes += derived.outer_and_inner(p) + derived.labels(p);
+    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) codes += derived.coarse(p);
+    return codes;
+}
+
+uint64_t stored_numbers(const OverlayIndex& index) {
+    uint64_t numbers = index.numbering.border.size() + index.numbering.vertex_count();
+    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) numbers += index.numbering.overlay_entries(p);
+    return numbers + index.numbering.border_internal_begin.back() +
+           index.numbering.internal_table_begin.back();
+}
+
+void require_proportion(const OverlayIndex& index) {
+    const uint64_t derived = derived_codes(index), stored = stored_numbers(index);
+    if (derived > ALWAYS_DERIVED && (derived - ALWAYS_DERIVED) / MOST_DERIVED_EACH > stored)
+        throw Error(GEOIDX_ERROR_LIMIT, "the overlay engine would derive " + std::to_string(derived) +
+                                            " codes from " + std::to_string(stored) +
+                                            " numbers, which is out of proportion");
+}
+
+}

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "src/overlay/tables.h"
+
+namespace geodesic {
+
+// Per place of a ring, or of a part of one, its segment to the next place; NaN: a gap.
+struct RingSegments {
+    const float *length, *half_inverse;
+};
+
+inline RingSegments segments_from(const Rings& rings, size_t first_place) {
+    return {rings.segment_length.data() + first_place, rings.half_inverse.data() + first_place};
+}
+
+}

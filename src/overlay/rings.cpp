@@ -1,0 +1,123 @@
+#include "src/overlay/rings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "format/error.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr uint32_t REACH = Rings::REACH;
+constexpr float GAP = Rings::GAP;
+
+void add_place(Rings& rings, uint32_t position, uint32_t vertex, float length, bool own) {
+    rings.position.push_back(position);
+    rings.vertex.push_back(vertex);
+    rings.segment_length.push_back(length);
+    rings.half_inverse.push_back(0.5f / length);
+    rings.is_own.push_back(own ? -1 : 0);
+    rings.chain.push_back(static_cast<uint32_t>(rings.chains.size()));
+}
+
+[[noreturn]] void refuse_segment(uint32_t patch, uint32_t from, uint32_t to) {
+    throw Error(GEOIDX_ERROR_CORRUPT, "a segment joins positions " + std::to_string(from) + " and " +
+                                          std::to_string(to) + " on the border of patch " +
+                                          std::to_string(patch));
+}
+
+// The chain of segments that begins at position `first` of a patch's border; a vertex without segments is one
+// by itself.
+Chain chain_at(uint32_t first, std::span<const uint32_t> segment_end, std::span<const float> segment_length,
+               const Numbering& numbering, uint32_t patch) {
+    const uint32_t first_slot = numbering.border_begin[patch], size = numbering.border_size(patch);
+    Chain chain;
+    for (uint32_t i = first;; ++i) {
+        chain.positions.push_back(i);
+        chain.lengths.push_back(segment_length[first_slot + i]);
+        const uint32_t next = segment_end[first_slot + i];
+        if (next == i + 1 && next < size) continue;
+        chain.is_closed = next != NONE;
+        if (chain.is_closed && (next != first || i == first)) refuse_segment(patch, i, next);
+        return chain;
+    }
+}
+
+}
+
+void RingWriter::begin() { rings_.begin.assign(1, 0); }
+
+void RingWriter::add_chain(const Chain& chain, std::span<const uint32_t> border) {
+    const auto count = static_cast<uint32_t>(chain.positions.size());
+    for (uint32_t step = 0; step < count + 2 * REACH; ++step) {
+        const bool own = step >= REACH && step < count + REACH;
+        const uint32_t around = (step + REACH * count - REACH) % count;
+        const uint32_t along = std::clamp(step, REACH, count + REACH - 1) - REACH;
+        const uint32_t i = chain.is_closed ? around : along;
+        const bool gap = chain.is_closed ? step + 1 == count + 2 * REACH : !own || i + 1 == count;
+        add_place(rings_, chain.positions[i], border[chain.positions[i]], gap ? GAP : chain.lengths[i], own);
+    }
+    const auto end = static_cast<uint32_t>(rings_.position.size()) - REACH;
+    rings_.chains.push_back({end - count, end - 1, chain.is_closed});
+}
+
+void RingWriter::end_ring() {
+    const auto end = static_cast<uint32_t>(rings_.position.size());
+    if (end - rings_.begin.back() > Rings::MOST_PLACES)
+        throw Error(GEOIDX_ERROR_LIMIT, "the border of patch " + std::to_string(rings_.begin.size() - 1) +
+                                            " has " + std::to_string(end - rings_.begin.back()) +
+                                            " vertices or so, more than the overlay engine can take");
+    rings_.begin.push_back(end);
+}
+
+void RingWriter::end() {
+    for (size_t i = 0; i < Rings::PADDING; ++i) add_place(rings_, 0, 0, GAP, false);
+}
+
+std::vector<Chain> chains_of_ring(const Rings& rings, uint32_t patch) {
+    std::vector<Chain> chains;
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1];) {
+        const auto& [first, last, is_closed] = rings.chains[rings.chain[k]];
+        chains.push_back({{rings.position.begin() + first, rings.position.begin() + last + 1},
+                          {rings.segment_length.begin() + first, rings.segment_length.begin() + last + 1},
+                          is_closed != 0});
+        k = last + REACH + 1;
+    }
+    return chains;
+}
+
+void lay_out_rings(std::span<const uint32_t> segment_end, std::span<const float> segment_length,
+                   const Numbering& numbering, BorderRings& rings) {
+    RingWriter writer(rings);
+    writer.begin();
+    for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
+        for (uint32_t i = 0; i < numbering.border_size(p);) {
+            const Chain chain = chain_at(i, segment_end, segment_length, numbering, p);
+            writer.add_chain(chain, numbering.border_of(p));
+            i += static_cast<uint32_t>(chain.positions.size());
+        }
+        writer.end_ring();
+    }
+    rings.place_of_slot.resize(numbering.border.size());
+    for (uint32_t p = 0; p < numbering.patch_count(); ++p)
+        for (uint32_t k = rings.begin[p]; k < rings.begin[p + 1]; ++k)
+            if (rings.is_own[k])
+                rings.place_of_slot[numbering.border_begin[p] + rings.position[k]] = k - rings.begin[p];
+    writer.end();
+}
+
+BorderSegments segments_of_rings(const BorderRings& rings, const Numbering& numbering) {
+    BorderSegments segments(numbering.border.size());
+    for (size_t slot = 0; slot < numbering.border.size(); ++slot) {
+        const size_t place = rings.begin[numbering.patch_of_slot[slot]] + rings.place_of_slot[slot];
+        if (std::isnan(rings.segment_length[place])) continue;
+        segments.end[slot] = rings.position[place + 1];
+        segments.length[slot] = rings.segment_length[place];
+    }
+    return segments;
+}
+
+}

@@ -1,0 +1,163 @@
+#include "src/overlay/samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "src/overlay/near.h"
+#include "src/overlay/rings.h"
+
+namespace geodesic {
+
+namespace {
+
+// A ring has at least FEWEST samples, if it has as many vertices, and at most LARGEST_STEP steps lie between
+// two of them.
+constexpr uint32_t FEWEST = 64, LARGEST_STEP = 5;
+
+// Samples alone tell the way only where a distance is more than so many times their spacing.
+constexpr float NEAR_SAMPLES = 8;
+
+uint32_t step_of(const OverlayIndex& index, uint32_t patch) {
+    return std::clamp(index.numbering.border_size(patch) / FEWEST, 1u, LARGEST_STEP);
+}
+
+// Of a chain of so many vertices; the ends of an open one are among them.
+uint32_t sample_count(uint32_t vertices, bool is_closed, uint32_t step) {
+    if (step == 1 || vertices <= 3) return vertices;
+    return std::max(3u, (vertices - !is_closed) / step) + !is_closed;
+}
+
+// Evenly.
+std::vector<uint32_t> sample(const Chain& chain, uint32_t step) {
+    const auto vertices = static_cast<uint32_t>(chain.positions.size());
+    const uint32_t count = sample_count(vertices, chain.is_closed, step);
+    if (count == vertices) return chain.positions;
+    const uint32_t intervals = vertices - !chain.is_closed, pieces = count - !chain.is_closed;
+    std::vector<uint32_t> samples;
+    for (uint32_t i = 0; i < count; ++i) samples.push_back(chain.positions[uint64_t{i} * intervals / pieces]);
+    return samples;
+}
+
+// The length of the segment between two samples; a gap where there is no way from one to the other.
+float segment_between(const OverlayIndex& index, uint32_t patch, uint32_t a, uint32_t b) {
+    const uint32_t parent = index.numbering.parent[patch];
+    const uint32_t* overlay_position =
+        index.numbering.overlay_position.data() + index.numbering.border_begin[patch];
+    const uint16_t code = index.overlay_code(parent, overlay_position[a], overlay_position[b]);
+    return code == TableCode::UNREACHED ? Rings::GAP : index.distance(code, parent);
+}
+
+void sample_ring(OverlayIndex& index, uint32_t patch, RingWriter& writer) {
+    const uint32_t step = step_of(index, patch);
+    for (const Chain& chain : chains_of_ring(index.rings, patch)) {
+        Chain coarse{sample(chain, step), {}, chain.is_closed};
+        const size_t count = coarse.positions.size();
+        for (size_t i = 0; i < count; ++i)
+            coarse.lengths.push_back(
+                segment_between(index, patch, coarse.positions[i], coarse.positions[(i + 1) % count]));
+        writer.add_chain(coarse, index.numbering.border_of(patch));
+    }
+    writer.end_ring();
+}
+
+// 0 if the ring has no segments.
+float average_segment(const Rings& rings, uint32_t patch) {
+    float sum = 0;
+    uint32_t segments = 0;
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
+        if (std::isnan(rings.segment_length[k])) continue;
+        sum += rings.segment_length[k];
+        ++segments;
+    }
+    return segments ? sum / static_cast<float>(segments) : 0;
+}
+
+void place_samples(OverlayIndex& index, uint32_t patch) {
+    const Rings& rings = index.samples.rings;
+    std::vector<uint32_t> sample(index.numbering.border_size(patch), 0); // per position
+    uint32_t count = 0;
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
+        if (rings.is_own[k]) {
+            sample[rings.position[k]] = count++;
+            index.samples.positions.push_back(rings.position[k]);
+        }
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
+        index.samples.full_place.push_back(
+            index.rings.begin[patch] +
+            index.rings.place_of_slot[index.numbering.border_begin[patch] + rings.position[k]]);
+        index.samples.sample_of_place.push_back(sample[rings.position[k]]);
+    }
+    const float spacing = average_segment(rings, patch);
+    index.samples.spacing.push_back(spacing);
+    index.near.push_back(std::max(NEAR_SAMPLES * spacing, near_radius(index.longest_segment[patch])));
+    index.samples.begin.push_back(static_cast<uint32_t>(index.samples.positions.size()));
+}
+
+// The overlay positions, in a patch, of the samples of its child's ring, or of its own.
+void add_samples(const OverlayIndex& index, uint32_t ring_of, bool of_child,
+                 std::vector<uint32_t>& positions) {
+    for (uint32_t position : index.samples.of(ring_of))
+        positions.push_back(
+            of_child ? index.numbering.overlay_position[index.numbering.border_begin[ring_of] + position]
+                     : position);
+}
+
+void sample_table(OverlayIndex& index, uint32_t patch, std::span<const uint32_t> rows) {
+    index.samples.table_begin[patch] = index.samples.tables.size();
+    const uint32_t* place = index.samples.full_place.data() + index.samples.rings.begin[patch];
+    const uint32_t first_place = index.rings.begin[patch];
+    const uint32_t places = index.samples.rings.size(patch);
+    if (places == index.rings.size(patch)) return;
+    for (uint32_t row : rows)
+        for (uint32_t k = 0; k < places; ++k)
+            index.samples.tables.push_back(
+                index.hops.outer[index.outer_row(patch, row) + place[k] - first_place]);
+}
+
+void sample_tables(OverlayIndex& index, uint32_t patch) {
+    std::vector<uint32_t> rows;
+    add_samples(index, patch, false, rows);
+    for (uint32_t child = index.numbering.child_begin[patch]; child < index.numbering.child_begin[patch + 1];
+         ++child) {
+        index.samples.first_row[child] = static_cast<uint32_t>(rows.size());
+        add_samples(index, child, true, rows);
+    }
+    for (uint32_t child = index.numbering.child_begin[patch]; child < index.numbering.child_begin[patch + 1];
+         ++child)
+        sample_table(index, child, rows);
+    index.samples.row_begin.push_back(static_cast<uint32_t>(index.samples.row_position.size()));
+    index.samples.row_position.insert(index.samples.row_position.end(), rows.begin(), rows.end());
+}
+
+}
+
+SampleCount count_samples(const OverlayIndex& index, uint32_t patch) {
+    const Rings& rings = index.rings;
+    const uint32_t step = step_of(index, patch);
+    SampleCount count;
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1];) {
+        const auto& [first, last, is_closed] = rings.chains[rings.chain[k]];
+        const uint32_t samples = sample_count(last - first + 1, is_closed != 0, step);
+        count.samples += samples;
+        count.places += samples + 2 * Rings::REACH;
+        k = last + Rings::REACH + 1;
+    }
+    return count;
+}
+
+void make_samples(OverlayIndex& index) {
+    Samples& samples = index.samples;
+    RingWriter writer(samples.rings);
+    writer.begin();
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) sample_ring(index, p, writer);
+    samples.begin.assign(1, 0);
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) place_samples(index, p);
+    writer.end();
+    samples.first_row.assign(index.numbering.patch_count(), 0);
+    samples.table_begin.assign(index.numbering.patch_count(), 0);
+    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) sample_tables(index, p);
+    samples.tables.resize(samples.tables.size() + TableCode::PADDING);
+}
+
+}

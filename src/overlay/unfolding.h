@@ -1,0 +1,107 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+
+#include "src/overlay/tables.h"
+
+namespace geodesic {
+
+// Floats side by side. Every lane is computed for itself, so that results are the same whatever the width.
+template <size_t BYTES>
+struct FloatVector {
+    using Type [[gnu::vector_size(BYTES)]] = float;
+};
+template <size_t BYTES>
+using Floats = typename FloatVector<BYTES>::Type;
+
+// The functions below are always inlined, so that they are compiled for the processor of their caller, and
+// return nothing: how wide vectors are returned depends on the processor, too.
+
+template <class V>
+[[gnu::always_inline]] inline void take_square_root(V& v) {
+    for (size_t i = 0; i < sizeof v / sizeof(float); ++i) v[i] = std::sqrt(v[i]);
+}
+
+// The square of the distance from the middle of a segment to a point that is at these distances from its
+// ends; NaN if the length is, negative if there is no such point.
+template <class V>
+[[gnu::always_inline]] inline void middle_square(const V& from_first, const V& from_second, const V& length,
+                                                 V& square) {
+    square = 0.5f * (from_first * from_first + from_second * from_second) - 0.25f * (length * length);
+}
+
+// Border segments. Each lies in a plane of its own, first end at 0, second at (length, 0).
+template <class V>
+struct Segments {
+    V length, half_inverse; // 0.5 / length; NaN: a gap
+
+    // How far along the segment the foot of a point lies, and how far off it the point, which is at these
+    // distances from the ends; NaN if there is no such point.
+    [[gnu::always_inline]] void place_point(const V& from_first, const V& from_second, V& foot,
+                                            V& height) const {
+        foot = (from_first - from_second) * (from_first + from_second) * half_inverse + 0.5f * length;
+        height = (from_first - foot) * (from_first + foot);
+        take_square_root(height);
+    }
+};
+
+// Segments, and where a source lies on one side of each.
+template <class V>
+struct SeenSegments {
+    Segments<V> segments;
+    V foot, height;
+
+    // The square of the straight way from the source over the segment to a point on the other side, which is
+    // at these distances from the ends; infinity if there is none.
+    [[gnu::always_inline]] void square_across(const V& from_first, const V& from_second, V& square) const {
+        V to_foot, to_height;
+        segments.place_point(from_first, from_second, to_foot, to_height);
+        const V off = height + to_height, along = foot - to_foot;
+        const V none = V{} + INFINITE;
+        // The place of the crossing, from the nearer end, times `off`. (Two comparisons joined by && are no
+        // vector instructions to GCC 12 where vectors have 64 bytes.)
+        V crossing = foot * to_height + to_foot * height;
+        const V to_second = segments.length * off - crossing;
+        crossing = to_second < crossing ? to_second : crossing;
+        square = crossing > 0 ? along * along + off * off : none;
+    }
+};
+
+// The segments near a border vertex, REACH on each side, in the order of the border.
+using NearFloats = Floats<2 * Rings::REACH * sizeof(float)>;
+
+inline NearFloats near_floats(const float* first) {
+    NearFloats floats;
+    std::memcpy(&floats, first, sizeof floats);
+    return floats;
+}
+
+// The way from a source over a place of a ring, counted over all, to a target, straightened over the segments
+// near that place where that is shorter. from(k) and to(k): distances of place k.
+template <class From, class To>
+float straightened(const Rings& rings, size_t place, const From& from, const To& to) {
+    const size_t near = place - Rings::REACH;
+    const auto ends = [&](const auto& distance, NearFloats& first, NearFloats& second) {
+        for (size_t k = 0; k < 4; ++k) {
+            first[k] = distance(near + k);
+            second[k] = distance(near + k + 1);
+        }
+    };
+    SeenSegments<NearFloats> seen{
+        {near_floats(rings.segment_length.data() + near), near_floats(rings.half_inverse.data() + near)},
+        {},
+        {}};
+    NearFloats first, second, squares;
+    ends(from, first, second);
+    seen.segments.place_point(first, second, seen.foot, seen.height);
+    ends(to, first, second);
+    seen.square_across(first, second, squares);
+    const float square = std::min(std::min(squares[0], squares[1]), std::min(squares[2], squares[3]));
+    return std::min(from(place) + to(place), std::sqrt(square));
+}
+
+}

@@ -1,0 +1,44 @@
+#include "src/query/index.h"
+
+#include "geoidx.h"
+#include "src/graph/prepare.h"
+#include "src/overlay/labels.h"
+#include "src/overlay/prepare.h"
+
+namespace geodesic {
+
+void prepare(const StoredIndex& stored, Index& index) {
+    index.description = stored.description;
+    index.number_of_id.assign(stored.number_of_id.begin(), stored.number_of_id.end());
+    if (stored.description.engine == GEOIDX_ENGINE_OVERLAY)
+        prepare_overlay(stored, index.engine.emplace<OverlayIndex>(index.memory));
+    else
+        prepare_graph(stored, index.engine.emplace<GraphIndex>(index.memory));
+}
+
+void prepare_pairs(Index& index, const std::function<void()>& look_up) {
+    if (auto* const overlay = std::get_if<OverlayIndex>(&index.engine)) make_labels(*overlay, look_up);
+}
+
+StoredIndex restore(const Index& index) {
+    StoredIndex stored;
+    stored.description = index.description;
+    stored.number_of_id.assign(index.number_of_id.begin(), index.number_of_id.end());
+    if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine))
+        restore_overlay(*overlay, stored);
+    else
+        restore_graph(std::get<GraphIndex>(index.engine), stored);
+    return stored;
+}
+
+uint64_t table_entries(const Index& index) {
+    const Numbering& numbering = index.numbering();
+    uint64_t entries = numbering.border_internal_begin.back() + numbering.internal_table_begin.back();
+    if (const auto* const graph = std::get_if<GraphIndex>(&index.engine))
+        entries += graph->border_tables.size();
+    else
+        for (uint32_t p = 0; p < numbering.first_leaf(); ++p) entries += numbering.overlay_entries(p);
+    return entries;
+}
+
+}

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <memory_resource>
+#include <variant>
+
+#include "src/graph/tables.h"
+#include "src/index/description.h"
+#include "src/overlay/tables.h"
+
+namespace geodesic {
+
+struct StoredIndex;
+
+// What queries answer from, by the engine that the index was built for.
+struct Index {
+    explicit Index(std::pmr::memory_resource* memory)
+        : memory(memory), number_of_id(memory), engine(std::in_place_type<GraphIndex>, memory) {}
+
+    std::pmr::memory_resource* memory;
+    Description description;
+    Array<uint32_t> number_of_id; // per caller's id; NONE: no triangle uses it
+    std::variant<GraphIndex, OverlayIndex> engine;
+
+    const Numbering& numbering() const {
+        return std::visit([](const auto& of_engine) -> const Numbering& { return of_engine.numbering; },
+                          engine);
+    }
+};
+
+// Fills an empty index from what is stored, all but the labels of the overlay engine, without which it
+// answers MSAD, but no pairs. Throws Error where what is stored cannot be an index.
+void prepare(const StoredIndex& stored, Index& index);
+
+// Makes the labels, if the engine has any. Calls look_up() every now and then, which may throw.
+void prepare_pairs(Index& index, const std::function<void()>& look_up);
+
+// What is stored of an index: the opposite of prepare().
+StoredIndex restore(const Index& index);
+
+// Distances that are stored in the tables of an index.
+uint64_t table_entries(const Index& index);
+
+}
