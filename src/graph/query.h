@@ -67,6 +67,7 @@ private:
     Array<float> search_distance_;
     Array<uint32_t> search_epoch_, allowed_epoch_;
     uint32_t epoch_ = 0;
+    uint32_t top_ = 0; // the first common ancestor of both vertices' patches
 };
 
 }

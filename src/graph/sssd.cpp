@@ -56,6 +56,7 @@ float GraphQuery::same_leaf_distance(uint32_t low, uint32_t high) const {
 }
 
 // The search may cross the overlays of both vertices' ancestors up to the first common one, and no others.
+// What leaves that one and comes back goes over its own border table (which goes beyond paper 3.4).
 void GraphQuery::allow_ancestors(uint32_t source, uint32_t target) {
     if (++epoch_ == 0) {
         std::fill(search_epoch_.begin(), search_epoch_.end(), 0u);
@@ -74,6 +75,7 @@ void GraphQuery::allow_ancestors(uint32_t source, uint32_t target) {
             --level_b;
         }
     }
+    top_ = a;
 }
 
 void GraphQuery::open(uint32_t node, float distance, uint32_t target) {
@@ -85,7 +87,7 @@ void GraphQuery::open(uint32_t node, float distance, uint32_t target) {
 
 void GraphQuery::relax_border_vertex(uint32_t node, float distance, uint32_t target) {
     for (const BorderPlace& place : numbering_.places_of(node)) {
-        if (allowed_epoch_[numbering_.parent[place.patch]] != epoch_) continue;
+        if (place.patch != top_ && allowed_epoch_[numbering_.parent[place.patch]] != epoch_) continue;
         const auto border = numbering_.border_of(place.patch);
         const float* row = index_.border_row(place.patch, place.position);
         for (size_t i = 0; i < border.size(); ++i) open(border[i], distance + row[i], target);

@@ -73,6 +73,23 @@ float average_segment(const Rings& rings, uint32_t patch) {
     return segments ? sum / static_cast<float>(segments) : 0;
 }
 
+// How far it is along the border from a sample to the next one, at most. Vertices between two samples are no
+// farther from either, which the distance of the two does not tell: the border may go out and back between
+// them.
+float longest_gap(const OverlayIndex& index, uint32_t patch) {
+    const Rings& samples = index.samples.rings;
+    float longest = 0;
+    for (uint32_t k = samples.begin[patch]; k < samples.begin[patch + 1]; ++k) {
+        if (std::isnan(samples.segment_length[k])) continue;
+        float length = 0;
+        for (uint32_t at = index.samples.full_place[k]; index.rings.position[at] != samples.position[k + 1];
+             ++at)
+            length += index.rings.segment_length[at];
+        longest = std::max(longest, length);
+    }
+    return longest;
+}
+
 void place_samples(OverlayIndex& index, uint32_t patch) {
     const Rings& rings = index.samples.rings;
     std::vector<uint32_t> sample(index.numbering.border_size(patch), 0); // per position
@@ -90,6 +107,7 @@ void place_samples(OverlayIndex& index, uint32_t patch) {
     }
     const float spacing = average_segment(rings, patch);
     index.samples.spacing.push_back(spacing);
+    index.samples.longest_gap.push_back(longest_gap(index, patch));
     index.near.push_back(std::max(NEAR_SAMPLES * spacing, near_radius(index.longest_segment[patch])));
     index.samples.begin.push_back(static_cast<uint32_t>(index.samples.positions.size()));
 }

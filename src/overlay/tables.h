@@ -31,8 +31,8 @@ struct HopTables {
 struct Samples {
     explicit Samples(std::pmr::memory_resource* memory)
         : rings(memory), full_place(memory), sample_of_place(memory), begin(memory), positions(memory),
-          spacing(memory), first_row(memory), row_begin(memory), row_position(memory), table_begin(memory),
-          tables(memory) {}
+          spacing(memory), longest_gap(memory), first_row(memory), row_begin(memory), row_position(memory),
+          table_begin(memory), tables(memory) {}
 
     Rings rings;
     Array<uint32_t> full_place; // per place: the own place of its vertex among all, counted over all rings
@@ -40,6 +40,7 @@ struct Samples {
     Array<uint32_t> begin;           // per patch: of its samples in `positions`
     Array<uint32_t> positions;       // per sample: in the border
     Array<float> spacing;            // per patch: from a sample to the next one, on average
+    Array<float> longest_gap;        // per patch: along the border, from a sample to the next one, at most
     Array<uint32_t> first_row;       // per patch: of its samples in the tables of its siblings
     Array<uint32_t> row_begin;       // per inner patch: of its children's rows in `row_position`
     Array<uint32_t> row_position;    // per row: its position in the overlay of the parent

@@ -18,12 +18,6 @@ constexpr double METRIC_ROUNDING = 1e-5;
 // How much too short and too long an answer of GEOIDX_ENGINE_OVERLAY may be: gross errors only, since the
 // largest ones of hard surfaces are not bounded yet.
 constexpr double OVERLAY_SHORT = 0.5, OVERLAY_LONG = 2;
-// How much too long a way that stays on the patches around both vertices may be, and where edges or triangles
-// cost 0.1 to 10 times their length, so that the way around them costs a hundredth.
-constexpr double PAIR_LONG = 2, PAIR_LONG_BY_COSTS = 200;
-
-bool has_costs(const geoidx_build_options& options) { return options.edge_costs || options.face_costs; }
-
 bool is_source(const Truth& truth, const Surface& surface, uint32_t target) {
     return std::ranges::any_of(truth.sources, [&](uint32_t s) { return surface.are_one(s, target); });
 }
@@ -35,8 +29,7 @@ bool is_source(const Truth& truth, const Surface& surface, uint32_t target) {
 // steps.
 Bounds::Bounds(const BuildInput& input, const geoidx_info& info, double longest)
     : is_graph_(info.engine == GEOIDX_ENGINE_GRAPH),
-      unfolds_(!is_graph_ && (info.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0),
-      pair_long_(has_costs(input.options()) ? PAIR_LONG_BY_COSTS : PAIR_LONG) {
+      unfolds_(!is_graph_ && (info.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0) {
     for (double length : input.edge_bounds()) longest_edge_ = std::max(longest_edge_, length);
     const double hops = 2 * info.level_count + 1;
     detour_ = 2 * hops * input.options().delta / 100 * info.bounding_box_diagonal;
@@ -51,9 +44,8 @@ double Bounds::least(double exact) const {
     return std::min(exact * OVERLAY_SHORT, exact - longest_edge_) - rounding_ - SMALLEST;
 }
 
-double Bounds::most(double along_edges, Asked asked) const {
-    const double of_field = is_graph_ ? 1 + FLOAT_ROUNDING : unfolds_ ? OVERLAY_LONG : 1.02;
-    const double factor = asked == Asked::PAIR ? std::max(of_field, pair_long_) : of_field;
+double Bounds::most(double along_edges) const {
+    const double factor = is_graph_ ? 1 + FLOAT_ROUNDING : unfolds_ ? OVERLAY_LONG : 1.02;
     return (along_edges + 2 * detour_) * factor + rounding_ + SMALLEST;
 }
 
@@ -97,8 +89,8 @@ void check_truth(const BuildInput& input, const Truth& truth) {
     }
 }
 
-void check_answer(const char* query, Asked asked, const BuildInput& input, const Bounds& bounds,
-                  const Truth& truth, uint32_t target, float answer) {
+void check_answer(const char* query, const BuildInput& input, const Bounds& bounds, const Truth& truth,
+                  uint32_t target, float answer) {
     const Surface& surface = input.surface();
     const double exact = truth.exact[target], d{answer};
     const std::string values = formatted("%u to %u: %.9g, metric %.9g, edges %.9g", truth.sources[0], target,
@@ -113,7 +105,7 @@ void check_answer(const char* query, Asked asked, const BuildInput& input, const
     if (is_source(truth, surface, target)) return require(d == 0, "is not 0 at its source");
     require(d > 0 || bounds.least(exact) <= 0, "is 0 elsewhere");
     require(d >= bounds.least(exact), "is too short");
-    require(d <= bounds.most(truth.along_edges[target], asked), "is too long");
+    require(d <= bounds.most(std::max(exact, truth.along_edges[target])), "is too long");
 }
 
 }

@@ -8,9 +8,6 @@
 
 namespace geodesic::campaign {
 
-// SSSD does not leave the patches around both vertices (README, limits), MSAD finds ways that do.
-enum class Asked { PAIR, FIELD };
-
 // What an answer may be, by what the header and the limits in README promise of an engine.
 class Bounds {
 public:
@@ -18,14 +15,13 @@ public:
 
     // From the metric's own distance and the shortest way along edges.
     double least(double exact) const;
-    double most(double along_edges, Asked asked) const;
+    double most(double along_edges) const;
 
 private:
     bool is_graph_;
     bool unfolds_;
-    double pair_long_; // how many times a way between two vertices may be too long
-    double detour_;    // what pruning may add to a way
-    double rounding_;  // of 16-bit tables, over all hops of a way
+    double detour_;   // what pruning may add to a way
+    double rounding_; // of 16-bit tables, over all hops of a way
     double longest_edge_ = 0;
 };
 
@@ -41,7 +37,7 @@ Truth truth_of(const BuildInput& input, geoidx_solver* solver, std::span<const u
 void check_truth(const BuildInput& input, const Truth& truth);
 
 // One answer for the way between the source and `target`.
-void check_answer(const char* query, Asked asked, const BuildInput& input, const Bounds& bounds,
-                  const Truth& truth, uint32_t target, float answer);
+void check_answer(const char* query, const BuildInput& input, const Bounds& bounds, const Truth& truth,
+                  uint32_t target, float answer);
 
 }

@@ -32,7 +32,7 @@ void check_pairs(const Subject& subject, std::span<const Truth> truths, Dice& di
     Floats answers;
     for (const Pair& pair : pairs) {
         const float there = subject.sssd(pair.source(), pair.target);
-        check_answer("sssd", Asked::PAIR, subject.input(), subject.bounds(), *pair.from, pair.target, there);
+        check_answer("sssd", subject.input(), subject.bounds(), *pair.from, pair.target, there);
         const float back = subject.sssd(pair.target, pair.source());
         expect(same_bits(there, back), "sssd is symmetric", "%u to %u: %.9g, back %.9g", pair.source(),
                pair.target, double{there}, double{back});
@@ -55,7 +55,7 @@ void check_fields(const Subject& subject, std::span<const Truth> truths) {
     for (const Truth& truth : truths) {
         const Floats field = subject.msad(truth.sources);
         for (uint32_t id = 0; id < field.size(); ++id)
-            check_answer("msad", Asked::FIELD, subject.input(), subject.bounds(), truth, id, field[id]);
+            check_answer("msad", subject.input(), subject.bounds(), truth, id, field[id]);
         sources.push_back(truth.sources[0]);
         fields.insert(fields.end(), field.begin(), field.end());
     }
@@ -81,8 +81,7 @@ void check_prepared(const Subject& subject, std::span<const Truth> truths, Dice&
         succeed(geoidx_query_prepared(subject.query(), targets.data(), targets.size(), answers.data()),
                 "geoidx_query_prepared");
         for (size_t i = 0; i < targets.size(); ++i)
-            check_answer("prepared", Asked::PAIR, subject.input(), subject.bounds(), truth, targets[i],
-                         answers[i]);
+            check_answer("prepared", subject.input(), subject.bounds(), truth, targets[i], answers[i]);
         for (size_t i = targets.size(); i-- > 0;) {
             float again = -1;
             succeed(geoidx_query_prepared(subject.query(), &targets[i], 1, &again), "geoidx_query_prepared");
@@ -136,8 +135,7 @@ void check_several(const Subject& subject, geoidx_solver* solver, std::span<cons
     const Truth truth = truth_of(subject.input(), solver, sources);
     const Floats field = subject.msad(sources);
     for (uint32_t id = 0; id < field.size(); ++id)
-        check_answer("msad of several", Asked::FIELD, subject.input(), subject.bounds(), truth, id,
-                     field[id]);
+        check_answer("msad of several", subject.input(), subject.bounds(), truth, id, field[id]);
     check_radius(subject, sources, field, dice);
     check_threads(subject, sources, field, dice);
     sources.insert(sources.end(), {sources.front(), sources.back()});
@@ -166,8 +164,7 @@ void check_at_once(const Subject& subject, std::span<const Truth> truths, uint64
             const uint32_t target = dice.below(subject.vertex_count());
             float distance = -1;
             succeed(geoidx_sssd(subject.index(), truths[i].sources[0], target, &distance), "geoidx_sssd");
-            check_answer("sssd at once", Asked::PAIR, subject.input(), subject.bounds(), truths[i], target,
-                         distance);
+            check_answer("sssd at once", subject.input(), subject.bounds(), truths[i], target, distance);
         }
     };
     {

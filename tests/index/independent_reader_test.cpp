@@ -355,6 +355,7 @@ struct IndependentIndex {
         std::vector<const Table*> tables;
         for (uint32_t p : allowed)
             for (uint32_t i = 0; i < child_count[p]; ++i) tables.push_back(&border_table[first_child[p] + i]);
+        if (common != 0) tables.push_back(&border_table[common]);
         for (uint32_t v : {a, b})
             if (v >= border_vertex_count) tables.push_back(&crossing_table[leaf_of(v)]);
         return tables;

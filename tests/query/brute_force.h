@@ -123,7 +123,8 @@ inline double table_distance(const GraphIndex& index, uint32_t a, uint32_t b) {
 }
 
 // The paper's 3.4: the table's entry if one table has both; otherwise the shortest path over the overlays of
-// both vertices' ancestors up to the first common one, and the crossing tables of their own leaves.
+// both vertices' ancestors up to the first common one, the border table of that one, and the border-internal
+// tables of their own leaves.
 inline double brute_force_sssd(const GraphIndex& index, uint32_t a, uint32_t b) {
     if (const double direct = table_distance(index, a, b); direct < FAR) return direct;
     const auto up_from_a = chain_to_root(index, entry_patch_of(index, a));
@@ -136,6 +137,7 @@ inline double brute_force_sssd(const GraphIndex& index, uint32_t a, uint32_t b) 
                 add_border_table(index, c, arcs);
             if (p == common) break;
         }
+    if (common != 0) add_border_table(index, common, arcs);
     for (uint32_t v : {a, b})
         if (v >= index.numbering.border_vertex_count())
             add_border_internal_table(index, leaf_holding(index, v), arcs);

@@ -238,7 +238,7 @@ float OverlaySssd::meet(const From& from, End& to) {
     if (beside != NONE)
         shortest = std::min(shortest, measure_over(from, to, beside - rings.begin[border.patch]));
     if (!(shortest <= index_.near[border.patch])) return shortest;
-    const float reach = shortest + 2 * index_.samples.spacing[border.patch];
+    const float reach = shortest + 2 * index_.samples.longest_gap[border.patch];
     if (!from.trace_near(reach) || !trace_near(to, reach)) return shortest;
     return std::min(shortest, measure(from, to));
 }
