@@ -300,7 +300,7 @@ GEOIDX_API geoidx_status geoidx_save_memory(const geoidx* index, void* buffer, u
                                             uint64_t* needed);
 
 /* Opens an index. Everything in the file is checked before it is believed. The index, its queries and the
- * temporary memory of opening take at most 160 times the raw size of the file's sections, and 16 MiB; what
+ * temporary memory of opening take at most 256 times the raw size of the file's sections, and 32 MiB; what
  * would take more is GEOIDX_ERROR_LIMIT before memory is taken. A small file can hold raw sections 1032 times
  * its size. `options` may be NULL. */
 GEOIDX_API geoidx_status geoidx_open(const char* utf8_path, const geoidx_open_options* options, geoidx** out);

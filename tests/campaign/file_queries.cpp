@@ -238,7 +238,7 @@ void check_saving(const FileContent& content, const WrittenFile& file, const geo
 // Everything that is derived from a file, and all scratch, these questions' own included, is in proportion to
 // it. A file may be up to 1032 times smaller than its raw sections.
 void check_memory(const WrittenFile& file, uint64_t before) {
-    constexpr uint64_t TIMES = 160, ALWAYS = 16 << 20;
+    constexpr uint64_t TIMES = 256, ALWAYS = 32 << 20;
     const uint64_t taken = peak_memory() - before;
     require(taken <= TIMES * file.raw_size + ALWAYS, "opening and asking took " + std::to_string(taken) +
                                                          " bytes for sections of " +
