@@ -5,8 +5,6 @@
 
 namespace geodesic {
 
-namespace {}
-
 OverlayBatch::OverlayBatch(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), sweep_(index, SOURCES, memory), out_(memory),
       sources_inside_(index.numbering.patch_count(), memory) {
@@ -23,7 +21,7 @@ void OverlayBatch::sweep(std::span<const uint32_t> sources, OverlaySsad& climber
     for (uint32_t p = 1; p < numbering_.patch_count(); ++p) descend(p, distances);
 }
 
-// Sources that lie in a patch have its distances already.
+// Notes which sources each patch contains: the sweep up has filled its distances from those.
 void OverlayBatch::mark_patches_around(std::span<const uint32_t> sources) {
     std::ranges::fill(sources_inside_, uint16_t{0});
     for (size_t i = 0; i < SOURCES; ++i)
@@ -32,7 +30,7 @@ void OverlayBatch::mark_patches_around(std::span<const uint32_t> sources) {
             sources_inside_[p] = static_cast<uint16_t>(sources_inside_[p] | 1u << i);
 }
 
-// To what lies inside.
+// Hops to the inner vertices of a patch, from the sources outside of it.
 void OverlayBatch::descend(uint32_t patch, std::span<float> distances) {
     const uint32_t count = numbering_.inner_size(patch);
     if (count == 0 || !(sweep_.see(patch, distances.data()) < INFINITE)) return;

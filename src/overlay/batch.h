@@ -8,16 +8,16 @@
 
 namespace geodesic {
 
-// The fields of several sources, each by itself, in one sweep down, which reads each table once. Vertices are
-// given by their numbers.
+// The distance fields of several sources, each by itself. They share one sweep down, which reads each table
+// once. Vertices are given by their numbers.
 class OverlayBatch {
 public:
     static constexpr size_t SOURCES = InnerSweep::MOST_SOURCES;
 
     OverlayBatch(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
-    // distances[number * SOURCES + i] from the i-th source, of which there are 1 to SOURCES, the last one
-    // repeated. climber: for the way up.
+    // Fills distances[number * SOURCES + i] with the distance from the i-th source. There are 1 to SOURCES
+    // sources; if there are fewer, the last one is repeated. `climber` does the sweeps up.
     void sweep(std::span<const uint32_t> sources, OverlaySsad& climber, std::span<float> distances);
 
 private:
@@ -26,9 +26,9 @@ private:
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
-    InnerSweep sweep_;               // of the patch at hand
-    Array<float> out_;               // per row, SOURCES each
-    Array<uint16_t> sources_inside_; // per patch: a bit each
+    InnerSweep sweep_;               // of the current patch
+    Array<float> out_;               // SOURCES distances for each row
+    Array<uint16_t> sources_inside_; // per patch: bit i is set if it contains the i-th source
 };
 
 }

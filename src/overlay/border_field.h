@@ -9,13 +9,14 @@
 
 namespace geodesic {
 
-// The distances of a source from the border of one patch after the other, ready for crossing it.
+// The distances of a source from the places of one ring, prepared for the kernels that hop from it. The
+// object is used for one border after the other.
 class BorderField {
 public:
     BorderField(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
-    // Begins with `count` places from `first` on, counted over all rings: their distances are to be written
-    // to the result. `quantum` is that of the rows to be added.
+    // Begins a border with `count` places from `first` on, counted over all rings. The caller then writes the
+    // distances of these places to the result. `quantum` is that of the rows that will be added.
     std::span<float> begin(const Rings& rings, size_t first, size_t count, float quantum) {
         return begin(rings, first, count, quantum, segments_from(rings, first));
     }
@@ -27,10 +28,10 @@ public:
         return std::span(distance_).first(count);
     }
 
-    // Returns whether the source reaches any.
+    // Prepares the distances that were written. Returns whether the source reaches any of the places.
     bool finish();
 
-    // If finish() returned true, as CrossingKernel has them.
+    // These may be called once finish() has returned true; CrossingKernel describes them.
     bool is_near() const { return sight_.is_near(); }
     float reach() const { return sight_.reach; }
     void cross(Rows rows, float* distances, uint16_t* winners = nullptr) const {

@@ -11,25 +11,25 @@
 
 namespace geodesic {
 
-// Everywhere in the overlay engine a distance is a code, a whole number of steps of a quantum. This file has
-// all kinds of codes and how distances are rounded to them. (The kernels round as StepsOf does, many at a
-// time.)
+// In the overlay engine a stored distance is a code: a whole number of steps of a quantum. This file has all
+// kinds of codes and all rounding of distances to them. (The kernels round many distances at a time, in the
+// same way as StepsOf.)
 
-// An entry of a table: steps of the quantum of its patch.
+// An entry of a table: the distance of two vertices, in steps of the quantum of the table's patch.
 struct TableCode {
     static constexpr uint16_t LARGEST = 0x7ffe;
     static constexpr uint16_t UNREACHED = 0x7fff; // there is no path
-    // Entries behind the last table: rows are read in blocks of up to this many.
+    // Kernels read rows in blocks of up to this many entries, so that so many follow the last table.
     static constexpr size_t PADDING = 32;
 
-    // Only a distance of 0 is rounded to 0, so that different vertices stay apart.
+    // Only a distance of 0 is rounded to 0, so that different vertices never are at distance 0.
     static uint16_t nearest_to(float distance, float quantum) {
         if (distance == INFINITE) return UNREACHED;
         if (distance == 0 || !(quantum > 0)) return 0;
         return in_range(std::round(double{distance} / double{quantum}));
     }
 
-    // The same distance in steps of another quantum.
+    // The code of the same distance in steps of another quantum.
     static uint16_t converted(uint16_t code, float from_quantum, float to_quantum) {
         if (code == 0 || code == UNREACHED || !(to_quantum > 0)) return code;
         return in_range(std::round(code * double{from_quantum} / double{to_quantum}));
@@ -45,23 +45,24 @@ private:
     }
 };
 
-// The distance of a source from a border vertex, as a code that kernels add table entries to in 16 bits:
-// steps beyond the nearest vertex of the border, which has the smallest number, so that sums fit. A vertex
-// that is not reached has UNREACHED, and so have those behind the last one up to whole blocks.
+// The distance of a source from a border vertex, as a code to which kernels add table entries in 16 bits. It
+// counts steps beyond the nearest vertex of the border, which itself has the smallest number, NEAREST, so
+// that the sums fit into 16 bits. A vertex that the source does not reach has UNREACHED, and so have the
+// codes that fill up the last block.
 struct SourceCode {
     static constexpr int16_t NEAREST = std::numeric_limits<int16_t>::min(), UNREACHED = 0;
 
-    // Sums from here on may be of vertices that are not reached, or of no path.
+    // A sum of NO_SUM or more may come from a vertex that is not reached, or from an entry without a path.
     static constexpr int32_t NO_SUM = NEAREST + TableCode::UNREACHED;
 
-    // Codes are read in so many at once.
+    // Kernels read this many codes at once.
     static constexpr size_t BLOCK = 32;
     static constexpr size_t whole_blocks(size_t count) { return (count + BLOCK - 1) / BLOCK * BLOCK; }
     static_assert(TableCode::PADDING >= BLOCK, "the last row of a table is read in whole blocks");
 };
 
-// Rounds the distances of one source to codes: steps beyond the nearest one, which is at least nearest()
-// whole steps away.
+// Rounds the distances of one source from a border to codes that count steps beyond the nearest vertex. That
+// vertex is at least nearest() whole steps away.
 class StepsOf {
 public:
     StepsOf(std::span<const float> distances, float quantum)

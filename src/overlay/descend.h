@@ -9,7 +9,7 @@
 
 namespace geodesic {
 
-// descend(patch, scratch) for a patch and all of its descendants, parents first.
+// Calls descend(patch, scratch) for a patch and all of its descendants, parents before children.
 template <class Scratch, class Descend>
 void descend_into(const OverlayIndex& index, uint32_t patch, Scratch& scratch, const Descend& descend) {
     uint32_t first = patch, end = patch + 1;
@@ -21,10 +21,11 @@ void descend_into(const OverlayIndex& index, uint32_t patch, Scratch& scratch, c
     }
 }
 
-// descend(patch, scratch) for all patches but the whole mesh, parents first, by as many threads as there is
-// scratch: the patches of a level that is fine enough are shared out, each with all that lies inside; those
-// above have `top` as scratch. The calling thread is one of them, and alone when no other can be started.
-// Throws what descend throws on any of them.
+// Calls descend(patch, scratch) for all patches but the whole mesh, parents before children. There are as
+// many threads as elements of `scratch`. The patches of the first level that has enough of them are shared
+// out to the threads, each patch with all of its descendants. The levels above are done before, with `top` as
+// their scratch. The calling thread takes part, and works alone if no other thread can be started. Throws
+// what descend throws on any thread.
 template <class Scratch, class Descend>
 void descend_everywhere(const OverlayIndex& index, Scratch& top, std::span<Scratch> scratch,
                         const Descend& descend) {

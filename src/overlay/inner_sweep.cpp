@@ -57,7 +57,7 @@ void InnerSweep::cross(float* inside, uint16_t* winners) {
     field_.cross_near(inner_rows(), inside);
 }
 
-// Returns whether it reaches any of the border.
+// Prepares the border for one of the sources. Returns whether that source reaches it.
 bool InnerSweep::see_from(size_t source) {
     const uint32_t places = rings_.size(patch_);
     const auto border = field_.begin(rings_, rings_.begin[patch_], places, border_.quantum, segments_);

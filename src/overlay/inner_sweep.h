@@ -9,30 +9,33 @@
 
 namespace geodesic {
 
-// From the border of one patch after the other to what lies one hop inside of it, for one source or for
-// several at once: distances of a vertex lie side by side, `sources` of them.
+// Hops down: from the border of a patch to its inner vertices, for one source or for several at once. The
+// distances of a vertex from the `sources` sources lie side by side.
 class InnerSweep {
 public:
     static constexpr size_t MOST_SOURCES = SweepKernel::SOURCES;
 
-    // sources: 1 or MOST_SOURCES.
+    // `sources` is 1 or MOST_SOURCES.
     InnerSweep(const OverlayIndex& index, size_t sources, std::pmr::memory_resource* memory);
 
-    // From the border of a patch, with distances[number * sources + i] from the i-th source. Returns the
-    // least of them, infinity where no source reaches any vertex of the border.
+    // Chooses the patch and reads the distances of its border, distances[number * sources + i] from the i-th
+    // source. Returns the least distance of any place or middle, which is infinite where no source reaches
+    // the border.
     float see(uint32_t patch, const float* distances) {
         return see(patch, distances, segments_from(rings_, rings_.begin[patch]));
     }
-    // Likewise, with other segments, which must outlive the crossing.
+    // Does the same with other segments, which must stay valid until the hop is done.
     float see(uint32_t patch, const float* distances, const RingSegments& segments);
 
-    // To what lies inside of that patch, if see() returned less than infinity: inside[i * sources + source].
+    // Hops to the inner vertices of that patch; call it only if see() returned less than infinity. Writes
+    // inside[i * sources + source].
     void cross(float* inside);
 
-    // Likewise, of one source, slower, and over which place of the border: winners of CrossingKernel.
+    // Does the same for one source, straightened instead of over middles, which is slower, and tells over
+    // which place of the ring each way leads (see the winners of CrossingKernel).
     void cross(float* inside, uint16_t* winners);
 
-    // Those of what lies inside of that patch, until the next patch is seen.
+    // The rows of the inner table of that patch. They stay valid until the next see().
     Rows inner_rows();
 
 private:
@@ -48,10 +51,10 @@ private:
     RingSegments segments_{};
     SweptBorder border_{};
     SweptCodes codes_{};
-    Array<float> distance_, middle_distance_; // [place * sources + source], as are codes
+    Array<float> distance_, middle_distance_; // [place * sources + source], as are the codes
     Array<int16_t> code_, middle_;
     std::array<float, MOST_SOURCES> nearest_{};
-    BorderField field_; // of one source, as are these
+    BorderField field_; // this and what follows are for one source at a time
     Array<const uint16_t*> rows_;
     Array<float> inside_;
 };

@@ -28,8 +28,9 @@ void lay_out_labels(OverlayIndex& index) {
     index.labels.codes.assign(size, SourceCode::UNREACHED);
 }
 
-// Distances from the labelled vertices of a patch's border to all that lies inside of its descendants,
-// SOURCES of them at a time.
+// Sweeps from the labelled vertices of a patch's border down to the inner vertices of all its descendants,
+// with SOURCES border vertices as sources at a time, and writes the distances into the labels of those inner
+// vertices.
 class LabelSweep {
 public:
     explicit LabelSweep(OverlayIndex& index)
@@ -73,7 +74,8 @@ private:
         of_border_.resize(inside * positions_.size());
     }
 
-    // To the overlay of the patch, from the border vertices at these positions; the last one is repeated.
+    // Fills the distances in the patch's overlay, with the border vertices at these positions as sources. If
+    // there are fewer than SOURCES, the last one is repeated.
     void start(uint32_t patch, std::span<const uint32_t> positions) {
         count_ = positions.size();
         for (uint32_t i = 0; i < numbering_.overlay_size(patch); ++i) {
@@ -124,11 +126,12 @@ private:
     const Numbering& numbering_;
     InnerSweep sweep_;
     size_t count_ = 0;
-    std::vector<float> distances_; // [number * SOURCES + source], of those at hand
-    std::vector<float> of_border_; // of all: rows of what lies inside of each descendant
-    std::vector<size_t> begin_;    // of these, per patch
+    std::vector<float> distances_; // [number * SOURCES + source], from the current sources
+    // From all labelled vertices: a row for each inner vertex of each descendant.
+    std::vector<float> of_border_;
+    std::vector<size_t> begin_; // per patch: where its rows begin in of_border_
     std::vector<uint32_t> descendants_;
-    std::vector<uint32_t> positions_; // of the labelled vertices, in the border
+    std::vector<uint32_t> positions_; // positions of the labelled vertices in the border
 };
 
 }

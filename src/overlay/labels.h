@@ -6,8 +6,7 @@
 
 namespace geodesic {
 
-// Fills the labels of a prepared index. Calls look_up() every now and then, which may throw. Throws Error
-// LIMIT where labels would be out of proportion to the tables.
+// Fills the labels of a prepared index. It calls look_up() from time to time, which may throw to cancel.
 void make_labels(OverlayIndex& index, const std::function<void()>& look_up);
 
 }

@@ -9,7 +9,8 @@ namespace geodesic {
 
 namespace {
 
-// segment_length: in steps of the quantum; NaN: a gap.
+// Writes the codes of the middles beside one row of an inner table. segment_length is in steps of the
+// quantum, NaN where there is a gap.
 void add_middles(const uint16_t* row, std::span<const float> segment_length, uint16_t* middles) {
     for (size_t k = 0; k < segment_length.size(); ++k) {
         float square;

@@ -4,7 +4,7 @@
 
 namespace geodesic {
 
-// Fills index.hops.inner_middles.
+// Fills index.hops.inner_middles from the inner tables and the rings.
 void make_middle_tables(OverlayIndex& index);
 
 }

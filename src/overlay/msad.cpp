@@ -10,7 +10,8 @@ namespace geodesic {
 
 namespace {
 
-// The sources of the ways over places, per row; NONE where there is no way.
+// The source of each row's way, given the place of the border that the way leads over; NONE where there is no
+// way.
 void take_sources(std::span<const uint16_t> winners, const SeenSources& seen, uint32_t* source) {
     for (const uint16_t winner : winners) *source++ = winner == SeenBorder::NO_PLACE ? NONE : seen.at(winner);
 }
@@ -75,7 +76,7 @@ void OverlayMsad::look_around(uint32_t source, std::span<const float> distance) 
     });
 }
 
-// To the overlay of the parent. The child's border keeps its own distances.
+// Hops to the overlay of the parent. The child's border keeps the distances it has.
 void OverlayMsad::ascend(uint32_t child, std::span<float> distance) {
     const uint32_t parent = numbering_.parent[child];
     SeenSources& seen = top_.seen;
@@ -94,9 +95,10 @@ void OverlayMsad::ascend(uint32_t child, std::span<float> distance) {
     }
 }
 
-// To what lies inside, of which some is known where a source is there, too. A patch that all sources lie in
-// has its distances already; one that is all beyond the radius keeps its infinite ones. Nobody asks for the
-// nearest source of vertices inside of a leaf.
+// Hops to the inner vertices of a patch. If some sources lie inside of the patch, some distances are known
+// already, and the lesser ones count. A patch that contains all sources has its distances already, and a
+// patch whose whole border is beyond the radius is skipped. The nearest source of vertices inside a leaf is
+// not recorded, because nobody asks for it.
 void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distance, Scratch& scratch) {
     const uint32_t first = numbering_.first_inner(patch), count = numbering_.inner_size(patch);
     if (sources_below_[patch] == source_count_ || count == 0) return;
@@ -122,7 +124,9 @@ void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distanc
     }
 }
 
-// Over a border that sees several sources, from those near it, each by itself; vertex_of(row): the target.
+// Where the vertices of a border have different nearest sources, lets each source that is close to the border
+// cross it by itself. Also records which targets are close to their source. vertex_of(row) is the target of a
+// row.
 template <class VertexOf>
 void OverlayMsad::cross_near(uint32_t patch, bool from_inside, const NearCrossing::Targets& targets,
                              const VertexOf& vertex_of, Scratch& scratch) const {

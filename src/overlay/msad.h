@@ -10,22 +10,22 @@
 
 namespace geodesic {
 
-// Multiple sources, all destinations on overlay tables: one sweep up from the leaves of all sources, one down
-// to all leaves, and on the way, which source each border vertex is nearest to. Vertices are given by their
-// numbers.
+// Distances to the nearest of multiple sources, for all destinations over overlay tables, by one sweep up
+// from all sources and one sweep down to all leaves. The sweeps also carry which source each border vertex is
+// nearest to. Vertices are given by their numbers.
 class OverlayMsad {
 public:
     OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
-    // At least 1, which it is at first.
+    // Sets how many threads sweep() uses, at least 1. It is 1 at first.
     void set_threads(uint32_t count);
 
-    // distance[number], of every vertex; patches beyond `radius` are left out, and their vertices at
-    // infinity.
+    // Fills distance[number] of every vertex. Patches whose whole border is farther than `radius` are
+    // skipped, and their vertices stay at infinity.
     void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance);
 
 private:
-    // What one thread needs.
+    // What one thread works with.
     struct Scratch {
         Scratch(const OverlayIndex& index, std::pmr::memory_resource* memory);
         void begin();
@@ -33,9 +33,9 @@ private:
         InnerSweep sweep;
         SeenSources seen;
         NearCrossing near;
-        NearSources near_sources; // that it found
+        NearSources near_sources; // border vertices close to a source that this thread found
         Array<NearVertex> near_vertices;
-        Array<float> inside; // per row, as are these
+        Array<float> inside; // these three have one element for each row
         Array<uint32_t> source;
         Array<uint16_t> winners;
     };
@@ -51,11 +51,11 @@ private:
     const OverlayIndex& index_;
     const Numbering& numbering_;
     OuterCrossing ascent_;
-    Scratch top_; // of the ascent, and of patches that are not shared out to threads
+    Scratch top_; // for the sweep up, and for the patches that are not shared out to threads
     Array<Scratch> of_thread_;
     uint32_t source_count_ = 0;
-    Array<uint32_t> sources_below_;  // per patch
-    Array<uint32_t> nearest_source_; // by number, of border vertices that are reached
+    Array<uint32_t> sources_below_;  // per patch: how many sources it contains
+    Array<uint32_t> nearest_source_; // by number, of the border vertices that a source reaches
 };
 
 }

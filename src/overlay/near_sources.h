@@ -8,33 +8,35 @@
 
 namespace geodesic {
 
-// A border vertex next to a source, and that source's own distance to it, whichever source it is nearest to.
+// A border vertex close to a source, and its distance from that source, even if another source is nearer to
+// it.
 struct NearVertex {
     uint32_t source, border_vertex;
     float distance;
 };
 
-// Those of several sources: what it takes to cross a border straight where its vertices are partly nearer to
-// others.
+// The border vertices close to each of several sources. With these, a source can cross a border straight
+// although some of the border's vertices are nearer to other sources.
 class NearSources {
 public:
     NearSources(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
     void clear();
-    // To the borders that it lies on and is near to; `nearest`: the vertex's distance from any source, so
-    // far. What is farther by two segments is left out: where it crosses one, another source is nearer to
-    // both ends.
+    // Adds a vertex to those borders on which it lies within the near radius of its source. `nearest` is the
+    // vertex's least distance from any source that is known so far. A source that is more than two segment
+    // lengths farther from the vertex than that is skipped: the nearest source is nearer to both ends of any
+    // segment that the skipped one's path could cross there.
     void add(const NearVertex& vertex, float nearest) {
         if (vertex.distance <= longest_reach_) add_near(vertex, nearest);
     }
 
-    // Appends what lies on the border of a patch.
+    // Appends the vertices that were added to the border of a patch.
     void collect(uint32_t patch, Array<NearVertex>& vertices) const;
 
 private:
     struct Entry {
         NearVertex vertex;
-        uint32_t next; // on the same border
+        uint32_t next; // index of the next entry of the same border, or NONE
     };
 
     void add_near(const NearVertex& vertex, float nearest);
@@ -43,17 +45,18 @@ private:
     const Numbering& numbering_;
     float longest_reach_ = 0;
     Array<Entry> entries_;
-    Array<uint32_t> first_entry_; // per patch
+    Array<uint32_t> first_entry_; // per patch: index of the first entry of its border, or NONE
 };
 
-// The crossings of borders by single sources that are near.
+// Lets single sources cross a border that they are close to.
 class NearCrossing {
 public:
     NearCrossing(const OverlayIndex& index, size_t most_rows, std::pmr::memory_resource* memory);
 
     void reserve() { own_.resize(numbering_.border_vertex_count(), INFINITE); }
 
-    // Rows of a patch, and the least distances of any source so far.
+    // Rows of a table with their quantum, and for each row the least distance so far and the source that it
+    // is from.
     struct Targets {
         Rows rows;
         float quantum;
@@ -61,8 +64,9 @@ public:
         uint32_t* source;
     };
 
-    // After reserve(). Lowers the distances over near segments of the patch's border, on which these lie;
-    // found(source, row, distance) for every distance that is near, lower or not.
+    // Lowers the distances of the targets by ways from each of these vertices' sources over near segments of
+    // the patch's border, on which the vertices lie. Calls found(source, row, distance) for every way that is
+    // near, whether it is shorter or not. Call reserve() before.
     template <class Found>
     void cross(uint32_t patch, Array<NearVertex>& vertices, const Targets& targets,
                const uint32_t* nearest_source, const Found& found) {
@@ -94,8 +98,8 @@ private:
     const OverlayIndex& index_;
     const Numbering& numbering_;
     BorderField field_;
-    Array<float> own_; // by number: of the source at hand, otherwise infinite
-    Array<float> way_; // per row
+    Array<float> own_; // by number: distance from the current source; infinite in between
+    Array<float> way_; // per row: the way from the current source
 };
 
 }

@@ -8,31 +8,33 @@
 
 namespace geodesic {
 
-// Distances by number, `stride` floats apart: several fields can lie in one array, side by side at each
-// vertex.
+// Distances by vertex number, `stride` floats apart, so that several fields can lie in one array, side by
+// side at each vertex.
 struct DistanceField {
     float* first;
     size_t stride = 1;
     float& operator[](size_t number) const { return first[number * stride]; }
 };
 
-// From the border of one patch after the other to the overlay of its parent.
+// Hops up and across: from the border of a patch to the overlay of its parent.
 class OuterCrossing {
 public:
     OuterCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
-    // From the border of a child of some patch. Returns whether it is reached.
+    // Chooses the patch, a child of the patch whose overlay is wanted, and reads the distances of its border.
+    // Returns whether the source reaches it.
     bool see(uint32_t child, DistanceField distance) {
         return see(child, distance, segments_from(rings_, rings_.begin[child]));
     }
-    // Likewise, with other segments, which must outlive the crossing.
+    // Does the same with other segments, which must stay valid until the hop is done.
     bool see(uint32_t child, DistanceField distance, const RingSegments& segments);
 
-    // If it is reached: to each overlay position, infinite on the child's own border. winners: of
+    // Hops to each position of the parent's overlay; call it only if see() returned true. The result is
+    // infinite on the child's own border, whose distances are known. `winners` is described at
     // CrossingKernel.
     std::span<float> cross(uint16_t* winners = nullptr);
 
-    // Those of the overlay.
+    // The rows of the outer table, one for each position of the parent's overlay.
     Rows rows() const { return {rows_.data(), numbering_.overlay_size(numbering_.parent[child_])}; }
 
 private:

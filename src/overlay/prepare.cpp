@@ -39,7 +39,8 @@ void place_hop_tables(OverlayIndex& index) {
 
 // ---- From the stored tables to rows along rings
 
-// The overlay table of a patch as a square. Entries of two vertices on its border are 0: they are not stored.
+// The overlay table of a patch as a square. Entries for two vertices on the patch's border are 0, since the
+// file does not store them.
 class OverlaySquare {
 public:
     OverlaySquare(const Numbering& numbering, uint32_t patch, const uint16_t* stored)
@@ -60,7 +61,8 @@ private:
     std::vector<uint16_t> codes_;
 };
 
-// Writes `count` rows for the ring of a patch, end to end, of code(row, position in the border).
+// Writes `count` rows along the ring of a patch, end to end. code(row, position) gives the entry for a
+// position in the border.
 template <class Code>
 void write_rows(const OverlayIndex& index, uint32_t patch, uint32_t count, const Code& code, uint16_t* rows) {
     const uint32_t* position = index.rings.position.data() + index.rings.begin[patch];
@@ -107,7 +109,8 @@ void write_leaf_tables(const StoredIndex& stored, OverlayIndex& index) {
     index.hops.internal.assign(stored.internal_codes.begin(), stored.internal_codes.end());
 }
 
-// Two border positions of a patch, by the table of its parent, in the patch's own steps.
+// The distance of two positions on the border of a patch, from the table of its parent, in steps of the
+// patch's own quantum.
 uint16_t code_by_parent(const OverlayIndex& index, uint32_t patch, uint32_t i, uint32_t j) {
     const Numbering& numbering = index.numbering;
     const uint32_t slot = numbering.border_begin[patch];
@@ -116,8 +119,8 @@ uint16_t code_by_parent(const OverlayIndex& index, uint32_t patch, uint32_t i, u
                                 index.quantum[numbering.parent[patch]], index.quantum[patch]);
 }
 
-// The distance of two vertices on a patch's border is stored once, in the table of the patch's parent.
-// Parents come first, so that theirs are complete.
+// The distance of two vertices on a patch's border is stored only in the table of the patch's parent. Parents
+// are treated before their children, so that their own tables are complete.
 void take_border_codes_from_parents(OverlayIndex& index) {
     const Numbering& numbering = index.numbering;
     for (uint32_t child = numbering.child_begin[1]; child < numbering.patch_count(); ++child) {

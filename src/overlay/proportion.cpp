@@ -10,7 +10,8 @@ namespace geodesic {
 
 namespace {
 
-// None of the sums wraps around: a ring has fewer than 2^15 places, and there are fewer than 2^32 vertices.
+// Counts the codes that are derived. No sum wraps around, since a ring has fewer than 2^15 places and there
+// are fewer than 2^32 vertices.
 class Derived {
 public:
     explicit Derived(const OverlayIndex& index)
@@ -34,7 +35,8 @@ public:
         return rows * places;
     }
 
-    // Of what lies just inside of a patch; parents come first.
+    // The size of the labels of a patch's inner vertices. It must be called for parents before their
+    // children.
     uint64_t labels(uint32_t patch) {
         const uint32_t parent = numbering_.parent[patch];
         if (parent == 0) return 0;
@@ -47,7 +49,7 @@ public:
 private:
     const OverlayIndex& index_;
     const Numbering& numbering_;
-    std::vector<SampleCount> samples_; // per patch, as is this
+    std::vector<SampleCount> samples_; // both are per patch
     std::vector<uint32_t> label_size_;
 };
 

@@ -9,18 +9,18 @@
 
 namespace geodesic {
 
-// Queries on overlay tables: fixed sequences of min-plus products. A path may cross a border between two
-// vertices where the metric unfolds.
+// Queries over overlay tables, which are fixed sequences of min-plus products. Where the metric unfolds, a
+// path may cross a border between two vertices.
 class OverlayQuery {
 public:
     OverlayQuery(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : pairs_(index, memory), field_(index, memory), nearest_(index, memory), batch_(index, memory),
           vertex_count_(index.numbering.vertex_count()), prepared_distance_(memory) {}
 
-    // Symmetric bit for bit if low < high.
+    // The answer is the same bits for both orders of a pair if the caller passes the lower number first.
     float sssd(uint32_t low, uint32_t high) { return pairs_.distance(low, high); }
 
-    // From then on prepared_sssd() is from this source.
+    // Prepares a source: prepared_sssd() then answers distances from it.
     void prepare(uint32_t source) {
         prepared_ = source;
         prepared_distance_.resize(vertex_count_);
@@ -30,13 +30,13 @@ public:
         return pairs_.distance_from(prepared_, prepared_distance_, target);
     }
 
-    // Of msad().
+    // Sets how many threads msad() uses.
     void set_threads(uint32_t count) {
         field_.set_threads(count);
         nearest_.set_threads(count);
     }
 
-    // distance[number], of every vertex; those of patches beyond the radius may be infinite.
+    // Fills distance[number] of every vertex. Vertices of patches beyond the radius may be infinite.
     void msad(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
         if (sources.size() == 1)
             field_.sweep(sources.front(), radius, distance);
@@ -44,8 +44,8 @@ public:
             nearest_.sweep(sources, radius, distance);
     }
 
-    // distances[number * FIELDS_AT_ONCE + i], of each source by itself, of which there are 1 to so many. With
-    // fewer than FEWEST_AT_ONCE it is faster to ask for each.
+    // Fills distances[number * FIELDS_AT_ONCE + i] with the distance from the i-th source, for 1 to
+    // FIELDS_AT_ONCE sources. For fewer than FEWEST_AT_ONCE sources it is faster to call msad() for each.
     static constexpr size_t FIELDS_AT_ONCE = OverlayBatch::SOURCES, FEWEST_AT_ONCE = 8;
     void ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
         batch_.sweep(sources, field_, distances);
@@ -58,7 +58,7 @@ private:
     OverlayBatch batch_;
     size_t vertex_count_;
     uint32_t prepared_ = NONE;
-    Array<float> prepared_distance_; // by number: of sweep_borders()
+    Array<float> prepared_distance_; // by number, as sweep_borders() fills it
 };
 
 }

@@ -4,7 +4,8 @@
 
 namespace geodesic {
 
-// Per place of a ring, or of a part of one, its segment to the next place; NaN: a gap.
+// The segment from each place of a ring, or of a part of one, to the next place: its length and 0.5 / length.
+// Both are NaN where there is a gap.
 struct RingSegments {
     const float *length, *half_inverse;
 };

@@ -29,8 +29,8 @@ void add_place(Rings& rings, uint32_t position, uint32_t vertex, float length, b
                                           std::to_string(patch));
 }
 
-// The chain of segments that begins at position `first` of a patch's border; a vertex without segments is one
-// by itself.
+// The chain that begins at position `first` of a patch's border. A vertex without segments is a chain by
+// itself.
 Chain chain_at(uint32_t first, std::span<const uint32_t> segment_end, std::span<const float> segment_length,
                const Numbering& numbering, uint32_t patch) {
     const uint32_t first_slot = numbering.border_begin[patch], size = numbering.border_size(patch);

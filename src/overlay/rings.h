@@ -13,22 +13,23 @@
 
 namespace geodesic {
 
-// The border of each patch as a *ring*: a place for each vertex, or for some of them, in the order of the
-// border, so that places side by side are the ends of a segment or of a gap. Where segments form a chain, two
-// places at each of its ends repeat what follows around it if it is closed, and its end if it is open: there
-// are two segments, or gaps, on each side of every vertex's own place.
+// The border of each patch as a *ring*: an array with a place for each vertex of the border, or for some of
+// its vertices, in the order of the border. Two places side by side are the ends of a segment or of a gap. At
+// each end of a chain, two more places repeat vertices: those that follow around a closed chain, or the end
+// of an open one. So every vertex's own place has two segments or gaps on each side.
 struct Rings {
-    // Segments on each side of a border vertex that a path over it is straightened over.
+    // A path over a border vertex is straightened over this many segments on each side of it.
     static constexpr uint32_t REACH = 2;
-    static constexpr uint32_t MOST_PLACES = 0x7fff;                       // in a ring
-    static constexpr size_t PADDING = 32;                                 // places of nothing at the end
-    static constexpr float GAP = std::numeric_limits<float>::quiet_NaN(); // the length of no segment
+    static constexpr uint32_t MOST_PLACES = 0x7fff; // the largest size of a ring
+    static constexpr size_t PADDING = 32;           // unused places that follow the last ring
+    // Stands for a length where there is no segment.
+    static constexpr float GAP = std::numeric_limits<float>::quiet_NaN();
 
     explicit Rings(std::pmr::memory_resource* memory)
         : begin(memory), position(memory), vertex(memory), segment_length(memory), half_inverse(memory),
           is_own(memory), chain(memory), chains(memory) {}
 
-    // The own places of a chain's vertices, counted over all rings.
+    // The first and the last own place of a chain's vertices, counted over all rings.
     struct ChainPlaces {
         uint32_t first, last;
         uint32_t is_closed;
@@ -36,12 +37,12 @@ struct Rings {
 
     Array<uint32_t> begin; // per patch
     // Per place.
-    Array<uint32_t> position;    // in the border
-    Array<uint32_t> vertex;      // its number
-    Array<float> segment_length; // of the segment to the next place; GAP: there is none
+    Array<uint32_t> position;    // the vertex's position in the border
+    Array<uint32_t> vertex;      // the vertex's number
+    Array<float> segment_length; // of the segment to the next place; GAP if there is none
     Array<float> half_inverse;   // 0.5 / segment_length
-    Array<int32_t> is_own;       // -1: the vertex's own place; 0: a repetition
-    Array<uint32_t> chain;       // which of `chains`
+    Array<int32_t> is_own;       // -1 at the vertex's own place, 0 where it is repeated
+    Array<uint32_t> chain;       // an index into `chains`
     Array<ChainPlaces> chains;
 
     uint32_t size(uint32_t patch) const { return begin[patch + 1] - begin[patch]; }
@@ -52,16 +53,16 @@ struct Rings {
     }
 };
 
-// The rings of all vertices of all borders.
+// Rings in which every vertex of every border has a place.
 struct BorderRings : Rings {
     explicit BorderRings(std::pmr::memory_resource* memory) : Rings(memory), place_of_slot(memory) {}
 
-    Array<uint32_t> place_of_slot; // a border vertex's own place in the patch's ring
+    Array<uint32_t> place_of_slot; // the vertex's own place in the ring of its patch
 };
 
-// Border segments, per slot: the position, in the same border, of the vertex at the other end of an edge
-// along the border, or NONE, and the length of the edge. It is the next position, or, closing a chain of
-// such, the chain's first.
+// Border segments, per slot (see Numbering). `end` is the position, in the same border, of the vertex at the
+// other end of a segment that begins at the slot, or NONE, and `length` is the length of the segment. The
+// other end is the next position or, where the segment closes a chain, the first position of the chain.
 struct BorderSegments {
     std::vector<uint32_t> end;
     std::vector<float> length;
@@ -69,21 +70,22 @@ struct BorderSegments {
     explicit BorderSegments(size_t slots) : end(slots, NONE), length(slots, 0) {}
 };
 
-// Vertices of a border, each joined to the next by a segment.
+// Consecutive vertices of a border, each joined to the next one by a segment.
 struct Chain {
-    std::vector<uint32_t> positions; // in the border
-    std::vector<float> lengths; // of the segment to the next, of the last one to the first if it is closed
+    std::vector<uint32_t> positions; // of the vertices in the border
+    // Of the segments to the next vertex; in a closed chain, the last one leads to the first vertex.
+    std::vector<float> lengths;
     bool is_closed = false;
 };
 
-// Fills the rings of one patch after the other.
+// Fills rings patch by patch: begin(), then for each patch its chains and end_ring(), then end().
 class RingWriter {
 public:
     explicit RingWriter(Rings& rings) : rings_(rings) {}
 
     void begin();
     void add_chain(const Chain& chain, std::span<const uint32_t> border);
-    void end_ring(); // throws Error LIMIT where it is too long
+    void end_ring(); // throws Error LIMIT if the ring has too many places
     void end();
 
 private:
@@ -92,11 +94,12 @@ private:
 
 std::vector<Chain> chains_of_ring(const Rings& rings, uint32_t patch);
 
-// Fills empty rings. Throws Error CORRUPT where a segment joins other positions than it may.
+// Fills empty rings from the stored segments. Throws Error CORRUPT where a segment does not end at the next
+// position or at the first of its chain.
 void lay_out_rings(std::span<const uint32_t> segment_end, std::span<const float> segment_length,
                    const Numbering& numbering, BorderRings& rings);
 
-// The opposite.
+// The segments from which lay_out_rings() made these rings.
 BorderSegments segments_of_rings(const BorderRings& rings, const Numbering& numbering);
 
 }

@@ -11,24 +11,25 @@ namespace geodesic {
 
 namespace {
 
-// A ring has at least FEWEST samples, if it has as many vertices, and at most LARGEST_STEP steps lie between
-// two of them.
+// A border has about FEWEST samples or more, or all of its vertices if these are fewer. About LARGEST_STEP
+// edges at most lie between two neighbouring samples.
 constexpr uint32_t FEWEST = 64, LARGEST_STEP = 5;
 
-// Samples alone tell the way only where a distance is more than so many times their spacing.
+// Samples tell where the shortest way crosses a border only if the distance is more than this many times
+// their spacing.
 constexpr float NEAR_SAMPLES = 8;
 
 uint32_t step_of(const OverlayIndex& index, uint32_t patch) {
     return std::clamp(index.numbering.border_size(patch) / FEWEST, 1u, LARGEST_STEP);
 }
 
-// Of a chain of so many vertices; the ends of an open one are among them.
+// The number of samples of a chain with this many vertices. The two ends of an open chain are always samples.
 uint32_t sample_count(uint32_t vertices, bool is_closed, uint32_t step) {
     if (step == 1 || vertices <= 3) return vertices;
     return std::max(3u, (vertices - !is_closed) / step) + !is_closed;
 }
 
-// Evenly.
+// Spreads the samples evenly along the chain.
 std::vector<uint32_t> sample(const Chain& chain, uint32_t step) {
     const auto vertices = static_cast<uint32_t>(chain.positions.size());
     const uint32_t count = sample_count(vertices, chain.is_closed, step);
@@ -39,7 +40,8 @@ std::vector<uint32_t> sample(const Chain& chain, uint32_t step) {
     return samples;
 }
 
-// The length of the segment between two samples; a gap where there is no way from one to the other.
+// The distance of two neighbouring samples, which is the length of the segment between them in the coarse
+// ring. It is a gap if no path joins them.
 float segment_between(const OverlayIndex& index, uint32_t patch, uint32_t a, uint32_t b) {
     const uint32_t parent = index.numbering.parent[patch];
     const uint32_t* overlay_position =
@@ -61,7 +63,7 @@ void sample_ring(OverlayIndex& index, uint32_t patch, RingWriter& writer) {
     writer.end_ring();
 }
 
-// 0 if the ring has no segments.
+// The mean length of the segments of a ring, or 0 if it has none.
 float average_segment(const Rings& rings, uint32_t patch) {
     float sum = 0;
     uint32_t segments = 0;
@@ -112,7 +114,7 @@ void place_samples(OverlayIndex& index, uint32_t patch) {
     index.samples.begin.push_back(static_cast<uint32_t>(index.samples.positions.size()));
 }
 
-// The overlay positions, in a patch, of the samples of its child's ring, or of its own.
+// Appends the positions, in the overlay of a patch, of the samples of a child's border or of the patch's own.
 void add_samples(const OverlayIndex& index, uint32_t ring_of, bool of_child,
                  std::vector<uint32_t>& positions) {
     for (uint32_t position : index.samples.of(ring_of))

@@ -4,15 +4,15 @@
 
 namespace geodesic {
 
-// Of a patch's ring: its samples, and the places of the ring that they make.
+// The number of samples of a patch's border, and the number of places of the ring that they make.
 struct SampleCount {
     uint32_t samples = 0, places = 0;
 };
 
-// Once the rings are laid out; make_samples() makes as many.
+// Needs the rings of the index. make_samples() makes exactly as many.
 SampleCount count_samples(const OverlayIndex& index, uint32_t patch);
 
-// Fills the samples of an index, and what is near, once its rings and outer tables are there.
+// Fills `samples` and `near` of an index that has its rings and outer tables.
 void make_samples(OverlayIndex& index);
 
 }

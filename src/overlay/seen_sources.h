@@ -7,19 +7,19 @@
 
 namespace geodesic {
 
-// The border of one patch after the other, and which of several sources each of its vertices is nearest to.
-// The ends of a segment that are nearest to different sources do not tell how far it is from its inside: it
-// is a gap.
+// Finds out which of several sources each vertex of a border is nearest to. Where the two ends of a segment
+// are nearest to different sources, their distances do not tell how far either source is from the points
+// between them, so that the segment becomes a gap. The object is used for one border after the other.
 class SeenSources {
 public:
     SeenSources(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
-    // By number, the sources where distances are finite.
+    // Both arrays are by vertex number. nearest_source is read only where the distance is finite.
     void see(uint32_t patch, const float* distance, const uint32_t* nearest_source);
 
     bool are_several() const { return are_several_; }
     uint32_t at(size_t place) const { return source_[place]; }
-    uint32_t any() const { return any_; } // NONE: the border sees none
+    uint32_t any() const { return any_; } // NONE if no source reaches the border
     RingSegments segments() const {
         return are_several_ ? RingSegments{length_.data(), half_inverse_.data()} : all_segments_;
     }
@@ -32,7 +32,7 @@ private:
     bool are_several_ = false;
     RingSegments all_segments_{};
     Array<uint32_t> source_;             // per place
-    Array<float> length_, half_inverse_; // of several
+    Array<float> length_, half_inverse_; // used if the border has several nearest sources
 };
 
 }

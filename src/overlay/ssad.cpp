@@ -8,8 +8,6 @@
 
 namespace geodesic {
 
-namespace {}
-
 OverlaySsad::OverlaySsad(const OverlayIndex& index, std::pmr::memory_resource* memory, Crossing crossing)
     : index_(index), numbering_(index.numbering), gaps_(memory), ascent_(index, memory), descents_(memory),
       is_around_source_(index.numbering.patch_count(), memory) {
@@ -54,7 +52,7 @@ void OverlaySsad::climb(uint32_t source, DistanceField distance) {
     }
 }
 
-// To the overlay of the parent. The child's border keeps its own distances.
+// Hops to the overlay of the parent. The child's border keeps the distances it has.
 void OverlaySsad::ascend(uint32_t child, DistanceField distance) {
     if (!ascent_.see(child, distance, segments_of(child))) return;
     const std::span<const float> outside = ascent_.cross();
@@ -64,8 +62,8 @@ void OverlaySsad::ascend(uint32_t child, DistanceField distance) {
     }
 }
 
-// To what lies inside. A patch that the source lies in has its distances already; one that is all beyond the
-// radius keeps its infinite ones.
+// Hops to the inner vertices of a patch. A patch that contains the source has these distances already. A
+// patch whose whole border is beyond the radius is skipped.
 void OverlaySsad::descend(uint32_t patch, float radius, std::span<float> distance, InnerSweep& sweep) const {
     if (is_around_source_[patch] || numbering_.inner_size(patch) == 0) return;
     const float nearest = sweep.see(patch, distance.data(), segments_of(patch));

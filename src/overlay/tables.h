@@ -11,10 +11,12 @@
 
 namespace geodesic {
 
-// Codes of distances over one hop. Each patch has a row, one code a place of its ring, for everything that is
-// one hop away from its border: in the outer table the overlay of its parent, by the parent's quantum; in the
-// inner table, by its own, its inner vertices. A sweep down reads all inner tables, and beside them the codes
-// of the middle of the segment that begins at a place.
+// The tables that hops read: codes of distances, in rows along a ring, with one code for each place of the
+// ring. Every patch has two such tables. Its outer table has a row for each vertex of its parent's overlay,
+// in steps of the parent's quantum; hops up and across read it. Its inner table has a row for each of its own
+// inner vertices, in steps of its own quantum; hops down read it. Beside each row of an inner table lies a
+// row of inner_middles, which has, for each place, the distance to the middle of the segment that begins
+// there.
 struct HopTables {
     explicit HopTables(std::pmr::memory_resource* memory)
         : outer_begin(memory), inner_begin(memory), outer(memory), inner(memory), inner_middles(memory),
@@ -22,12 +24,14 @@ struct HopTables {
 
     Array<uint64_t> outer_begin, inner_begin; // per patch
     Array<uint16_t> outer, inner, inner_middles;
-    Array<uint16_t> internal; // of leaves, below the diagonal: at Numbering::internal_entry()
+    Array<uint16_t> internal; // of leaves, below the diagonal, at Numbering::internal_entry()
 };
 
-// A sample of each ring, and of the outer tables, over which SSSD looks for ways first. The table of a patch
-// has rows for the samples of its parent's ring and of its siblings' and its own, in this order; that of a
-// ring whose vertices are all samples is not stored: its rows are in the outer table.
+// The samples of all rings, and of the outer tables the rows and columns that belong to samples. SSSD looks
+// for ways over these first. The coarse table of a patch has a column for each place of its ring of samples,
+// and rows for the samples of its parent's ring and then of the rings of all its parent's children, itself
+// included, in the order of their numbers. Where all vertices of a ring are samples, no coarse table is
+// stored, because its rows are those of the outer table.
 struct Samples {
     explicit Samples(std::pmr::memory_resource* memory)
         : rings(memory), full_place(memory), sample_of_place(memory), begin(memory), positions(memory),
@@ -35,16 +39,17 @@ struct Samples {
           table_begin(memory), tables(memory) {}
 
     Rings rings;
-    Array<uint32_t> full_place; // per place: the own place of its vertex among all, counted over all rings
-    Array<uint32_t> sample_of_place; // per place: which of the border's samples it is
-    Array<uint32_t> begin;           // per patch: of its samples in `positions`
-    Array<uint32_t> positions;       // per sample: in the border
-    Array<float> spacing;            // per patch: from a sample to the next one, on average
-    Array<float> longest_gap;        // per patch: along the border, from a sample to the next one, at most
-    Array<uint32_t> first_row;       // per patch: of its samples in the tables of its siblings
-    Array<uint32_t> row_begin;       // per inner patch: of its children's rows in `row_position`
-    Array<uint32_t> row_position;    // per row: its position in the overlay of the parent
-    Array<uint64_t> table_begin;     // per patch
+    // Per place: the own place of its vertex in OverlayIndex::rings, counted over all rings.
+    Array<uint32_t> full_place;
+    Array<uint32_t> sample_of_place; // per place: the number of its sample on the border
+    Array<uint32_t> begin;           // per patch: where its samples begin in `positions`
+    Array<uint32_t> positions;       // per sample: its position in the border
+    Array<float> spacing;            // per patch: the mean distance between neighbouring samples
+    Array<float> longest_gap;  // per patch: the longest way along the border between neighbouring samples
+    Array<uint32_t> first_row; // per patch: the first row of its samples in its own and its siblings' tables
+    Array<uint32_t> row_begin; // per inner patch: where its children's rows begin in `row_position`
+    Array<uint32_t> row_position; // per row: its position in the overlay of the parent
+    Array<uint64_t> table_begin;  // per patch
     Array<uint16_t> tables;
 
     std::span<const uint32_t> of(uint32_t patch) const {
@@ -52,19 +57,21 @@ struct Samples {
     }
 };
 
-// The label of a vertex: its distances to the borders of the patches that it lies in beyond the first one
-// (Numbering::entry()), from the outermost one inwards, without the whole mesh, in steps of the quantum of
-// that patch's parent: the nearest one's, its low half and its high one, then how much longer each is
-// (StepsOf), to all of a border that has at most WHOLE vertices, in its order, or to the samples of its ring.
+// The labels of all vertices. The label of a vertex holds its distances to the borders of all patches that
+// contain it, but for the whole mesh and for the patch that it is an inner vertex of (Numbering::entry());
+// the outermost patch comes first. For each border, in steps of the quantum of the patch's parent, it has
+// HEAD numbers, which are the low and the high half of the distance of the nearest vertex, and then a code
+// for each labelled vertex that says by how many steps it is farther (see StepsOf). All vertices of a border
+// are labelled, in its order, if it has at most WHOLE of them; otherwise its samples are.
 struct Labels {
     explicit Labels(std::pmr::memory_resource* memory) : offset(memory), begin(memory), codes(memory) {}
 
     static constexpr uint32_t WHOLE = 400;
     static constexpr uint32_t HEAD = 2;
 
-    Array<uint32_t> offset; // per patch: where its border begins in the labels of what lies deeper; where the
-                            // labels of its inner vertices end
-    Array<uint64_t> begin;  // per patch: of its inner vertices' labels
+    Array<uint32_t> offset; // per patch: where its border begins in the labels of deeper vertices, which is
+                            // also how long the labels of its inner vertices are
+    Array<uint64_t> begin;  // per patch: where the labels of its inner vertices begin in `codes`
     Array<int16_t> codes;
 };
 
@@ -77,16 +84,17 @@ struct OverlayIndex {
     Numbering numbering;
     Array<float> quantum; // per patch: the distance of one step of its codes
     BorderRings rings;
-    Array<float> longest_segment; // per patch: of its ring; 0 without any
+    Array<float> longest_segment; // per patch: length of the longest segment of its border, or 0
     HopTables hops;
-    Array<float> near; // per patch: up to which distance a pair is answered over every segment of its border
+    // Per patch: up to this distance, a pair is answered over every segment of its border.
+    Array<float> near;
     Samples samples;
-    Labels labels; // none before make_labels()
+    Labels labels; // empty until make_labels() has run
 
     float distance(uint16_t code, uint32_t patch) const { return TableCode::distance(code, quantum[patch]); }
 
-    // Where a row begins in the outer table of a patch: of a position in its parent's overlay; and in the
-    // inner one.
+    // Where a row begins in the outer table of a patch, which has a row for each position in its parent's
+    // overlay, and in its inner table, which has one for each of its inner vertices.
     uint64_t outer_row(uint32_t patch, uint32_t overlay_position) const {
         return hops.outer_begin[patch] + uint64_t{overlay_position} * rings.size(patch);
     }
@@ -94,7 +102,7 @@ struct OverlayIndex {
         return hops.inner_begin[patch] + uint64_t{inner} * rings.size(patch);
     }
 
-    // An entry of the overlay table of an inner patch.
+    // The entry for the overlay positions i and j in the overlay table of an inner patch.
     uint16_t overlay_code(uint32_t patch, uint32_t i, uint32_t j) const {
         const uint32_t slot = numbering.slots_of(patch, j).front();
         return hops.outer[outer_row(numbering.patch_of_slot[slot], i) + rings.place_of_slot[slot]];
@@ -107,7 +115,7 @@ struct OverlayIndex {
         return hops.internal[numbering.internal_entry(leaf, i, j)];
     }
 
-    // Distances in a label to the border of a patch.
+    // How many distances to the border of a patch a label holds.
     uint32_t label_size(uint32_t patch) const {
         const uint32_t size = numbering.border_size(patch);
         return size <= Labels::WHOLE ? size : static_cast<uint32_t>(samples.of(patch).size());

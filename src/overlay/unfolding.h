@@ -10,7 +10,8 @@
 
 namespace geodesic {
 
-// Floats side by side. Every lane is computed for itself, so that results are the same whatever the width.
+// Floats side by side. Every lane is computed by itself, so that the results are the same for vectors of any
+// width.
 template <size_t BYTES>
 struct FloatVector {
     using Type [[gnu::vector_size(BYTES)]] = float;
@@ -18,29 +19,31 @@ struct FloatVector {
 template <size_t BYTES>
 using Floats = typename FloatVector<BYTES>::Type;
 
-// The functions below are always inlined, so that they are compiled for the processor of their caller, and
-// return nothing: how wide vectors are returned depends on the processor, too.
+// The functions below are always inlined, so that they are compiled for the processor of their caller. They
+// return nothing, because how a wide vector is returned depends on the processor, too.
 
 template <class V>
 [[gnu::always_inline]] inline void take_square_root(V& v) {
     for (size_t i = 0; i < sizeof v / sizeof(float); ++i) v[i] = std::sqrt(v[i]);
 }
 
-// The square of the distance from the middle of a segment to a point that is at these distances from its
-// ends; NaN if the length is, negative if there is no such point.
+// The square of the distance from the middle of a segment to a point that has these distances from its ends.
+// It is NaN if the length is, and negative if there is no such point.
 template <class V>
 [[gnu::always_inline]] inline void middle_square(const V& from_first, const V& from_second, const V& length,
                                                  V& square) {
     square = 0.5f * (from_first * from_first + from_second * from_second) - 0.25f * (length * length);
 }
 
-// Border segments. Each lies in a plane of its own, first end at 0, second at (length, 0).
+// Border segments. Each lies in a plane of its own, with its first end at 0 and its second end at (length,
+// 0).
 template <class V>
 struct Segments {
-    V length, half_inverse; // 0.5 / length; NaN: a gap
+    V length, half_inverse; // half_inverse is 0.5 / length; both are NaN for a gap
 
-    // How far along the segment the foot of a point lies, and how far off it the point, which is at these
-    // distances from the ends; NaN if there is no such point.
+    // Places a point that has these distances from the two ends in the plane of its segment: `foot` is how
+    // far along the segment it lies, and `height` how far off the segment. `height` is NaN if there is no
+    // such point.
     [[gnu::always_inline]] void place_point(const V& from_first, const V& from_second, V& foot,
                                             V& height) const {
         foot = (from_first - from_second) * (from_first + from_second) * half_inverse + 0.5f * length;
@@ -49,21 +52,22 @@ struct Segments {
     }
 };
 
-// Segments, and where a source lies on one side of each.
+// Segments, and the position of a source on one side of each of them.
 template <class V>
 struct SeenSegments {
     Segments<V> segments;
     V foot, height;
 
-    // The square of the straight way from the source over the segment to a point on the other side, which is
-    // at these distances from the ends; infinity if there is none.
+    // The square of the straight way from the source over the segment to a point on its other side, which has
+    // these distances from the ends. It is infinite if the straight line does not cross the segment between
+    // its ends.
     [[gnu::always_inline]] void square_across(const V& from_first, const V& from_second, V& square) const {
         V to_foot, to_height;
         segments.place_point(from_first, from_second, to_foot, to_height);
         const V off = height + to_height, along = foot - to_foot;
         const V none = V{} + INFINITE;
-        // The place of the crossing, from the nearer end, times `off`. (Two comparisons joined by && are no
-        // vector instructions to GCC 12 where vectors have 64 bytes.)
+        // The distance of the crossing from the nearer end, times `off`. (GCC 12 makes no vector instructions
+        // of two comparisons joined by && where vectors have 64 bytes.)
         V crossing = foot * to_height + to_foot * height;
         const V to_second = segments.length * off - crossing;
         crossing = to_second < crossing ? to_second : crossing;
@@ -71,7 +75,7 @@ struct SeenSegments {
     }
 };
 
-// The segments near a border vertex, REACH on each side, in the order of the border.
+// One float for each segment near a border vertex: REACH on each side, in the order of the border.
 using NearFloats = Floats<2 * Rings::REACH * sizeof(float)>;
 
 inline NearFloats near_floats(const float* first) {
@@ -80,8 +84,9 @@ inline NearFloats near_floats(const float* first) {
     return floats;
 }
 
-// The way from a source over a place of a ring, counted over all, to a target, straightened over the segments
-// near that place where that is shorter. from(k) and to(k): distances of place k.
+// The length of the way from a source over a place of a ring, counted over all rings, to a target. Where it
+// is shorter, the way straightened over one of the segments near that place counts. from(k) and to(k) are the
+// distances of the source and of the target from place k.
 template <class From, class To>
 float straightened(const Rings& rings, size_t place, const From& from, const To& to) {
     const size_t near = place - Rings::REACH;

@@ -4,8 +4,9 @@
 
 namespace geodesic {
 
-// function(number, distance) for everything that the table of the patch knows which the vertex lies in:
-// inside of it, and on its border.
+// Calls function(number, distance) for the source itself and for every vertex whose distance from it is an
+// entry of the tables of the patch that the source is an inner vertex of: the patch's border and its other
+// inner vertices.
 template <class Function>
 void for_each_way_from(const OverlayIndex& index, uint32_t source, const Function& function) {
     const uint32_t patch = index.numbering.entry(source), first = index.numbering.first_inner(patch),
