@@ -8,17 +8,19 @@
 
 namespace geodesic {
 
-// Which leaves meet at each vertex, ascending. More than one: a border vertex.
+// The leaves that meet at each vertex, in ascending order. A vertex with more than one leaf is a border
+// vertex.
 ListOfLists<uint32_t> leaves_at_vertices(const Mesh& mesh, const Hierarchy& hierarchy);
 
-// The patch on whose children's borders a vertex first appears: the deepest one that contains all the given
-// leaves.
+// The deepest patch that contains all the given leaves. A vertex at which these meet first appears on the
+// borders of that patch's children.
 uint32_t common_ancestor(const Hierarchy& hierarchy, std::span<const uint32_t> leaves);
 
-// The vertices of edges between a patch, given by its faces, and others, each once, along these edges: ring
-// by ring, from its smallest vertex to the smaller of its neighbours, or from one end to the other, where a
-// ring is broken by the boundary of the mesh, or by another ring that touches it and was walked before.
-// `inside[f]` tells whether face f is in the patch.
+// The vertices of all edges between a patch, given by its faces, and other patches. Each vertex comes once,
+// and the vertices follow these edges ring by ring. A closed ring goes from its smallest vertex to the
+// smaller of that vertex's neighbours. An open one goes from one end to the other: the boundary of the mesh
+// breaks a ring, and so does another ring that touches it and was walked before. `inside[f]` tells whether
+// face f is in the patch.
 std::vector<std::vector<uint32_t>> walk_border(const Mesh& mesh, std::span<const uint32_t> faces,
                                                const std::vector<uint8_t>& inside);
 

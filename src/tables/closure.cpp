@@ -9,14 +9,16 @@ namespace geodesic {
 
 namespace {
 
-// What a distance must fall by, as a share of it, to count: less is rounding.
+// The share by which a distance must fall to count as shorter. Less is rounding.
 constexpr float PROGRESS = 1e-6f;
-// What a way over border vertices must gain to be straightened, which costs much more.
+// The share that a way over border vertices must gain to be straightened, since straightening costs much more
+// than a sum.
 constexpr float WORTH_STRAIGHTENING = 1e-4f;
 
 bool is_lower(float a, float b, float share) { return a < b * (1 - share); }
 
-// best[x] = min over the rows added of from + row[x], and winner[x] the first of them that attains it.
+// best[x] is the minimum of from + row[x] over the rows that were added, and winner[x] is the first row that
+// attains it.
 struct LeastSums {
     std::vector<float> best;
     std::vector<uint32_t> winner;
@@ -34,12 +36,12 @@ struct LeastSums {
     }
 };
 
-// Counted over all rings.
+// The own place of a border vertex, counted over all rings.
 size_t own_place(const BorderRings& rings, const Numbering& numbering, uint32_t patch, uint32_t position) {
     return size_t{rings.begin[patch]} + rings.place_of_slot[numbering.border_begin[patch] + position];
 }
 
-// The distances in a patch's overlay from one of its vertices, over the tables of the children.
+// Fills the distances from one vertex of a patch's overlay to all others, over the tables of the children.
 class RowFromBelow {
 public:
     RowFromBelow(uint32_t patch, const Numbering& numbering, const BorderRings& rings,
@@ -63,8 +65,9 @@ private:
         return numbering_.child_begin[patch_] + static_cast<uint32_t>(nearest - nearest_changed_.begin());
     }
 
-    // The children that have this vertex on their border are to be crossed from it, but for the one that it
-    // was reached over: tables hold distances on the whole surface.
+    // Marks the children that have this vertex on their border, because they are to be crossed from it. The
+    // child over which it was reached is left out: its table holds distances on the whole surface, so that
+    // crossing it twice in a row gains nothing.
     void mark(uint32_t position, uint32_t reached_over) {
         for (uint32_t slot : numbering_.slots_of(patch_, position)) {
             const uint32_t child = numbering_.patch_of_slot[slot];
@@ -78,7 +81,7 @@ private:
     void cross(uint32_t child) {
         const uint32_t first = numbering_.border_begin[child], size = numbering_.border_size(child);
         const uint32_t* position = numbering_.overlay_position.data() + first;
-        const float* table = tables_.overlay[child].data(); // begins with the border
+        const float* table = tables_.overlay[child].data(); // its first rows and columns are the border
         const size_t stride = numbering_.overlay_size(child);
         from_.clear();
         rows_.clear();
@@ -121,7 +124,7 @@ void make_symmetric(std::vector<float>& table, size_t size) {
             table[i * size + j] = table[j * size + i] = std::min(table[i * size + j], table[j * size + i]);
 }
 
-// Lowers one row of a patch's overlay table by paths over the outside of its border.
+// Lowers one row of a patch's overlay table by paths that leave the patch over its border and come back.
 class RowFromAbove {
 public:
     RowFromAbove(uint32_t patch, const Numbering& numbering, const BorderRings& rings,
@@ -139,7 +142,8 @@ public:
     }
 
 private:
-    // out[x] = the least of itself and of the ways from the border over a table with one row a border vertex.
+    // Lowers out[x] to the least way from the border over a table with one row for each border vertex.
+    // Returns whether any entry became shorter.
     bool lower(std::span<const float> from, std::span<const float> table, size_t stride,
                std::span<float> out) {
         least_.begin(out.size());
@@ -166,7 +170,7 @@ private:
     LeastSums least_;
 };
 
-// The border block of a patch in its parent's table.
+// The part of the parent's table that holds the distances between the border vertices of a patch.
 std::vector<float> border_block(uint32_t patch, const Numbering& numbering, const DistanceTables& tables) {
     const uint32_t parent = numbering.parent[patch], first = numbering.border_begin[patch];
     const size_t border = numbering.border_size(patch), stride = numbering.overlay_size(parent);

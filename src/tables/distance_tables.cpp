@@ -16,7 +16,7 @@ float longest(std::span<const float> distances) {
     return longest;
 }
 
-// The entries of a leaf in tables that lie end to end.
+// The entries of one leaf in tables that lie end to end.
 std::span<const float> of_leaf(const std::vector<float>& all, const Array<uint64_t>& begin, size_t leaf) {
     return std::span(all).subspan(begin[leaf], begin[leaf + 1] - begin[leaf]);
 }
@@ -29,7 +29,8 @@ std::vector<float> smallest_quanta(const DistanceTables& tables, const Numbering
             std::max(longest(of_leaf(tables.border_internal, numbering.border_internal_begin, leaf)),
                      longest(of_leaf(tables.internal, numbering.internal_table_begin, leaf))) /
             TableCode::LARGEST);
-    // Labels of what lies deeper count in steps of this quantum, also where all borders meet in one vertex.
+    // The labels of deeper vertices count in steps of this quantum, so that it must not be 0 where a table
+    // has no distance but 0, as it is if all its borders meet in one vertex.
     for (uint32_t p = numbering.patch_count() - 1; p > 0; --p) {
         const uint32_t parent = numbering.parent[p];
         if (longest(tables.overlay[parent]) == 0) quantum[parent] = std::max(quantum[parent], quantum[p]);
@@ -37,7 +38,7 @@ std::vector<float> smallest_quanta(const DistanceTables& tables, const Numbering
     return quantum;
 }
 
-// What the patch owns against its border, then among itself.
+// Adds the codes of owned x border, then those of owned x owned below the diagonal.
 void hand_over_overlay(std::span<const float> table, uint32_t patch, const Numbering& numbering,
                        StoredIndex& stored) {
     const size_t border = numbering.border_size(patch), size = numbering.overlay_size(patch);

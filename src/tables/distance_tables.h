@@ -7,18 +7,19 @@
 
 namespace geodesic {
 
-// The tables of the overlay engine as they are built, before they become codes.
+// The distances of the overlay engine's tables while these are built, before they become codes.
 struct DistanceTables {
     explicit DistanceTables(const Numbering& numbering);
 
-    // overlay[p][i * overlay_size(p) + j], of every inner patch.
+    // overlay[p][i * overlay_size(p) + j] is the distance of the overlay positions i and j of the inner patch
+    // p.
     std::vector<std::vector<float>> overlay;
-    // Laid out as StoredIndex has them.
+    // These are laid out as in StoredIndex.
     std::vector<float> border_internal, internal;
 };
 
-// Rounds the distances to the codes of `stored`, with the smallest quantum a patch that holds its longest
-// distance. Tables are handed over patch by patch, and each one's memory is given back.
+// Rounds the distances to the codes of `stored`. Each patch gets the smallest quantum with which its longest
+// distance is a code. Tables are handed over patch by patch, and the memory of each is freed after that.
 void hand_over(DistanceTables tables, const Numbering& numbering, StoredIndex& stored);
 
 }

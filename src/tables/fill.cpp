@@ -9,7 +9,8 @@ namespace geodesic {
 
 namespace {
 
-// Each pair of vertices is measured once, from the smaller number, and written to both of its places.
+// Measures each pair of vertices once, from the one with the smaller number, and writes the distance to every
+// table that has both.
 class RowFiller {
 public:
     RowFiller(const Numbering& numbering, std::span<const uint32_t> vertex_of_number, StoredIndex& stored)
@@ -30,7 +31,8 @@ public:
                          stored_.internal_tables);
     }
 
-    // The least ratio of a patch's distances to their straight lines, at most 1.
+    // The least ratio of a distance in the patch's tables to the straight line between its two vertices; at
+    // most 1.
     double smallest_ratio(uint32_t patch) const {
         double smallest = 1;
         const auto border = numbering_.border_of(patch);
@@ -71,10 +73,11 @@ private:
     const Numbering& numbering_;
     std::span<const uint32_t> vertex_of_number_;
     StoredIndex& stored_;
-    std::vector<uint64_t> border_table_begin_{0}; // per patch
+    std::vector<uint64_t> border_table_begin_{0}; // per patch: where its border table begins
 };
 
-// The largest scale that keeps every table entry above its straight line, less float rounding.
+// The largest scale with which no table entry is shorter than its scaled straight line, made smaller by the
+// rounding of floats.
 float bound_scale(const RowFiller& filler, uint32_t patch_count, Workers& workers) {
     std::vector<double> smallest(patch_count);
     workers.run(patch_count, [&](FieldSolver&, size_t p) {

@@ -7,8 +7,8 @@
 
 namespace geodesic {
 
-// Fills what the graph engine stores besides the layout with distances on the whole surface (paper 3.2), and
-// the bound scale. vertex_of_number: the mesh vertex of each number.
+// Fills the tables of the graph engine with distances on the whole surface (paper 3.2), and the bound scale.
+// The layout must be stored already. vertex_of_number gives the mesh vertex of each number.
 void fill_graph_tables(std::span<const uint32_t> vertex_of_number, Workers& workers, StoredIndex& stored);
 
 }

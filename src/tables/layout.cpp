@@ -9,10 +9,11 @@ namespace geodesic {
 
 namespace {
 
-// Where a vertex goes: border vertices first by owner, internal ones by leaf and distance to the border.
+// Sorting these gives the order of the numbers: first the border vertices by owner, then the internal ones by
+// leaf and by distance to the border.
 struct Slot {
     bool internal;
-    uint32_t group; // owner patch or leaf
+    uint32_t group; // the owner, or the leaf
     double distance_to_border;
     uint32_t vertex;
 
@@ -49,7 +50,7 @@ std::vector<Slot> sorted_slots(const Hierarchy& hierarchy, const ListOfLists<uin
     return slots;
 }
 
-// How many of the vertices from `from` to `to` - 1 belong to each of `count` groups from `first` on.
+// How many of the vertices `from` .. `to` - 1 belong to each of the `count` groups that begin with `first`.
 std::vector<uint32_t> group_sizes(const std::vector<Slot>& slots, size_t from, size_t to, uint32_t first,
                                   uint32_t count) {
     std::vector<uint32_t> sizes(count, 0);
@@ -69,16 +70,16 @@ std::vector<ListOfLists<uint32_t>> faces_by_level(const Hierarchy& hierarchy) {
     return levels;
 }
 
-// Which vertices lie on the borders of which patches.
+// Finds the vertices on the border of each patch.
 class BorderFinder {
 public:
-    // `number` of each vertex; `owner` of each border vertex, by number.
+    // `number` is by vertex of the mesh, `owner` by number of a border vertex.
     BorderFinder(const Mesh& mesh, const Hierarchy& hierarchy, const std::vector<uint32_t>& number,
                  const std::vector<uint32_t>& owner)
         : mesh_(mesh), hierarchy_(hierarchy), number_(number), owner_(owner), inside_(mesh.face_count(), 0) {}
 
-    // The border of a patch, given by its faces, as numbers along its boundary; those where the patch merely
-    // touches another come last.
+    // The border of a patch, given by its faces, as numbers in their order along the patch's boundary.
+    // Vertices at which the patch only touches another patch come last.
     std::vector<uint32_t> find(uint32_t patch, std::span<const uint32_t> faces) {
         for (uint32_t f : faces) inside_[f] = 1;
         auto walks = walk_border(mesh_, faces, inside_);
@@ -86,7 +87,8 @@ public:
         const auto on_border = [&](uint32_t v) { return is_on_border(v, patch); };
         std::vector<uint32_t> border;
         for (auto& walk : walks) {
-            // So that what is left of a ring, if a part of it is none of the border, is in one piece.
+            // If some vertices of a ring are not on the border, the walk begins at one of them, so that the
+            // end of the walk and its beginning do not cut a chain in two.
             if (const auto other = std::ranges::find_if_not(walk, on_border); other != walk.end())
                 std::rotate(walk.begin(), other, walk.end());
             for (uint32_t v : walk)

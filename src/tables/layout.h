@@ -11,9 +11,10 @@
 
 namespace geodesic {
 
-// Numbers the vertices as Numbering describes, internal ones by their distance to the border, and fills the
-// sections HIER, VERT, POSI and BORD of what is stored. `is_border[v]` of vertices where several leaves meet:
-// false where pruning took it off the border. Returns the mesh vertex of each number.
+// Numbers the vertices as Numbering describes, with the internal vertices of a leaf sorted by their distance
+// to the nearest border vertex, and fills the sections HIER, VERT, POSI and BORD. `is_border[v]` is read for
+// vertices where several leaves meet, and is false where pruning took the vertex off the border. Returns the
+// mesh vertex of each number.
 std::vector<uint32_t> lay_out(const Intake& intake, const Hierarchy& hierarchy,
                               const ListOfLists<uint32_t>& leaves_at_vertex,
                               const std::vector<uint8_t>& is_border, Workers& workers, StoredIndex& stored);

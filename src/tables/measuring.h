@@ -7,12 +7,13 @@
 
 namespace geodesic {
 
-// The distance of a vertex of the mesh in the latest solve; throws Error LIMIT where no float holds it.
+// The distance that the latest solve found for a vertex of the mesh. Throws Error LIMIT if it is too large
+// for a float.
 float measured_distance(const FieldSolver& solver, uint32_t vertex);
 
-// Measures an internal vertex against the border of its leaf and the internal vertices with larger numbers,
-// and writes the distances to their places in tables laid out as StoredIndex has them. vertex_of_number: the
-// mesh vertex of each number.
+// Measures the distances of an internal vertex to the border of its leaf and to the leaf's internal vertices
+// with larger numbers, and writes them into tables that are laid out as in StoredIndex. vertex_of_number
+// gives the mesh vertex of each number.
 void measure_internal(const Numbering& numbering, std::span<const uint32_t> vertex_of_number, uint32_t number,
                       FieldSolver& solver, std::span<float> border_internal_tables,
                       std::span<float> internal_tables);

@@ -11,7 +11,7 @@ namespace geodesic {
 
 namespace {
 
-// Vertices inside of each patch, not on its border.
+// The number of vertices that lie inside of each patch and not on its border.
 std::vector<uint64_t> inner_vertices(const Numbering& numbering) {
     std::vector<uint64_t> count(numbering.patch_count(), 0);
     for (uint32_t p = numbering.patch_count(); p-- > 0;) {
@@ -21,7 +21,7 @@ std::vector<uint64_t> inner_vertices(const Numbering& numbering) {
     return count;
 }
 
-// Which overlay tables hold the metric's own distances: at least those above leaves.
+// Tells which overlay tables hold the metric's own distances. Those of the parents of leaves always do.
 std::vector<uint8_t> exact_patches(const Numbering& numbering, uint32_t exact_vertices) {
     const auto count = inner_vertices(numbering);
     std::vector<uint8_t> exact(numbering.first_leaf());
@@ -30,7 +30,7 @@ std::vector<uint8_t> exact_patches(const Numbering& numbering, uint32_t exact_ve
     return exact;
 }
 
-// Rows of the tables that are put together, from below and from above.
+// The number of rows that closing computes, from below and from above.
 size_t closure_rows(const Numbering& numbering, const std::vector<uint8_t>& exact) {
     size_t rows = 0;
     for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
@@ -38,7 +38,8 @@ size_t closure_rows(const Numbering& numbering, const std::vector<uint8_t>& exac
     return rows;
 }
 
-// Each pair of vertices is measured once, from the smaller number, and written to all of its places.
+// Measures each pair of vertices once, from the one with the smaller number, and writes the distance to every
+// table that has both.
 class ExactTables {
 public:
     ExactTables(const Numbering& numbering, std::span<const uint32_t> vertex_of_number,
@@ -52,7 +53,7 @@ public:
     }
 
 private:
-    // The exact overlays that a border vertex is in, and its positions there.
+    // The measured overlays that have a border vertex, with its position in each.
     std::vector<BorderPlace> overlays_of(uint32_t number) const {
         std::vector<BorderPlace> places;
         const uint32_t owner = numbering_.owner[number];
@@ -87,7 +88,8 @@ private:
     DistanceTables& tables_;
 };
 
-// Whether squares of distances, from the length of a segment to that of thousands, are floats.
+// Whether floats can hold the squares of distances between the length of a segment and that of thousands of
+// segments.
 bool can_be_squared(const BorderSegments& segments) {
     constexpr float SHORTEST = 1e-16f, LONGEST = 1e14f;
     const float longest = segments.length.empty() ? 0 : *std::ranges::max_element(segments.length);

@@ -9,15 +9,16 @@
 namespace geodesic {
 
 struct OverlayOptions {
-    uint32_t exact_vertices; // patches of up to this many have overlay tables of the metric's own distances
-    bool unfold;             // the metric is locally Euclidean: paths may cross borders between vertices
-    double stage_end;        // of the stage of putting together, as Workers::begin_stage()
+    uint32_t exact_vertices; // patches with at most this many vertices inside are measured
+    bool unfold;             // paths may cross borders between vertices: the metric is locally Euclidean
+    double stage_end;        // where the stage "closure" ends, see Workers::begin_stage()
 };
 
-// Fills what the overlay engine stores besides the layout with distances on the whole surface: the tables of
-// small patches and leaves are the metric's, those of larger ones are put together from their children's, and
-// then shortened by paths that leave the patch. It takes 4 bytes a table entry, and 4 more an entry of one
-// table at a time. vertex_of_number: the mesh vertex of each number.
+// Fills the tables, quanta and segments of the overlay engine with distances on the whole surface. The layout
+// must be stored already. The tables of leaves and of small patches hold the metric's own distances. Those of
+// larger patches are put together from their children's tables, and then lowered by paths that leave the
+// patch. Filling takes 4 bytes of memory for each table entry, and 4 more for each entry of one table at a
+// time. vertex_of_number gives the mesh vertex of each number.
 void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
                          std::span<const uint32_t> vertex_of_number, const OverlayOptions& options,
                          Workers& workers, StoredIndex& stored);

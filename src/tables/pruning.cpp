@@ -9,11 +9,11 @@ namespace geodesic {
 
 namespace {
 
-// Border vertices of one set of leaves that hang together over edges, with all distances among them.
+// The border vertices that belong to one set of leaves, the edges between them, and all distances among them.
 struct Chain {
     std::vector<uint32_t> vertices;
     std::vector<std::array<uint32_t, 2>> adjacent; // positions in vertices
-    std::vector<double> distance;                  // square
+    std::vector<double> distance;                  // a square table
 
     double at(uint32_t i, uint32_t j) const { return distance[size_t{i} * vertices.size() + j]; }
 };
@@ -56,7 +56,7 @@ struct Merge {
     uint32_t representative = 0;
 };
 
-// Of the two representatives, the one nearer to its farthest member stays.
+// The merged group keeps the representative that is nearer to its farthest member.
 Merge merge_of(const Chain& chain, const Group& a, const Group& b) {
     Merge best;
     for (uint32_t candidate : {a.representative, b.representative}) {

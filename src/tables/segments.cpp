@@ -23,7 +23,8 @@ public:
         }
     }
 
-    // Rings follow each other in a border; the last vertex of each may be joined to its first.
+    // A border consists of several rings, one after the other. The last vertex of each may be joined to its
+    // first.
     void find(uint32_t patch) {
         const uint32_t size = numbering_.border_size(patch);
         uint32_t ring = 0;
@@ -52,7 +53,7 @@ private:
         return true;
     }
 
-    // Whether an edge lies between a patch and others.
+    // Whether an edge has the patch on some sides and other patches on others.
     bool parts(uint32_t edge, uint32_t patch) const {
         const auto is_inside = [&](uint32_t face) {
             return numbering_.is_within(leaf_of_face_[face], patch);
@@ -61,7 +62,8 @@ private:
         return std::ranges::any_of(faces, is_inside) && !std::ranges::all_of(faces, is_inside);
     }
 
-    // Both ends lie on the border of a leaf on one side of the edge.
+    // The length of an edge. Both of its ends lie on the border of a leaf beside it, so that the table of
+    // that leaf's parent has their distance.
     float length_of(uint32_t a, uint32_t b) const {
         for (const BorderPlace& at : numbering_.places_of(a))
             for (const BorderPlace& bt : numbering_.places_of(b)) {

@@ -9,8 +9,8 @@
 
 namespace geodesic {
 
-// Which neighbours on a patch's border an edge joins that lies between the patch and others, and how long it
-// is by the tables above the leaves.
+// Finds the segments of all borders: neighbours on a patch's border that are joined by an edge between that
+// patch and others. The length of a segment is the distance of its ends in a table above the leaves.
 BorderSegments find_segments(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
                              std::span<const uint32_t> vertex_of_number, const DistanceTables& tables,
                              const Numbering& numbering);
