@@ -79,8 +79,8 @@ void derive_overlay_positions(Numbering& numbering) {
     }
 }
 
-// Every position in an overlay needs a slot on a child's border, so that there are no more of them than fit
-// 32 bits.
+// Every overlay position needs a slot on the border of a child. So there cannot be more positions than slots,
+// whose count fits 32 bits.
 void require_children_around(const Numbering& numbering) {
     uint64_t positions = 0;
     for (uint32_t p = 0; p < numbering.first_leaf(); ++p) positions += numbering.overlay_size(p);
@@ -154,7 +154,7 @@ void place_tables(Numbering& numbering) {
     }
 }
 
-// The differences of neighbours.
+// The differences between neighbouring elements.
 template <class Begin>
 std::vector<uint32_t> counts_of(const Begin& begin, size_t count) {
     std::vector<uint32_t> counts(count);

@@ -13,52 +13,53 @@ namespace geodesic {
 
 struct StoredIndex;
 
-// Number of entries below the diagonal of a symmetric table of `size` rows, and the place of (i, j), i > j.
+// The number of entries below the diagonal of a symmetric table with `size` rows, and the index of the entry
+// (i, j) among them, i > j.
 constexpr uint64_t triangle_size(uint64_t size) { return size < 2 ? 0 : size * (size - 1) / 2; }
 constexpr uint64_t below_diagonal(uint64_t i, uint64_t j) { return i * (i - 1) / 2 + j; }
 
-// A border vertex's place in a patch's border.
+// A border vertex as it appears on the border of one patch.
 struct BorderPlace {
     uint32_t patch;
     uint32_t position;
 };
 
-// What follows for either engine from the hierarchy, the borders and the counts of vertices: who is whose,
-// under which number, and where tables begin. Vertices are numbered anew: first the border vertices, grouped
-// by their *owner*, the patch on whose children's borders they first appear, then the internal vertices,
-// grouped by leaf. Patches are numbered as in Hierarchy.
+// What both engines derive from the hierarchy, the borders and the counts of vertices: which patch each
+// vertex belongs to, and where each leaf's tables begin. Vertices have numbers in this order: first the
+// border vertices, grouped by *owner*, the patch on whose children's borders they first appear, then the
+// internal vertices, grouped by leaf. Patches are numbered as in Hierarchy.
 //
-// The overlay of an inner patch P is the union of its children's borders: the border of P itself, in its
-// order, then the vertices that P owns. Positions in it are called overlay positions.
+// The overlay of an inner patch P is the union of its children's borders. It consists of the border of P, in
+// its order, and then of the vertices that P owns. A position in this list is called an overlay position.
 struct Numbering {
     explicit Numbering(std::pmr::memory_resource* memory);
 
     // The hierarchy.
-    Array<uint32_t> level_begin; // level l: patches level_begin[l] .. level_begin[l + 1] - 1
-    Array<uint32_t> parent;      // per patch; the root's is NONE
-    Array<uint32_t> child_begin; // children of p: child_begin[p] .. child_begin[p + 1] - 1; none of a leaf
+    Array<uint32_t> level_begin; // level l has the patches level_begin[l] .. level_begin[l + 1] - 1
+    Array<uint32_t> parent;      // per patch; NONE for the root
+    Array<uint32_t> child_begin; // p has the children child_begin[p] .. child_begin[p + 1] - 1
 
     // Vertices.
     Array<std::array<float, 3>> positions; // per number
-    Array<uint32_t> owned_begin;           // numbers owned by p: owned_begin[p] .. owned_begin[p + 1] - 1
-    Array<uint32_t> internal_begin;        // internal vertices of leaf first_leaf() + i: likewise; [0] is the
-                                           // number of border vertices
-    Array<uint32_t> border_begin;          // the border of patch p: border[border_begin[p]] ..
-    Array<uint32_t> border;                // numbers
-    Array<uint32_t> leaf_of_internal;      // [number - border_vertex_count()]
-    Array<uint32_t> owner;                 // per border vertex
+    Array<uint32_t> owned_begin;           // p owns the numbers owned_begin[p] .. owned_begin[p + 1] - 1
+    Array<uint32_t> internal_begin; // likewise for the internal vertices of leaf first_leaf() + i; [0] is the
+                                    // number of border vertices
+    Array<uint32_t> border_begin;   // patch p has border[border_begin[p]] .. border[border_begin[p + 1] - 1]
+    Array<uint32_t> border;         // the vertices' numbers
+    Array<uint32_t> leaf_of_internal; // [number - border_vertex_count()]
+    Array<uint32_t> owner;            // per border vertex
 
-    // A slot is an index in `border`: a place of a vertex in one patch's border.
+    // A slot is an index in `border`: it stands for one vertex on the border of one patch.
     Array<uint32_t> overlay_position; // per slot: position in the overlay of the patch's parent
     Array<uint32_t> patch_of_slot;
     Array<uint32_t> overlay_begin; // per inner patch: where its overlay positions begin in slot_begin
-    Array<uint32_t>
-        slot_begin; // slots of overlay position i of patch p: from slot_begin[overlay_begin[p] + i]
+    // The slots of overlay position i of patch p begin at slots[slot_begin[overlay_begin[p] + i]].
+    Array<uint32_t> slot_begin;
     Array<uint32_t> slots;
-    Array<uint32_t> place_begin; // per border vertex: its places, in ascending order of patches
+    Array<uint32_t> place_begin; // per border vertex: where its entries in `places` begin, by ascending patch
     Array<BorderPlace> places;
 
-    // Where the tables of a leaf begin; the last one's end is behind it.
+    // Where the tables of each leaf begin, and at the end, where those of the last one end.
     Array<uint64_t> border_internal_begin, internal_table_begin;
 
     uint32_t level_count() const { return static_cast<uint32_t>(level_begin.size()) - 2; }
@@ -92,8 +93,8 @@ struct Numbering {
         return {places.data() + place_begin[border_vertex], places.data() + place_begin[border_vertex + 1]};
     }
 
-    // The vertex at a position in a patch's overlay, and the position of a border vertex in that of its
-    // owner.
+    // The number of the vertex at a position in a patch's overlay, and the position of a border vertex in its
+    // owner's overlay.
     uint32_t overlay_number(uint32_t patch, uint32_t position) const {
         const uint32_t size = border_size(patch);
         return position < size ? border[border_begin[patch] + position]
@@ -104,24 +105,25 @@ struct Numbering {
         return border_size(patch) + border_vertex - owned_begin[patch];
     }
 
-    // The inner vertices of a patch, one hop from its border: what it owns, or the internal vertices of a
-    // leaf.
+    // The inner vertices of a patch lie one hop inside its border. They are the vertices that the patch owns
+    // or, in a leaf, the internal vertices.
     uint32_t inner_size(uint32_t patch) const {
         return patch < first_leaf() ? owned_begin[patch + 1] - owned_begin[patch] : internal_size(patch);
     }
     uint32_t first_inner(uint32_t patch) const {
         return patch < first_leaf() ? owned_begin[patch] : first_internal(patch);
     }
-    // The patch that a vertex is an inner one of: its owner or its leaf.
+    // The patch that a vertex is an inner vertex of, which is its owner or its leaf.
     uint32_t entry(uint32_t number) const { return is_border(number) ? owner[number] : leaf_of(number); }
 
-    // Distances that the overlay engine stores of an inner patch: from what it owns to its border, and among
-    // what it owns.
+    // The number of distances that the overlay engine stores for an inner patch: from each vertex that it
+    // owns to its border, and among the vertices that it owns.
     uint64_t overlay_entries(uint32_t patch) const {
         return uint64_t{inner_size(patch)} * border_size(patch) + triangle_size(inner_size(patch));
     }
 
-    // Where an entry lies in the tables of leaves: internal vertices by position in the leaf, i != j.
+    // The index of an entry in the tables of leaves. Internal vertices are given by their positions in the
+    // leaf, and i != j.
     uint64_t border_internal_entry(uint32_t leaf, uint32_t border_position, uint32_t internal) const {
         return border_internal_begin[leaf - first_leaf()] + uint64_t{border_position} * internal_size(leaf) +
                internal;
@@ -148,15 +150,15 @@ struct Numbering {
     }
 };
 
-// Fills a numbering from HIER, POSI and BORD. Throws Error CORRUPT where a border vertex is on the border of
-// a patch but not in its parent's overlay, or in the overlay of a patch, but on no border of its children,
-// and Error LIMIT where tables would be too large.
+// Fills a numbering from HIER, POSI and BORD. Throws Error CORRUPT where a vertex on the border of a patch is
+// not in the overlay of the patch's parent, and where a vertex in the overlay of a patch is on the border of
+// none of its children. Throws Error LIMIT where tables would be too large.
 void number_vertices(const StoredIndex& stored, Numbering& numbering);
 
-// The opposite: HIER, POSI and BORD of a numbering.
+// Does the opposite: fills HIER, POSI and BORD from a numbering.
 void restore_numbering(const Numbering& numbering, StoredIndex& stored);
 
-// Throws Error LIMIT where tables of so many entries are too large.
+// Throws Error LIMIT if a table with this many entries would be too large.
 void require_room_for(uint64_t entries);
 
 // The length of the straight line between two vertices, given by their numbers.

@@ -8,13 +8,13 @@
 
 namespace geodesic {
 
-// What a file holds, a field for each field of format/SPEC.md and in its order. The builder and the reader
-// fill it, prepare() takes it to what queries answer from, restore() takes it back from there, and the writer
-// writes it. Nothing in it follows from anything else in it.
+// What a file holds: one field for each field of format/SPEC.md, in the same order. The builder and the
+// reader fill it, prepare() makes from it what queries read, restore() does the opposite, and the writer
+// writes it. No field can be derived from the others.
 //
-// Tables of several patches lie end to end, in the order of the patches, each row by row; of a symmetric
-// table only the entries below the diagonal are there, rows with fewer entries first. (How a file folds them
-// into images is a matter of src/file.)
+// The tables of several patches lie end to end, in the order of the patches. Each table is stored row by row.
+// Of a symmetric table only the entries below the diagonal are stored, beginning with the shortest row.
+// (src/file folds them into images.)
 struct StoredIndex {
     Description description; // the header and META
 
@@ -23,7 +23,7 @@ struct StoredIndex {
     std::vector<uint32_t> child_count; // per inner patch
 
     // VERT
-    std::vector<uint32_t> number_of_id; // per caller's id; NONE: no triangle uses it
+    std::vector<uint32_t> number_of_id; // per id of the caller; NONE if no triangle uses it
 
     // POSI
     std::vector<std::array<float, 3>> positions; // per number; their count is the vertex count of VERT
@@ -32,7 +32,7 @@ struct StoredIndex {
     std::vector<uint32_t> owned_count;    // per inner patch
     std::vector<uint32_t> internal_count; // per leaf
     std::vector<uint32_t> border_size;    // per patch but the root
-    std::vector<uint32_t> border;         // numbers, in the order of the patches
+    std::vector<uint32_t> border;         // the vertices' numbers, in the order of the patches
 
     // Graph engine: distances; infinite where there is no path.
     std::vector<float> border_tables;          // BVBV: of every patch but the root, below the diagonal
