@@ -13,7 +13,7 @@ namespace {
 constexpr double FLOAT_ROUNDING = 3e-6;
 // Below this a float has fewer digits, or is 0.
 constexpr double SMALLEST = 1e-36;
-// Faces without area are given one (README, limits), and squares of lengths are lost below their rounding.
+// Faces without area are given one (docs/limits.md), and squares of lengths are lost below their rounding.
 constexpr double METRIC_ROUNDING = 1e-5;
 // How much too short and too long an answer of GEOIDX_ENGINE_OVERLAY may be: gross errors only, since the
 // largest ones of hard surfaces are not bounded yet.

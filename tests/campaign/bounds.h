@@ -8,7 +8,7 @@
 
 namespace geodesic::campaign {
 
-// What an answer may be, by what the header and the limits in README promise of an engine.
+// What an answer may be, by what the header and docs/limits.md promise of an engine.
 class Bounds {
 public:
     Bounds(const BuildInput& input, const geoidx_info& info, double longest);
