@@ -29,7 +29,9 @@ if [ ${#with[@]} -eq 0 ]; then
 fi
 
 mkdir -p "$package"
-cp -R "$here"/{package.json,README.md,Editor,Samples~} "$package"
+cp -R "$here"/{README.md,Editor,Samples~} "$package"
+version=$("$here/../../scripts/version.sh")
+sed "s/\"VERSION\"/\"$version\"/" "$here/package.json" >"$package/package.json"
 cp "$here"/../../{LICENSE,THIRD-PARTY-NOTICES.txt} "$package"
 mkdir -p "$package/Runtime/Geoidx"
 cp "$here"/Runtime/{*.cs,*.asmdef,csc.rsp} "$package/Runtime"
@@ -70,7 +72,6 @@ find "$package" -mindepth 1 -not -name '*.meta' -not -path "$package/Samples~*" 
     [ -e "$asset.meta" ] || write_meta "$asset"
 done
 
-version=$(sed -n 's/.*"version": "\(.*\)".*/\1/p' "$here/package.json")
 tar -C "$out" --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -cf - package |
     gzip -n >"$out/com.geoidx-$version.tgz"
 echo "$out/com.geoidx-$version.tgz: with the native library of ${with[*]}"
