@@ -4,9 +4,11 @@
 #include <string>
 
 #include "format/error.h"
+#include "src/base/threads.h"
+#include "src/build/calibration.h"
 #include "src/build/measure.h"
 #include "src/build/metric_options.h"
-#include "src/base/threads.h"
+#include "src/index/stored.h"
 #include "src/partition/hierarchy.h"
 #include "src/tables/borders.h"
 #include "src/tables/fill.h"

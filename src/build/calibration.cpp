@@ -1,0 +1,36 @@
+#include "src/build/calibration.h"
+
+#include <cmath>
+#include <vector>
+
+#include "src/build/relative_errors.h"
+#include "src/query/index.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr uint64_t CALIBRATION_SEED = 0x7363616C65;
+
+// The share by which paths are too long everywhere: the mean of the signed errors, without those of paths
+// that take another way altogether, such as a detour of pruned borders, which say nothing of the others.
+double common_share(std::vector<double> errors) {
+    constexpr double ANOTHER_WAY = 0.1;
+    std::erase_if(errors, [](double error) { return std::abs(error) > ANOTHER_WAY; });
+    return summary(std::move(errors)).signed_mean;
+}
+
+}
+
+void calibrate(std::span<const uint32_t> vertex_of_number, Workers& workers, StoredIndex& stored) {
+    if (!crosses_between_vertices(stored.description)) return;
+    const ExactFields exact = exact_fields(stored.description, vertex_of_number, CALIBRATION_SEED, workers);
+    Index draft(std::pmr::get_default_resource());
+    prepare(stored, draft);
+    const double share =
+        common_share(relative_errors(draft, Crossing::BETWEEN_VERTICES, vertex_of_number, exact, workers));
+    for (size_t p = 0; p < stored.child_count.size(); ++p)
+        stored.quantum[p] = static_cast<float>(double{stored.quantum[p]} / (1 + share));
+}
+
+}

@@ -1,0 +1,82 @@
+#include "src/build/relative_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geoidx.h"
+#include "src/graph/query.h"
+#include "src/partition/random.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr uint32_t SOURCES = 20;
+
+// MSAD from one source, by number.
+void answer(const Index& index, Crossing crossing, uint32_t source, std::span<float> distance) {
+    std::pmr::memory_resource* const memory = std::pmr::get_default_resource();
+    if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine))
+        OverlaySsad(*overlay, memory, crossing).sweep(source, INFINITE, distance);
+    else
+        GraphQuery(std::get<GraphIndex>(index.engine), memory).msad({&source, 1}, INFINITE, distance);
+}
+
+}
+
+ExactFields exact_fields(const Description& about, std::span<const uint32_t> vertex_of_number, uint64_t seed,
+                         Workers& workers) {
+    Random random(about.seed ^ seed);
+    ExactFields fields{std::vector<uint32_t>(SOURCES), std::vector<std::vector<double>>(SOURCES)};
+    for (uint32_t& source : fields.sources)
+        source = random.below(static_cast<uint32_t>(vertex_of_number.size()));
+    workers.run(SOURCES, [&](FieldSolver& solver, size_t i) {
+        solver.solve({&fields.sources[i], 1}, {});
+        for (uint32_t vertex : vertex_of_number) fields.distances[i].push_back(solver.distance(vertex));
+    });
+    return fields;
+}
+
+std::vector<double> relative_errors(const Index& index, Crossing crossing,
+                                    std::span<const uint32_t> vertex_of_number, const ExactFields& exact,
+                                    Workers& workers) {
+    std::vector<uint32_t> number_of_vertex(vertex_of_number.size());
+    for (uint32_t n = 0; n < vertex_of_number.size(); ++n) number_of_vertex[vertex_of_number[n]] = n;
+    std::vector<std::vector<double>> errors(SOURCES);
+    workers.run(SOURCES, [&](FieldSolver&, size_t i) {
+        std::vector<float> answered(vertex_of_number.size());
+        answer(index, crossing, number_of_vertex[exact.sources[i]], answered);
+        for (size_t number = 0; number < answered.size(); ++number) {
+            const double distance = exact.distances[i][number];
+            if (distance > 0 && distance < UNREACHABLE)
+                errors[i].push_back((double{answered[number]} - distance) / distance);
+        }
+    });
+    std::vector<double> all;
+    for (const auto& of_source : errors) all.insert(all.end(), of_source.begin(), of_source.end());
+    return all;
+}
+
+MeasuredError summary(std::vector<double> errors) {
+    MeasuredError result;
+    result.sources = SOURCES;
+    if (errors.empty()) return result;
+    const auto count = static_cast<double>(errors.size());
+    for (double& error : errors) {
+        result.signed_mean += error / count;
+        error = std::abs(error);
+        result.mean += error / count;
+    }
+    std::sort(errors.begin(), errors.end());
+    const auto quantile = [&](double q) { return errors[static_cast<size_t>(q * (count - 1))]; };
+    result.p99 = quantile(0.99);
+    result.p999 = quantile(0.999);
+    result.max = errors.back();
+    return result;
+}
+
+bool crosses_between_vertices(const Description& about) {
+    return about.engine == GEOIDX_ENGINE_OVERLAY && (about.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
+}
+
+}

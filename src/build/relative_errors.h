@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "src/metric/workers.h"
+#include "src/overlay/ssad.h"
+#include "src/query/index.h"
+
+namespace geodesic {
+
+// Distances under the metric from some random sources to all vertices, by number.
+struct ExactFields {
+    std::vector<uint32_t> sources; // mesh vertices
+    std::vector<std::vector<double>> distances;
+};
+
+// vertex_of_number: the mesh vertex of each number. Other seeds choose other sources.
+ExactFields exact_fields(const Description& about, std::span<const uint32_t> vertex_of_number, uint64_t seed,
+                         Workers& workers);
+
+// The errors of MSAD from each of these sources alone, relative to the metric.
+std::vector<double> relative_errors(const Index& index, Crossing crossing,
+                                    std::span<const uint32_t> vertex_of_number, const ExactFields& exact,
+                                    Workers& workers);
+
+MeasuredError summary(std::vector<double> errors);
+
+// Whether MSAD answers differently by Crossing.
+bool crosses_between_vertices(const Description& about);
+
+}
