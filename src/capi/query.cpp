@@ -1,0 +1,141 @@
+// Questions to an index, by scratch of its own or by the handle of a query.
+#include "geoidx.h"
+#include "src/base/numbers.h"
+#include "src/capi/handles.h"
+#include "src/capi/status.h"
+
+using namespace geodesic;
+
+namespace {
+
+// Borrows scratch of the index for one call.
+class BorrowedQuery {
+public:
+    explicit BorrowedQuery(const geoidx& index) : pool_(index.queries), query_(pool_.take()) {}
+    ~BorrowedQuery() { pool_.give_back(query_); }
+    BorrowedQuery(const BorrowedQuery&) = delete;
+    BorrowedQuery& operator=(const BorrowedQuery&) = delete;
+
+    Query* operator->() const { return query_; }
+
+private:
+    QueryPool& pool_;
+    Query* query_;
+};
+
+void check_msad(const uint32_t* sources, const float* distances) {
+    require(sources, "sources is NULL");
+    require(distances, "distances is NULL");
+}
+
+}
+
+geoidx_status geoidx_sssd(const geoidx* index, uint32_t source, uint32_t target, float* distance) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        require(distance, "distance is NULL");
+        *distance = BorrowedQuery(*index)->sssd(source, target);
+    });
+}
+
+geoidx_status geoidx_sssd_batch(const geoidx* index, const uint32_t* source_target_pairs, uint64_t pair_count,
+                                float* distances) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        require(pair_count == 0 || source_target_pairs, "source_target_pairs is NULL");
+        require(pair_count == 0 || distances, "distances is NULL");
+        BorrowedQuery(*index)->sssd_each({source_target_pairs, 2 * pair_count}, {distances, pair_count});
+    });
+}
+
+geoidx_status geoidx_msad(const geoidx* index, const uint32_t* sources, uint32_t source_count,
+                          float* distances, uint32_t distance_count) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        check_msad(sources, distances);
+        BorrowedQuery(*index)->msad({sources, source_count}, INFINITE, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_ssad_batch(const geoidx* index, const uint32_t* sources, uint32_t source_count,
+                                float* distances, uint64_t distance_count) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        check_msad(sources, distances);
+        BorrowedQuery(*index)->ssad_each({sources, source_count}, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_create(const geoidx* index, geoidx_query** out) {
+    if (out) *out = nullptr;
+    return guarded([&] {
+        require(out, "out is NULL");
+        require(index, "index is NULL");
+        auto& memory =
+            const_cast<geoidx*>(index)->memory; // a memory resource is not part of the index's value
+        *out = std::pmr::polymorphic_allocator<>(&memory).new_object<geoidx_query>(*index, memory);
+    });
+}
+
+void geoidx_query_close(geoidx_query* query) {
+    if (query) std::pmr::polymorphic_allocator<>(&query->memory).delete_object(query);
+}
+
+geoidx_status geoidx_query_sssd(geoidx_query* query, uint32_t source, uint32_t target, float* distance) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(distance, "distance is NULL");
+        *distance = query->query.sssd(source, target);
+    });
+}
+
+geoidx_status geoidx_query_msad(geoidx_query* query, const uint32_t* sources, uint32_t source_count,
+                                float* distances, uint32_t distance_count) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        check_msad(sources, distances);
+        query->query.msad({sources, source_count}, INFINITE, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_msad_within(geoidx_query* query, const uint32_t* sources, uint32_t source_count,
+                                       float radius, float* distances, uint32_t distance_count) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        check_msad(sources, distances);
+        query->query.msad({sources, source_count}, radius, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t threads) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        query->query.set_threads(threads);
+    });
+}
+
+geoidx_status geoidx_query_ssad_batch(geoidx_query* query, const uint32_t* sources, uint32_t source_count,
+                                      float* distances, uint64_t distance_count) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        check_msad(sources, distances);
+        query->query.ssad_each({sources, source_count}, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t source) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        query->query.prepare(source);
+    });
+}
+
+geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32_t* targets, uint64_t target_count,
+                                    float* distances) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(target_count == 0 || targets, "targets is NULL");
+        require(target_count == 0 || distances, "distances is NULL");
+        for (uint64_t i = 0; i < target_count; ++i) distances[i] = query->query.prepared_sssd(targets[i]);
+    });
+}
