@@ -9,7 +9,7 @@ packages=(
     libcgal-dev libgmp-dev libmpfr-dev
     clang-14 libclang-rt-14-dev clang-format-14
     glmark2-data abigail-tools
-    python3-numpy python3-venv python3-pip python3-setuptools python3-wheel mypy
+    python3-numpy python3-venv python3-pip python3-setuptools python3-wheel python3-xxhash python3-zstandard mypy
     mono-devel
 )
 

@@ -1,0 +1,282 @@
+"""Answers of the overlay engine, by the part "Distances of the overlay engine" of format/SPEC.md.
+
+All is single precision, as the document has it: f below.
+"""
+
+import copy
+
+import numpy
+
+from several_sources import SeveralSources
+
+f = numpy.float32
+INFINITE = f(numpy.inf)
+LARGEST, NO_PATH = 32766, 32767
+WHOLE = 400  # a border of more vertices is not reached by a descent in SSSD
+
+
+class Border:
+    """The border of a patch: its segments begin at each position; NaN lengths are gaps."""
+
+    def __init__(self, index, patch):
+        self.vertices = index.border[patch]
+        size = len(self.vertices)
+        has = index.segment_end[patch] != 0xFFFFFFFF
+        self.second = numpy.where(has, index.segment_end[patch], 0).astype(int)
+        self.length = numpy.where(has, index.segment_length[patch], f("nan")).astype(f)
+        self.longest = numpy.max(self.length[has], initial=f(0))
+        before = numpy.full(size, -1)
+        before[self.second[has]] = numpy.flatnonzero(has)
+        after = numpy.where(has, self.second, -1)
+        step = lambda table, at: numpy.where(at >= 0, table[at], -1)
+        # Two segments on each side of each position, by where they begin, or -1.
+        self.near = numpy.stack([step(before, before), before, numpy.where(has, numpy.arange(size), -1),
+                                 numpy.where(step(after, after) >= 0, after, -1)], axis=1) if size else None
+
+    def reach(self, source):
+        """Up to which distance all segments count: of those that begin where the source is known."""
+        lengths = self.length[source < INFINITE]
+        return f(5) * numpy.max(lengths[~numpy.isnan(lengths)], initial=f(0))
+
+    def with_gaps(self, sources):
+        """Without the segments whose ends are nearest to different sources."""
+        seen = copy.copy(self)
+        seen.length = numpy.where(sources == sources[self.second], self.length, f("nan"))
+        return seen
+
+
+def place(first, second, length):
+    """Where a point lies that is so far from the ends of a segment: along it, and off it."""
+    along = (first - second) * (first + second) * (f(0.5) / length) + f(0.5) * length
+    return along, numpy.sqrt((first - along) * (first + along))
+
+
+def straight(border, source, target, segments=None):
+    """The straightened ways over segments, by where these begin, from distances of both sides."""
+    at = numpy.arange(len(border.vertices)) if segments is None else segments
+    length = numpy.where(at >= 0, border.length[at], f("nan"))
+    rows = None if target.ndim == 1 else numpy.arange(len(target))[:, None]
+    of = lambda ends: target[ends] if rows is None else target[rows, ends]
+    foot, height = place(source[at], source[border.second[at]], length)
+    to_foot, to_height = place(of(at), of(border.second[at]), length)
+    off, along = height + to_height, foot - to_foot
+    crossing = foot * to_height + to_foot * height
+    passes = (crossing > 0) & (length * off - crossing > 0)
+    return numpy.where(passes, numpy.sqrt(along * along + off * off), INFINITE)
+
+
+def steps_of(distance, nearest, quantum):
+    """Rounded distances; what is not reached is more than any sum."""
+    scale = f(1) / quantum if quantum > 0 else f(0)
+    steps = numpy.minimum((distance - nearest) * scale + f(0.5), f(LARGEST))
+    return numpy.where(distance < INFINITE, numpy.trunc(steps), 2 * NO_PATH)
+
+
+def decoded(codes, quantum):
+    return numpy.where(codes < NO_PATH, codes * quantum, INFINITE).astype(f)
+
+
+def middles(first, second, length):
+    return numpy.sqrt(f(0.5) * (first * first + second * second) - f(0.25) * (length * length))
+
+
+class OverlayEngine:
+    """Overlay tables have a row for each overlay position of a patch, codes as float32, NO_PATH without a path."""
+
+    def __init__(self, index):
+        self.index = index
+        self.quantum = index.quantum.astype(f)
+        self.borders = [Border(index, patch) for patch in range(index.patch_count)]
+        clean = lambda table: numpy.where(numpy.isinf(table), f(NO_PATH), table)
+        self.tables = [clean(table) for table in index.overlay_table]
+        self.leaf_rows = {leaf: clean(index.border_internal[leaf].T) for leaf in index.leaves}
+        self.internal = {leaf: clean(index.internal[leaf]) for leaf in index.leaves}
+        self.overlays = [index.overlay(patch) for patch in range(index.inner_count)]
+        self.position = [{number: i for i, number in enumerate(overlay)} for overlay in self.overlays]
+        self.labels = {}
+
+    decoded = staticmethod(decoded)
+
+    # ---- Hops
+
+    def rows_up(self, patch):
+        """From the parent's overlay to the border of a patch."""
+        parent = self.index.parent[patch]
+        return self.tables[parent][:, [self.position[parent][v] for v in self.borders[patch].vertices]]
+
+    def rows_down(self, patch):
+        """From what lies one hop inside of a patch to its border."""
+        if patch >= self.index.inner_count:
+            return self.leaf_rows[patch]
+        border = len(self.borders[patch].vertices)
+        return self.tables[patch][border:, :border]
+
+    def over_positions(self, source, rows, quantum):
+        """Where sums of codes tell nothing: by distances, over positions only."""
+        sums = source[None, :] + decoded(rows, quantum)
+        return sums.argmin(axis=1), sums.min(axis=1)
+
+    def cross(self, border, source, rows, quantum):
+        """Over the position with the least sum of codes, and the segments next to it: the ways, the positions."""
+        if len(source) == 0 or not source.min() < INFINITE:
+            return numpy.full(len(rows), INFINITE), numpy.zeros(len(rows), int)
+        sums = steps_of(source, source.min(), quantum)[None, :] + rows
+        best, known = sums.argmin(axis=1), sums.min(axis=1) < NO_PATH
+        if not known.all():
+            best[~known] = self.over_positions(source, rows[~known], quantum)[0]
+        target = decoded(rows, quantum)
+        over = source[best] + target[numpy.arange(len(rows)), best]
+        ways = straight(border, source, target, border.near[best]).min(axis=1)
+        return self.cross_near(border, source, target, numpy.minimum(over, ways)), best
+
+    def hop_up(self, patch, source, rows, quantum):
+        return self.cross(self.borders[patch], source, rows, quantum)[0]
+
+    def hop_down(self, patch, source, seen=None):
+        """Over positions and the middles of segments."""
+        border, rows, quantum = seen or self.borders[patch], self.rows_down(patch), self.quantum[patch]
+        if len(source) == 0 or not source.min() < INFINITE:
+            return numpy.full(len(rows), INFINITE)
+        middle = middles(source, source[border.second], border.length)
+        middle = numpy.where(numpy.isnan(middle), INFINITE, middle)
+        nearest = min(source.min(), middle.min())
+        over = steps_of(source, nearest, quantum)[None, :] + rows
+        across = steps_of(middle, nearest, quantum)[None, :] + self.middle_rows(patch)
+        least = numpy.minimum(over.min(axis=1), across.min(axis=1))
+        out = nearest + least.astype(f) * quantum
+        if not (least < NO_PATH).all():
+            lost = least >= NO_PATH
+            out[lost] = self.over_positions(source, rows[lost], quantum)[1]
+        return self.cross_near(border, source, decoded(rows, quantum), out)
+
+    def middle_rows(self, patch):
+        border, rows = self.borders[patch], self.rows_down(patch)
+        second = rows[:, border.second]
+        middle = middles(rows, second, border.length / self.quantum[patch])
+        reached = (numpy.maximum(rows, second) < NO_PATH) & (middle >= 0)
+        return numpy.where(reached, numpy.trunc(middle + f(0.5)), f(NO_PATH))
+
+    def cross_near(self, border, source, target, ways):
+        """Those that are near take the least way over any position or segment."""
+        reach = border.reach(source)
+        near = ways <= reach
+        if source.min() <= reach and near.any():
+            least = self.over_all(border, source, target[near])
+            ways[near] = numpy.where(least < INFINITE, least, ways[near])
+        return ways
+
+    def over_all(self, border, source, target):
+        over = (source[None, :] + target).min(axis=1)
+        return numpy.minimum(over, straight(border, source, target).min(axis=1))
+
+    # ---- MSAD
+
+    def ways_from(self, source):
+        """Numbers, and their distances by the table of the source."""
+        index, entry = self.index, int(self.index.entry[source])
+        if index.is_border(source):
+            numbers, codes = self.overlays[entry], self.tables[entry][self.position[entry][source]]
+        else:
+            own = source - index.inside[entry].start
+            numbers = numpy.concatenate([index.border[entry], numpy.array(index.inside[entry])])
+            codes = numpy.concatenate([self.leaf_rows[entry][own], self.internal[entry][own]])
+        return numbers, numpy.where(numbers == source, f(0), decoded(codes, self.quantum[entry]))
+
+    def climb(self, patch, distance):
+        parent = self.index.parent[patch]
+        numbers, inside = self.overlays[parent], self.borders[patch].vertices
+        ways = self.hop_up(patch, distance[inside], self.rows_up(patch), self.quantum[parent])
+        ways[[self.position[parent][v] for v in inside]] = INFINITE
+        distance[numbers] = numpy.minimum(distance[numbers], ways)
+
+    def ssad(self, source):
+        index = self.index
+        distance = numpy.full(index.vertex_count, INFINITE)
+        numbers, ways = self.ways_from(source)
+        distance[numbers] = ways
+        around = list(index.ways_up(int(index.entry[source])))
+        for patch in around[:-1]:
+            self.climb(patch, distance)
+        for patch in range(1, index.patch_count):
+            if patch not in around and len(index.inside[patch]):
+                distance[list(index.inside[patch])] = self.hop_down(patch, distance[self.borders[patch].vertices])
+        return distance
+
+    def msad(self, sources):
+        return self.ssad(sources[0]) if len(sources) == 1 else SeveralSources(self, sources).msad()
+
+    # ---- SSSD
+
+    def table_distance(self, patch, a, b):
+        position = self.position[patch]
+        return decoded(self.tables[patch][position[a], position[b]], self.quantum[patch])
+
+    def from_inside(self, number, patch):
+        """Distances of a vertex to the border of a patch around it."""
+        index, entry = self.index, int(self.index.entry[number])
+        if patch == entry:
+            return decoded(self.rows_down(patch)[number - index.inside[patch].start], self.quantum[patch])
+        if len(self.borders[patch].vertices) <= WHOLE:
+            return self.label(number, patch)
+        for before in index.ways_up(entry):
+            if index.parent[before] == patch:
+                break
+        rows = self.rows_up(before)[: len(self.borders[patch].vertices)]
+        return self.hop_up(before, self.from_inside(number, before), rows, self.quantum[patch])
+
+    def label(self, number, patch):
+        """Down from each vertex of the border, rounded to the quantum of the patch's parent."""
+        entry = int(self.index.entry[number])
+        if (entry, patch) not in self.labels:
+            self.labels[entry, patch] = self.label_table(entry, patch)
+        distances = self.labels[entry, patch][:, number - self.index.inside[entry].start]
+        quantum = self.quantum[self.index.parent[patch]]
+        least = distances.min(initial=INFINITE)
+        if not least < INFINITE or not quantum > 0:
+            return numpy.where(distances < INFINITE, f(0), INFINITE)
+        scale = f(1) / quantum
+        nearest = numpy.trunc(numpy.minimum(least * scale, f(2**30)))
+        steps = numpy.trunc(numpy.clip(distances * scale - nearest + f(0.5), 0, LARGEST))
+        return numpy.where(distances < INFINITE, (nearest + steps) * quantum, INFINITE).astype(f)
+
+    def label_table(self, entry, patch):
+        index, table = self.index, []
+        way_down = list(index.ways_up(entry))
+        way_down = way_down[: way_down.index(patch)][::-1]
+        distance = numpy.full(index.vertex_count, INFINITE)
+        for i in range(len(self.borders[patch].vertices)):
+            distance[self.overlays[patch]] = decoded(self.tables[patch][i], self.quantum[patch])
+            for child in way_down:
+                distance[list(index.inside[child])] = self.hop_down(child, distance[self.borders[child].vertices])
+            table.append(distance[list(index.inside[entry])])
+        return numpy.array(table).reshape(len(table), len(index.inside[entry]))
+
+    def sssd(self, a, b):
+        if a == b:
+            return f(0)
+        index = self.index
+        low, high = sorted((a, b))
+        around = [list(index.ways_up(int(index.entry[number]))) for number in (low, high)]
+        top = max(set(around[0]) & set(around[1]))
+        if top >= index.inner_count:
+            first = index.inside[top].start
+            return decoded(self.internal[top][low - first, high - first], self.quantum[top])
+        child = [None if way[0] == top else way[way.index(top) - 1] for way in around]
+        if child[0] is None and child[1] is None:
+            return self.table_distance(top, low, high)
+        if child[1] is None:
+            low, high, child = high, low, child[::-1]
+        # Now `high` lies inside of a child.
+        patch, border = child[1], self.borders[child[1]]
+        target = self.from_inside(high, patch)
+        if child[0] is None:
+            at = numpy.flatnonzero(border.vertices == low)
+            if at.size and (patch == int(index.entry[high]) or len(border.vertices) <= WHOLE):
+                if target[at[0]] < INFINITE:
+                    return target[at[0]]
+            source = decoded(self.rows_up(patch)[self.position[top][low]], self.quantum[top])
+        else:
+            rows = self.rows_up(child[0])[[self.position[top][v] for v in border.vertices]]
+            source = self.hop_up(child[0], self.from_inside(low, child[0]), rows, self.quantum[top])
+        sums = source + target
+        return min(sums.min(initial=INFINITE), straight(border, source, target).min(initial=INFINITE))

@@ -1,0 +1,296 @@
+"""An index file, read by format/SPEC.md alone: nothing here was taken from the library's sources.
+
+It reads what a valid file holds and checks the header, the padding and the checksums; the other refusals of the
+document are tested elsewhere.
+"""
+
+import struct
+import zlib
+
+import numpy
+import xxhash
+import zstandard
+
+MAGIC = bytes.fromhex("89474944580D0A1A")
+RAW, ZSTD, PNG = 0, 1, 2
+NONE = 0xFFFFFFFF
+GRAPH, OVERLAY = 0, 1
+
+
+class Refused(Exception):
+    pass
+
+
+def require(condition, message):
+    if not condition:
+        raise Refused(message)
+
+
+# ---- The container
+
+
+class Section:
+    def __init__(self, codec, stored, raw_size):
+        self.codec, self.stored, self.raw_size = codec, stored, raw_size
+
+    def bytes(self):
+        if self.codec == RAW:
+            return self.stored
+        require(self.codec == ZSTD, "a section of bytes is png")
+        return zstandard.ZstdDecompressor().decompress(self.stored, max_output_size=self.raw_size)
+
+    def matrices(self, shapes):
+        """One array for each (rows, columns), in order; matrices of nothing are not stored."""
+        shapes = [shape for shape in shapes if 0 not in shape]
+        if self.codec == PNG:
+            return self._images(shapes)
+        entries, matrices = numpy.frombuffer(self.bytes(), "<f4"), []
+        for rows, columns in shapes:
+            matrices.append(entries[: rows * columns].reshape(rows, columns))
+            entries = entries[rows * columns :]
+        require(len(entries) == 0, "entries are left over")
+        return matrices
+
+    def _images(self, shapes):
+        (count,) = struct.unpack_from("<I", self.stored)
+        require(count == len(shapes), "another number of matrices")
+        lengths = struct.unpack_from(f"<{count}Q", self.stored, 4)
+        at, matrices = 4 + 8 * count, []
+        for length, shape in zip(lengths, shapes):
+            matrices.append(decode_png(self.stored[at : at + length], shape))
+            at += length
+        require(at == len(self.stored), "streams do not fill their section")
+        return matrices
+
+
+def read_sections(content):
+    require(content[:8] == MAGIC, "not an index")
+    major, _, _, _, count, file_size, fingerprint, checksum = struct.unpack_from("<HHIIIQQQ", content, 8)
+    require(major == 1 and file_size == len(content), "another version or size")
+    head = bytearray(content[: 48 + 48 * count])
+    head[40:48] = bytes(8)
+    require(xxhash.xxh3_64_intdigest(bytes(head)) == checksum, "the header's checksum does not match")
+    sections, end = {}, len(head)
+    for i in range(count):
+        tag, codec, _, _, offset, size, raw_size, checksum = struct.unpack_from("<4sIIIQQQQ", content, 48 + 48 * i)
+        require(offset == (end + 63) // 64 * 64 and not any(content[end:offset]), "a section out of its place")
+        stored, end = content[offset : offset + size], offset + size
+        require(xxhash.xxh3_64_intdigest(stored) == checksum, f"the checksum of {tag} does not match")
+        sections[tag.decode()] = Section(codec, stored, raw_size)
+    require(end == file_size, "bytes behind the last section")
+    return sections, fingerprint
+
+
+# ---- PNG
+
+
+def decode_png(stream, shape):
+    """The matrix of float32 in an RGBA image of 8 bits a channel."""
+    data, at = b"", 8
+    while at < len(stream):
+        length, kind = struct.unpack_from(">I4s", stream, at)
+        body = stream[at + 8 : at + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, color, _, _, interlaced = struct.unpack(">IIBBBBB", body)
+            require((height, width) == shape and (depth, color, interlaced) == (8, 6, 0), "another kind of image")
+        if kind == b"IDAT":
+            data += body
+        at += 12 + length
+    lines = unfilter(zlib.decompress(data), *shape)
+    return lines.reshape(shape[0], shape[1], 4).view(">f4")[..., 0].astype("f4")
+
+
+def unfilter(data, height, width):
+    stride = 4 * width
+    lines, before = numpy.empty((height, stride), "u1"), numpy.zeros(stride, "u1")
+    for r in range(height):
+        kind = data[r * (stride + 1)]
+        line = numpy.frombuffer(data, "u1", stride, r * (stride + 1) + 1)
+        lines[r] = before = unfilter_line(kind, line, before)
+    return lines
+
+
+def unfilter_line(kind, line, above):
+    if kind == 0:
+        return line
+    if kind == 1:
+        return line.reshape(-1, 4).cumsum(axis=0, dtype="u1").reshape(-1)
+    if kind == 2:
+        return line + above
+    predict = average if kind == 3 else paeth
+    # Four zero bytes stand left of the line, as the format wants it.
+    out, above = bytearray(4), bytes(4) + above.tobytes()
+    for i, value in enumerate(line.tobytes(), 4):
+        out.append(value + predict(out[i - 4], above[i], above[i - 4]) & 0xFF)
+    return numpy.frombuffer(bytes(out[4:]), "u1")
+
+
+def average(left, up, _):
+    return (left + up) // 2
+
+
+def paeth(left, up, up_left):
+    guess = left + up - up_left
+    return min((left, up, up_left), key=lambda byte: abs(guess - byte))
+
+
+# ---- The sections of an index
+
+
+class Fields:
+    """Arrays that follow each other without padding."""
+
+    def __init__(self, content):
+        self.content, self.at = content, 0
+
+    def take(self, kind, count):
+        array = numpy.frombuffer(self.content, kind, count, self.at)
+        self.at += array.nbytes
+        return array
+
+    def rest(self, kind):
+        return self.take(kind, (len(self.content) - self.at) // numpy.dtype(kind).itemsize)
+
+
+def unfold(matrix, size):
+    """The symmetric table of a folded triangle, with 0 on its diagonal."""
+    table = numpy.zeros((size, size), "f4")
+    if size < 2:
+        return table
+    for r, line in enumerate(matrix):
+        long = size - 1 - r
+        short = r if size % 2 == 0 else r + 1
+        table[long, :long] = line[:long]
+        if short != long:
+            table[short, :short] = line[long : long + short]
+    return table + table.T
+
+
+class Index:
+    """What a file holds: the hierarchy, whose each vertex number is, and the tables of its engine."""
+
+    def __init__(self, path):
+        with open(path, "rb") as file:
+            self.sections, self.fingerprint = read_sections(file.read())
+        meta = self.sections["META"].bytes()
+        require(len(meta) == 116, "META of another size")
+        (self.id_count,) = struct.unpack_from("<Q", meta)
+        (self.engine,) = struct.unpack_from("<I", meta, 104)
+        self._read_hierarchy()
+        self._read_vertices()
+        self._read_borders()
+        self._read_leaf_tables()
+        if self.engine == GRAPH:
+            self._read_border_tables()
+        else:
+            self._read_overlays()
+
+    def _read_hierarchy(self):
+        fields = Fields(self.sections["HIER"].bytes())
+        (self.levels,), (self.inner_count,) = fields.take("<u4", 1), fields.take("<u8", 1)
+        self.parent, self.children = [None], []
+        for patch, count in enumerate(fields.take("<u4", int(self.inner_count))):
+            first = len(self.parent)
+            self.children.append(range(first, first + int(count)))
+            self.parent += [patch] * int(count)
+        self.inner_count, self.patch_count = int(self.inner_count), len(self.parent)
+
+    def _read_vertices(self):
+        fields = Fields(self.sections["VERT"].bytes())
+        self.vertex_count = int(fields.take("<u8", 1)[0])
+        self.number_of_id = fields.take("<u4", self.id_count)
+
+    def _read_borders(self):
+        fields = Fields(self.sections["BORD"].bytes())
+        counts = fields.take("<u4", self.patch_count).astype(int)
+        sizes = numpy.insert(fields.take("<u4", self.patch_count - 1), 0, 0).astype(int)
+        ends = numpy.cumsum(counts)
+        # Of an inner patch, the numbers that it owns; of a leaf, its internal vertices.
+        self.inside = [range(end - count, end) for end, count in zip(ends, counts)]
+        self.border_vertex_count = self.inside[self.inner_count - 1].stop
+        self.border_begin = numpy.insert(numpy.cumsum(sizes), 0, 0)
+        numbers = fields.rest("<u4").astype(int)
+        self.border = [numbers[a:b] for a, b in zip(self.border_begin, self.border_begin[1:])]
+        self.entry = numpy.repeat(numpy.arange(self.patch_count), counts)
+        self.leaves = range(self.inner_count, self.patch_count)
+
+    def is_border(self, number):
+        return number < self.border_vertex_count
+
+    def overlay(self, patch):
+        return numpy.concatenate([self.border[patch], numpy.arange(*self._range(patch))])
+
+    def _range(self, patch):
+        return self.inside[patch].start, self.inside[patch].stop
+
+    def ways_up(self, patch):
+        """The patch and all around it, the root last."""
+        while patch is not None:
+            yield patch
+            patch = self.parent[patch]
+
+    # ---- Tables
+
+    def _folded(self, tag, sizes):
+        shapes = [(n // 2, n - 1) if n % 2 == 0 else ((n - 1) // 2, n) for n in sizes]
+        matrices = iter(self.sections[tag].matrices([s if n > 1 else (0, 0) for s, n in zip(shapes, sizes)]))
+        return [unfold(next(matrices) if n > 1 else None, n) for n in sizes]
+
+    def _read_leaf_tables(self):
+        shapes = [(len(self.border[leaf]), len(self.inside[leaf])) for leaf in self.leaves]
+        matrices = iter(self.sections["BVIV"].matrices(shapes))
+        tables = [numpy.zeros(shape, "f4") if 0 in shape else next(matrices) for shape in shapes]
+        self.border_internal = dict(zip(self.leaves, tables))
+        internal = self._folded("IVIV", [len(self.inside[leaf]) for leaf in self.leaves])
+        self.internal = dict(zip(self.leaves, internal))
+
+    def _read_border_tables(self):
+        sizes = [len(border) for border in self.border[1:]]
+        self.border_table = dict(enumerate(self._folded("BVBV", sizes), 1))
+
+    def _read_overlays(self):
+        self.quantum = Fields(self.sections["QUAN"].bytes()).rest("<f4")
+        fields = Fields(self.sections["SEGM"].bytes())
+        size = self.border_begin[-1]
+        ends, lengths = fields.take("<u4", size), fields.take("<f4", size)
+        begin = self.border_begin
+        self.segment_end = [ends[a:b] for a, b in zip(begin, begin[1:])]
+        self.segment_length = [lengths[a:b] for a, b in zip(begin, begin[1:])]
+        self._read_overlay_tables()
+
+    def _read_overlay_tables(self):
+        shapes = []
+        for patch in range(self.inner_count):
+            owned = len(self.inside[patch])
+            shapes.append((owned, len(self.border[patch])))
+            shapes.append(((owned // 2, owned - 1) if owned % 2 == 0 else ((owned - 1) // 2, owned)))
+            if owned < 2:
+                shapes[-1] = (0, 0)
+        matrices = iter(self.sections["OVOV"].matrices(shapes))
+        tables = [None if 0 in shape else next(matrices) for shape in shapes]
+        self.overlay_table = []
+        for patch in range(self.inner_count):
+            self.overlay_table.append(self._overlay_table(patch, *tables[2 * patch : 2 * patch + 2]))
+
+    def _overlay_table(self, patch, to_border, folded):
+        border, owned = len(self.border[patch]), len(self.inside[patch])
+        table = numpy.zeros((border + owned, border + owned), "f4")
+        table[border:, border:] = unfold(folded, owned)
+        if to_border is not None:
+            table[border:, :border], table[:border, border:] = to_border, to_border.T
+        if patch:
+            table[:border, :border] = self._converted(patch)
+        return table
+
+    def _converted(self, patch):
+        """The codes of two vertices on the border of a patch, from the table of its parent."""
+        parent = self.parent[patch]
+        position = {number: i for i, number in enumerate(self.overlay(parent))}
+        at = [position[number] for number in self.border[patch]]
+        codes = self.overlay_table[parent][numpy.ix_(at, at)].astype(float)
+        ours, theirs = float(self.quantum[patch]), float(self.quantum[parent])
+        if ours == 0:
+            return codes
+        with numpy.errstate(invalid="ignore"):
+            steps = numpy.clip(numpy.floor(codes * theirs / ours + 0.5), 1, 32766)
+        return numpy.where((codes == 0) | numpy.isinf(codes), codes, steps)

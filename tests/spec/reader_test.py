@@ -1,0 +1,176 @@
+"""Holds the library's answers against those of a reader written from format/SPEC.md: reader_test.py TOOL FOLDER [MESHES]
+
+Each mesh is built and asked with the command line tool. MESHES: a folder with spot.obj, which is used if it is there.
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import unittest
+
+import numpy
+
+from graph_engine import GraphEngine
+from overlay_engine import OverlayEngine
+from reader import NONE, OVERLAY, Index
+
+TOOL, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
+MESHES = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
+TOLERANCE = 1e-5
+# SSSD of the overlay engine: the document's answer is the shortest way over all of a border, the library measures a
+# few ways that samples of the border tell, and may lose the shortest one. This share of pairs may be longer by more
+# than TOLERANCE, none by more than LOST_WAY. No answer may be shorter.
+LOST_SHARE, LOST_WAY = 0.03, 0.01
+
+
+def torus(around, across, bumps):
+    """A torus with bumps, of which no two vertices lie alike."""
+    u, v = numpy.meshgrid(numpy.arange(around) * 2 * numpy.pi / around, numpy.arange(across) * 2 * numpy.pi / across)
+    small = 0.5 + bumps * numpy.sin(3 * u + 2 * v) * numpy.cos(2 * u - v)
+    ring = 1.3 + small * numpy.cos(v)
+    points = numpy.stack([ring * numpy.cos(u), ring * numpy.sin(u), small * numpy.sin(v)], axis=-1).reshape(-1, 3)
+    at = numpy.arange(around * across).reshape(across, around)
+    right, up = numpy.roll(at, -1, axis=1), numpy.roll(at, -1, axis=0)
+    both = numpy.roll(right, -1, axis=0)
+    corners = [numpy.stack(three, axis=-1).reshape(-1, 3) for three in ((at, right, both), (at, both, up))]
+    return points, numpy.concatenate(corners)
+
+
+def sheet(size, origin):
+    """A jagged sheet with a boundary."""
+    x, y = numpy.meshgrid(numpy.arange(size) / size, numpy.arange(size) / size)
+    points = numpy.stack([x + origin + 0.02 * numpy.sin(17 * y), y, 0.1 * numpy.sin(9 * x * y)], axis=-1).reshape(-1, 3)
+    at = numpy.arange(size * size).reshape(size, size)
+    a, b, c, d = at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]
+    return points, numpy.concatenate([numpy.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))])
+
+
+def write_procedural(path):
+    """A torus, a sheet that no path leads to, an id that no triangle uses and one that repeats another's position."""
+    parts = [torus(40, 20, 0.08), sheet(14, 4.0)]
+    points = numpy.concatenate([parts[0][0], parts[1][0], [[9, 9, 9]], parts[0][0][:1]])
+    triangles = numpy.concatenate([parts[0][1], parts[1][1] + len(parts[0][0])])
+    triangles[-1] = [len(points) - 1, triangles[0][1], triangles[0][2]]
+    lines = ["OFF", f"{len(points)} {len(triangles)} 0"]
+    lines += [" ".join(map(repr, map(float, point))) for point in points]
+    lines += [" ".join(map(str, [3, *triangle])) for triangle in triangles]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def run(*arguments):
+    return subprocess.run([TOOL, *map(str, arguments)], check=True, stdout=subprocess.PIPE).stdout
+
+
+class Subject:
+    """An index that the tool built, and the reader's engine on it."""
+
+    def __init__(self, mesh, name, *options):
+        self.path = FOLDER / f"{name}.geoidx"
+        run("build", mesh, "-o", self.path, *options)
+        self.index = Index(self.path)
+        self.engine = (OverlayEngine if self.index.engine == OVERLAY else GraphEngine)(self.index)
+
+    def msad_by_library(self, sources):
+        fields = FOLDER / "field.npy"
+        run("msad", self.path, *sources, "-o", fields)
+        return numpy.load(fields).astype(float)
+
+    def msad_by_reader(self, sources):
+        of_id = self.index.number_of_id
+        used = of_id != NONE
+        distance = numpy.full(len(of_id), numpy.inf)
+        numbers = sorted({int(of_id[source]) for source in sources if used[source]})
+        if numbers:
+            distance[used] = self.engine.msad(numbers)[of_id[used]]
+        distance[list(sources)] = 0
+        return distance
+
+    def sssd_by_library(self, pairs):
+        answers = json.loads(run("sssd", "--json", self.path, *pairs.ravel()))["pairs"]
+        return numpy.array([numpy.inf if a["distance"] is None else a["distance"] for a in answers])
+
+    def sssd_by_reader(self, pairs):
+        return numpy.array([self._pair(int(a), int(b)) for a, b in pairs])
+
+    def _pair(self, a, b):
+        numbers = [int(self.index.number_of_id[vertex]) for vertex in (a, b)]
+        if a == b:
+            return 0.0
+        return numpy.inf if NONE in numbers else float(self.engine.sssd(*numbers))
+
+
+def excess(library, reader):
+    """How much longer the library's answers are, relatively; both have a path to the same vertices."""
+    numpy.testing.assert_array_equal(numpy.isinf(library), numpy.isinf(reader))
+    numpy.testing.assert_array_equal(library == 0, reader == 0)
+    is_there = numpy.isfinite(reader) & (reader > 0)
+    return (library[is_there] - reader[is_there]) / reader[is_there]
+
+
+class ReaderTest(unittest.TestCase):
+    PAIRS = 150
+
+    def check(self, mesh, name, *options):
+        subject = Subject(mesh, name, *options)
+        random, count = numpy.random.default_rng(1), subject.index.id_count
+        # Enough levels for every step of the document: up over several, across, down over several.
+        self.assertGreaterEqual(subject.index.levels, 2)
+        sources = [[int(s)] for s in random.integers(count, size=8)] + [[0], [count - 1], [count - 2]]
+        sources += [random.integers(count, size=n).tolist() for n in (2, 3, 7, 20, 60)]
+        for several in sources:
+            with self.subTest(sources=several):
+                off = excess(subject.msad_by_library(several), subject.msad_by_reader(several))
+                self.assertLessEqual(numpy.abs(off).max(initial=0), TOLERANCE)
+        self.check_pairs(subject, self.pairs(subject, random))
+
+    def pairs(self, subject, random):
+        """Some anywhere, and some that are near each other."""
+        pairs = random.integers(subject.index.id_count, size=(self.PAIRS, 2)).tolist()
+        pairs += [[0, subject.index.id_count - 1], [0, subject.index.id_count - 2], [3, 3]]
+        for source in random.integers(subject.index.id_count, size=10).tolist():
+            nearest = numpy.argsort(subject.msad_by_reader([source]), kind="stable")
+            pairs += [[source, int(target)] for target in nearest[1:30:4]]
+        return numpy.array(pairs)
+
+    def check_pairs(self, subject, pairs):
+        off = excess(subject.sssd_by_library(pairs), subject.sssd_by_reader(pairs))
+        self.assertGreater(len(off), self.PAIRS // 2)
+        if subject.index.engine != OVERLAY:
+            self.assertLessEqual(numpy.abs(off).max(), TOLERANCE)
+            return
+        self.assertGreaterEqual(off.min(), -TOLERANCE)
+        self.assertLessEqual((off > TOLERANCE).mean(), LOST_SHARE)
+        self.assertLessEqual(off.max(), LOST_WAY)
+
+    def procedural(self, name, *options):
+        mesh = FOLDER / "procedural.off"
+        write_procedural(mesh)
+        self.check(mesh, f"procedural_{name}", "--patches", "4,3", *options)
+
+    def test_overlay_engine(self):
+        self.procedural("overlay", "--engine", "overlay")
+
+    def test_overlay_engine_without_segments(self):
+        self.procedural("edges", "--engine", "overlay", "--metric", "edges")
+
+    def test_graph_engine(self):
+        self.procedural("graph", "--engine", "graph")
+
+    def spot(self):
+        mesh = MESHES / "spot.obj" if MESHES else None
+        if not mesh or not mesh.exists():
+            self.skipTest("spot.obj is not there")
+        return mesh
+
+    def test_overlay_engine_on_spot(self):
+        self.check(self.spot(), "spot_overlay", "--engine", "overlay")
+
+    def test_graph_engine_on_spot(self):
+        self.check(self.spot(), "spot_graph", "--engine", "graph", "--patches", "5,5")
+
+
+if __name__ == "__main__":
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    numpy.seterr(invalid="ignore", divide="ignore")
+    unittest.main(argv=sys.argv[:1], verbosity=2)
