@@ -19,8 +19,9 @@ TOOL, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 MESHES = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
 TOLERANCE = 1e-5
 # SSSD of the overlay engine: the document's answer is the shortest way over all of a border, the library measures a
-# few ways that samples of the border tell, and may lose the shortest one. This share of pairs may be longer by more
-# than TOLERANCE, none by more than LOST_WAY. No answer may be shorter.
+# few ways that samples of the border tell, and may lose the shortest one. It does for 3 of 1,500 pairs anywhere on spot
+# (by up to 0.2 %) and 4 of 1,500 on another mesh (0.25 %), and for none of 1,200 near ones on either. This share of pairs
+# may be longer by more than TOLERANCE, none by more than LOST_WAY. No answer may be shorter.
 LOST_SHARE, LOST_WAY = 0.03, 0.01
 
 
@@ -118,6 +119,8 @@ class ReaderTest(unittest.TestCase):
         self.assertGreaterEqual(subject.index.levels, 2)
         sources = [[int(s)] for s in random.integers(count, size=8)] + [[0], [count - 1], [count - 2]]
         sources += [random.integers(count, size=n).tolist() for n in (2, 3, 7, 20, 60)]
+        for source in random.integers(count, size=8).tolist():
+            sources.append(self.near(subject, source, 4, 40, 12))
         for several in sources:
             with self.subTest(sources=several):
                 off = excess(subject.msad_by_library(several), subject.msad_by_reader(several))
@@ -129,9 +132,12 @@ class ReaderTest(unittest.TestCase):
         pairs = random.integers(subject.index.id_count, size=(self.PAIRS, 2)).tolist()
         pairs += [[0, subject.index.id_count - 1], [0, subject.index.id_count - 2], [3, 3]]
         for source in random.integers(subject.index.id_count, size=10).tolist():
-            nearest = numpy.argsort(subject.msad_by_reader([source]), kind="stable")
-            pairs += [[source, int(target)] for target in nearest[1:30:4]]
+            pairs += [[source, target] for target in self.near(subject, source, 1, 30, 4)]
         return numpy.array(pairs)
+
+    def near(self, subject, source, *those):
+        """Of all vertices by their distance, a slice."""
+        return numpy.argsort(subject.msad_by_reader([source]), kind="stable")[slice(*those)].tolist()
 
     def check_pairs(self, subject, pairs):
         off = excess(subject.sssd_by_library(pairs), subject.sssd_by_reader(pairs))
