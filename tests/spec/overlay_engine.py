@@ -266,17 +266,19 @@ class OverlayEngine:
             return self.table_distance(top, low, high)
         if child[1] is None:
             low, high, child = high, low, child[::-1]
-        # Now `high` lies inside of a child.
-        patch, border = child[1], self.borders[child[1]]
-        target = self.from_inside(high, patch)
-        if child[0] is None:
+        return self.meet(top, low, child[0], high, child[1])
+
+    def meet(self, top, low, low_child, high, patch):
+        """Over the border of a child of `top`, the one around `high`; `low` may be in no child."""
+        border, target = self.borders[patch], self.from_inside(high, patch)
+        if low_child is None:
             at = numpy.flatnonzero(border.vertices == low)
-            if at.size and (patch == int(index.entry[high]) or len(border.vertices) <= WHOLE):
-                if target[at[0]] < INFINITE:
-                    return target[at[0]]
+            is_known = patch == int(self.index.entry[high]) or len(border.vertices) <= WHOLE
+            if at.size and is_known and target[at[0]] < INFINITE:
+                return target[at[0]]
             source = decoded(self.rows_up(patch)[self.position[top][low]], self.quantum[top])
         else:
-            rows = self.rows_up(child[0])[[self.position[top][v] for v in border.vertices]]
-            source = self.hop_up(child[0], self.from_inside(low, child[0]), rows, self.quantum[top])
+            rows = self.rows_up(low_child)[[self.position[top][v] for v in border.vertices]]
+            source = self.hop_up(low_child, self.from_inside(low, low_child), rows, self.quantum[top])
         sums = source + target
         return min(sums.min(initial=INFINITE), straight(border, source, target).min(initial=INFINITE))

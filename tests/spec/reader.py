@@ -1,4 +1,4 @@
-"""An index file, read by format/SPEC.md alone: nothing here was taken from the library's sources.
+"""An index file, read as format/SPEC.md has it, without the library.
 
 It reads what a valid file holds and checks the header, the padding and the checksums; the other refusals of the
 document are tested elsewhere.
