@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 fail() { echo "FAILED: $1"; exit 1; }
 
 # mirrors FILE LINE: the file has this line, which a remark may follow.
-mirrors() { sed 's| *//.*||' "$1" | grep -qxF "$2" || fail "$1 does not say, as geoidx.h does: $2"; }
+mirrors() { sed 's| *//.*||' "$1" | grep -xF "$2" >/dev/null || fail "$1 does not say, as geoidx.h does: $2"; }
 
 version=$(scripts/version.sh)
 [[ $version =~ ^[0-9]+\.[0-9]+\.[0-9]+$ ]] || fail "scripts/version.sh prints '$version'"
