@@ -33,7 +33,7 @@ void OverlayBatch::mark_patches_around(std::span<const uint32_t> sources) {
 // Hops to the inner vertices of a patch, from the sources outside of it.
 void OverlayBatch::descend(uint32_t patch, std::span<float> distances) {
     const uint32_t count = numbering_.inner_size(patch);
-    if (count == 0 || !(sweep_.see(patch, distances.data()) < INFINITE)) return;
+    if (count == 0 || !(sweep_.begin(patch, distances.data()) < INFINITE)) return;
     float* const inside = distances.data() + size_t{numbering_.first_inner(patch)} * SOURCES;
     const uint32_t inside_sources = sources_inside_[patch];
     if (inside_sources == 0) {

@@ -3,7 +3,7 @@
 #include <memory_resource>
 #include <span>
 
-#include "src/overlay/kernels/crossing.h"
+#include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/ring_segments.h"
 #include "src/overlay/tables.h"
 
@@ -31,21 +31,21 @@ public:
     // Prepares the distances that were written. Returns whether the source reaches any of the places.
     bool finish();
 
-    // These may be called once finish() has returned true; CrossingKernel describes them.
-    bool is_near() const { return sight_.is_near(); }
-    float reach() const { return sight_.reach; }
+    // These may be called once finish() has returned true; Kernels describes them.
+    bool is_near() const { return range_.is_near(); }
+    float reach() const { return range_.reach; }
     void cross(Rows rows, float* distances, uint16_t* winners = nullptr) const {
-        kernel_.cross(border_, rows, distances, winners);
+        kernels_.cross(border_, rows, distances, winners);
     }
     void cross_near(Rows rows, float* distances) const {
-        if (is_near()) kernel_.cross_near(border_, sight_, rows, distances);
+        if (is_near()) kernels_.cross_near(border_, range_, rows, distances);
     }
 
 private:
-    const CrossingKernel& kernel_;
-    SeenBorder border_{};
+    const Kernels& kernels_;
+    BorderFromSource border_{};
     const int32_t* is_own_ = nullptr;
-    Sight sight_{};
+    NearRange range_{};
     Array<float> distance_;
     Array<int16_t> code_;
     Array<float> foot_, height_;

@@ -12,8 +12,8 @@
 namespace geodesic {
 
 // In the overlay engine a stored distance is a code: a whole number of steps of a quantum. This file has all
-// kinds of codes and all rounding of distances to them. (The kernels round many distances at a time, in the
-// same way as StepsOf.)
+// kinds of codes and all rounding of distances to them. (kernels/rounding.h rounds many distances at a
+// time, in the same way as StepsOf.)
 
 // An entry of a table: the distance of two vertices, in steps of the quantum of the table's patch.
 struct TableCode {
@@ -61,12 +61,18 @@ struct SourceCode {
     static_assert(TableCode::PADDING >= BLOCK, "the last row of a table is read in whole blocks");
 };
 
+// What a distance is multiplied by to be in steps of a quantum: finite, too, where the quantum is so small
+// that its inverse is not, because 0 times infinity is no number; 0 where the quantum is 0, and all codes are
+// the same.
+inline float steps_per_distance(float quantum) {
+    return quantum > 0 ? std::min(1 / quantum, std::numeric_limits<float>::max()) : 0;
+}
+
 // Rounds the distances of one source from a border to codes that count steps beyond the nearest vertex. That
 // vertex is at least nearest() whole steps away.
 class StepsOf {
 public:
-    StepsOf(std::span<const float> distances, float quantum)
-        : scale_(quantum > 0 ? std::min(1 / quantum, std::numeric_limits<float>::max()) : 0) {
+    StepsOf(std::span<const float> distances, float quantum) : scale_(steps_per_distance(quantum)) {
         float nearest = INFINITE;
         for (const float d : distances) nearest = std::min(nearest, d);
         if (nearest < INFINITE) nearest_ = static_cast<uint32_t>(std::min(nearest * scale_, 0x1p30f));

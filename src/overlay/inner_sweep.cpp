@@ -14,7 +14,7 @@ constexpr size_t BLOCK = SourceCode::BLOCK;
 }
 
 InnerSweep::InnerSweep(const OverlayIndex& index, size_t sources, std::pmr::memory_resource* memory)
-    : index_(index), numbering_(index.numbering), rings_(index.rings), kernel_(sweep_kernels().back()),
+    : index_(index), numbering_(index.numbering), rings_(index.rings), kernels_(runnable_kernels().back()),
       sources_(sources), distance_(memory), middle_distance_(memory), code_(memory), middle_(memory),
       field_(index, memory), rows_(memory), inside_(memory) {
     const size_t room = (SourceCode::whole_blocks(rings_.largest_size()) + BLOCK) * sources;
@@ -24,7 +24,7 @@ InnerSweep::InnerSweep(const OverlayIndex& index, size_t sources, std::pmr::memo
     inside_.resize(rows_.size());
 }
 
-float InnerSweep::see(uint32_t patch, const float* distances, const RingSegments& segments) {
+float InnerSweep::begin(uint32_t patch, const float* distances, const RingSegments& segments) {
     patch_ = patch;
     segments_ = segments;
     const uint32_t places = rings_.size(patch);
@@ -38,27 +38,28 @@ float InnerSweep::see(uint32_t patch, const float* distances, const RingSegments
                         distance_.data() + k * MOST_SOURCES);
     std::fill_n(distance_.data() + places * sources_, BLOCK * sources_, INFINITE);
     codes_ = {code_.data(), middle_.data(), nearest_.data()};
-    (sources_ == 1 ? kernel_.see : kernel_.see_each)(border_, codes_, middle_distance_.data());
+    (sources_ == 1 ? kernels_.prepare_sweep : kernels_.prepare_sweep_each)(border_, codes_,
+                                                                           middle_distance_.data());
     return *std::min_element(nearest_.begin(), nearest_.begin() + static_cast<std::ptrdiff_t>(sources_));
 }
 
 void InnerSweep::cross(float* inside) {
     const uint64_t first_row = index_.inner_row(patch_, 0);
-    const SweptRows rows{numbering_.inner_size(patch_), index_.hops.inner.data() + first_row,
+    const SweepRows rows{numbering_.inner_size(patch_), index_.hops.inner.data() + first_row,
                          index_.hops.inner_middles.data() + first_row};
-    (sources_ == 1 ? kernel_.sweep : kernel_.sweep_each)(border_, codes_, rows, inside);
+    (sources_ == 1 ? kernels_.sweep : kernels_.sweep_each)(border_, codes_, rows, inside);
     for (size_t i = 0; i < sources_; ++i)
         if (nearest_[i] <= index_.near[patch_]) cross_near(i, inside);
 }
 
 void InnerSweep::cross(float* inside, uint16_t* winners) {
-    see_from(0);
+    begin_from(0);
     field_.cross(inner_rows(), inside, winners);
     field_.cross_near(inner_rows(), inside);
 }
 
 // Prepares the border for one of the sources. Returns whether that source reaches it.
-bool InnerSweep::see_from(size_t source) {
+bool InnerSweep::begin_from(size_t source) {
     const uint32_t places = rings_.size(patch_);
     const auto border = field_.begin(rings_, rings_.begin[patch_], places, border_.quantum, segments_);
     for (size_t k = 0; k < places; ++k) border[k] = distance_[k * sources_ + source];
@@ -73,7 +74,7 @@ Rows InnerSweep::inner_rows() {
 }
 
 void InnerSweep::cross_near(size_t source, float* inside) {
-    if (!see_from(source) || !field_.is_near()) return;
+    if (!begin_from(source) || !field_.is_near()) return;
     const Rows rows = inner_rows();
     for (size_t r = 0; r < rows.size(); ++r) inside_[r] = inside[r * sources_ + source];
     field_.cross_near(rows, inside_.data());

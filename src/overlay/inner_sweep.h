@@ -4,7 +4,7 @@
 #include <span>
 
 #include "src/overlay/border_field.h"
-#include "src/overlay/kernels/sweep.h"
+#include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic {
@@ -13,7 +13,7 @@ namespace geodesic {
 // distances of a vertex from the `sources` sources lie side by side.
 class InnerSweep {
 public:
-    static constexpr size_t MOST_SOURCES = SweepKernel::SOURCES;
+    static constexpr size_t MOST_SOURCES = Kernels::SOURCES;
 
     // `sources` is 1 or MOST_SOURCES.
     InnerSweep(const OverlayIndex& index, size_t sources, std::pmr::memory_resource* memory);
@@ -21,36 +21,36 @@ public:
     // Chooses the patch and reads the distances of its border, distances[number * sources + i] from the i-th
     // source. Returns the least distance of any place or middle, which is infinite where no source reaches
     // the border.
-    float see(uint32_t patch, const float* distances) {
-        return see(patch, distances, segments_from(rings_, rings_.begin[patch]));
+    float begin(uint32_t patch, const float* distances) {
+        return begin(patch, distances, segments_from(rings_, rings_.begin[patch]));
     }
     // Does the same with other segments, which must stay valid until the hop is done.
-    float see(uint32_t patch, const float* distances, const RingSegments& segments);
+    float begin(uint32_t patch, const float* distances, const RingSegments& segments);
 
-    // Hops to the inner vertices of that patch; call it only if see() returned less than infinity. Writes
+    // Hops to the inner vertices of that patch; call it only if begin() returned less than infinity. Writes
     // inside[i * sources + source].
     void cross(float* inside);
 
     // Does the same for one source, straightened instead of over middles, which is slower, and tells over
-    // which place of the ring each way leads (see the winners of CrossingKernel).
+    // which place of the ring each way leads (see the winners of Kernels).
     void cross(float* inside, uint16_t* winners);
 
-    // The rows of the inner table of that patch. They stay valid until the next see().
+    // The rows of the inner table of that patch. They stay valid until the next begin().
     Rows inner_rows();
 
 private:
-    bool see_from(size_t source);
+    bool begin_from(size_t source);
     void cross_near(size_t source, float* inside);
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
     const Rings& rings_;
-    const SweepKernel& kernel_;
+    const Kernels& kernels_;
     size_t sources_;
     uint32_t patch_ = 0;
     RingSegments segments_{};
-    SweptBorder border_{};
-    SweptCodes codes_{};
+    BorderDistances border_{};
+    BorderCodes codes_{};
     Array<float> distance_, middle_distance_; // [place * sources + source], as are the codes
     Array<int16_t> code_, middle_;
     std::array<float, MOST_SOURCES> nearest_{};

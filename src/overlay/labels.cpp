@@ -92,7 +92,7 @@ private:
         const uint32_t count = numbering_.inner_size(patch);
         if (count == 0) return;
         float* const inside = distances_.data() + size_t{numbering_.first_inner(patch)} * SOURCES;
-        if (sweep_.see(patch, distances_.data()) < INFINITE)
+        if (sweep_.begin(patch, distances_.data()) < INFINITE)
             sweep_.cross(inside);
         else
             std::fill_n(inside, count * SOURCES, INFINITE);

@@ -13,7 +13,8 @@ namespace {
 // The source of each row's way, given the place of the border that the way leads over; NONE where there is no
 // way.
 void take_sources(std::span<const uint16_t> winners, const SeenSources& seen, uint32_t* source) {
-    for (const uint16_t winner : winners) *source++ = winner == SeenBorder::NO_PLACE ? NONE : seen.at(winner);
+    for (const uint16_t winner : winners)
+        *source++ = winner == BorderFromSource::NO_PLACE ? NONE : seen.at(winner);
 }
 
 }
@@ -81,7 +82,7 @@ void OverlayMsad::ascend(uint32_t child, std::span<float> distance) {
     const uint32_t parent = numbering_.parent[child];
     SeenSources& seen = top_.seen;
     seen.see(child, distance.data(), nearest_source_.data());
-    if (!ascent_.see(child, {distance.data()}, seen.segments())) return;
+    if (!ascent_.begin(child, {distance.data()}, seen.segments())) return;
     const std::span<float> outside = ascent_.cross(top_.winners.data());
     take_sources(std::span(top_.winners).first(outside.size()), seen, top_.source.data());
     cross_near(
@@ -104,7 +105,7 @@ void OverlayMsad::descend(uint32_t patch, float radius, std::span<float> distanc
     if (sources_below_[patch] == source_count_ || count == 0) return;
     SeenSources& seen = scratch.seen;
     seen.see(patch, distance.data(), nearest_source_.data());
-    const float nearest = scratch.sweep.see(patch, distance.data(), seen.segments());
+    const float nearest = scratch.sweep.begin(patch, distance.data(), seen.segments());
     if (!(nearest < INFINITE) || nearest > radius + index_.near[patch]) return;
     float* const inside = scratch.inside.data();
     if (seen.are_several() && patch < numbering_.first_leaf()) {

@@ -8,7 +8,7 @@ OuterCrossing::OuterCrossing(const OverlayIndex& index, std::pmr::memory_resourc
     : index_(index), numbering_(index.numbering), rings_(index.rings), field_(index, memory),
       rows_(index.numbering.largest_overlay_size(), memory), outside_(rows_.size(), memory) {}
 
-bool OuterCrossing::see(uint32_t child, DistanceField distance, const RingSegments& segments) {
+bool OuterCrossing::begin(uint32_t child, DistanceField distance, const RingSegments& segments) {
     child_ = child;
     const uint32_t first = rings_.begin[child], places = rings_.size(child);
     const auto border =

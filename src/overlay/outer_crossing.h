@@ -23,15 +23,15 @@ public:
 
     // Chooses the patch, a child of the patch whose overlay is wanted, and reads the distances of its border.
     // Returns whether the source reaches it.
-    bool see(uint32_t child, DistanceField distance) {
-        return see(child, distance, segments_from(rings_, rings_.begin[child]));
+    bool begin(uint32_t child, DistanceField distance) {
+        return begin(child, distance, segments_from(rings_, rings_.begin[child]));
     }
     // Does the same with other segments, which must stay valid until the hop is done.
-    bool see(uint32_t child, DistanceField distance, const RingSegments& segments);
+    bool begin(uint32_t child, DistanceField distance, const RingSegments& segments);
 
-    // Hops to each position of the parent's overlay; call it only if see() returned true. The result is
+    // Hops to each position of the parent's overlay; call it only if begin() returned true. The result is
     // infinite on the child's own border, whose distances are known. `winners` is described at
-    // CrossingKernel.
+    // Kernels.
     std::span<float> cross(uint16_t* winners = nullptr);
 
     // The rows of the outer table, one for each position of the parent's overlay.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/overlay/kernels/sweep.h"
+#include "src/overlay/codes.h"
 
 namespace geodesic {
 

@@ -54,7 +54,7 @@ void OverlaySsad::climb(uint32_t source, DistanceField distance) {
 
 // Hops to the overlay of the parent. The child's border keeps the distances it has.
 void OverlaySsad::ascend(uint32_t child, DistanceField distance) {
-    if (!ascent_.see(child, distance, segments_of(child))) return;
+    if (!ascent_.begin(child, distance, segments_of(child))) return;
     const std::span<const float> outside = ascent_.cross();
     for (uint32_t i = 0; i < outside.size(); ++i) {
         float& known = distance[numbering_.overlay_number(numbering_.parent[child], i)];
@@ -66,7 +66,7 @@ void OverlaySsad::ascend(uint32_t child, DistanceField distance) {
 // patch whose whole border is beyond the radius is skipped.
 void OverlaySsad::descend(uint32_t patch, float radius, std::span<float> distance, InnerSweep& sweep) const {
     if (is_around_source_[patch] || numbering_.inner_size(patch) == 0) return;
-    const float nearest = sweep.see(patch, distance.data(), segments_of(patch));
+    const float nearest = sweep.begin(patch, distance.data(), segments_of(patch));
     if (nearest < INFINITE && nearest <= radius + index_.near[patch])
         sweep.cross(distance.data() + numbering_.first_inner(patch));
 }

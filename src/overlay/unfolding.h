@@ -54,7 +54,7 @@ struct Segments {
 
 // Segments, and the position of a source on one side of each of them.
 template <class V>
-struct SeenSegments {
+struct SegmentsFromSource {
     Segments<V> segments;
     V foot, height;
 
@@ -96,15 +96,15 @@ float straightened(const Rings& rings, size_t place, const From& from, const To&
             second[k] = distance(near + k + 1);
         }
     };
-    SeenSegments<NearFloats> seen{
+    SegmentsFromSource<NearFloats> from_source{
         {near_floats(rings.segment_length.data() + near), near_floats(rings.half_inverse.data() + near)},
         {},
         {}};
     NearFloats first, second, squares;
     ends(from, first, second);
-    seen.segments.place_point(first, second, seen.foot, seen.height);
+    from_source.segments.place_point(first, second, from_source.foot, from_source.height);
     ends(to, first, second);
-    seen.square_across(first, second, squares);
+    from_source.square_across(first, second, squares);
     const float square = std::min(std::min(squares[0], squares[1]), std::min(squares[2], squares[3]));
     return std::min(from(place) + to(place), std::sqrt(square));
 }

@@ -1,5 +1,5 @@
-// The innermost loop of the overlay engine: every kernel that this processor can run.
-#include "src/overlay/kernels/crossing.h"
+// The innermost loop of the overlay engine: by every instruction set that this processor has.
+#include "src/overlay/kernels/dispatch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +20,15 @@ struct Crossed {
     std::vector<uint16_t> winners;
 };
 
-Crossed cross(const CrossingKernel& kernel, const SeenBorder& border, Rows rows) {
+Crossed cross(const Kernels& kernels, const BorderFromSource& border, Rows rows) {
     Crossed crossed{std::vector<float>(rows.size()), std::vector<uint16_t>(rows.size())};
-    kernel.cross(border, rows, crossed.distances.data(), crossed.winners.data());
+    kernels.cross(border, rows, crossed.distances.data(), crossed.winners.data());
     return crossed;
 }
 
 }
 
-TEST_CASE("crossing: straight lines in the plane, by every kernel") {
+TEST_CASE("crossing: straight lines in the plane, by every instruction set") {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> along(-5, 60), off(0.5, 30);
     for (size_t places : {5u, 7u, 15u, 16u, 17u, 31u, 33u, 48u, 63u, 100u, 129u, 150u, 300u})
@@ -37,11 +37,11 @@ TEST_CASE("crossing: straight lines in the plane, by every kernel") {
             for (size_t i = 0; i < targets; ++i) points.push_back({along(random), off(random)});
             const Point source{along(random), -off(random)};
             const FlatBorder border(places, source, points, random);
-            const SeenBorder seen = border.seen();
-            for (const CrossingKernel& kernel : crossing_kernels()) {
-                CAPTURE(kernel.name);
+            const BorderFromSource from_source = border.from_source();
+            for (const Kernels& kernels : runnable_kernels()) {
+                CAPTURE(kernels.name);
                 CAPTURE(places);
-                const Crossed crossed = cross(kernel, seen, border.rows);
+                const Crossed crossed = cross(kernels, from_source, border.rows);
                 uint64_t wrong = 0;
                 for (size_t i = 0; i < targets; ++i) {
                     const Point& target = points[i];
@@ -58,7 +58,7 @@ TEST_CASE("crossing: straight lines in the plane, by every kernel") {
 }
 
 // A hook: where straight lines cross a long segment, both of its ends are farther off than the tip.
-TEST_CASE("crossing: near segments of a jagged border, by every kernel") {
+TEST_CASE("crossing: near segments of a jagged border, by every instruction set") {
     const std::vector<Point> hook{{-34, 0}, {-24, 0}, {-14, 0}, {-4, 0},  {4, 0}, {5, 3},
                                   {4, 5},   {2, 5},   {1, 3.2}, {1.2, 4}, {2, 4}};
     std::mt19937 random(7);
@@ -69,26 +69,27 @@ TEST_CASE("crossing: near segments of a jagged border, by every kernel") {
         for (int i = 0; i < 70; ++i) points.push_back({along(random), off(random)});
         const Point source{along(random), -off(random)};
         const FlatBorder border(hook, source, points);
-        const SeenBorder seen = border.seen();
+        const BorderFromSource from_source = border.from_source();
         const std::vector<int32_t> is_own(border.code.size(), -1);
         std::vector<float> first;
-        for (const CrossingKernel& kernel : crossing_kernels()) {
-            CAPTURE(kernel.name);
+        for (const Kernels& kernels : runnable_kernels()) {
+            CAPTURE(kernels.name);
             std::vector<int16_t> code(border.code.size());
             std::vector<float> foot(code.size()), height(code.size());
             auto distance = border.to_source;
             std::fill(distance.begin() + static_cast<std::ptrdiff_t>(hook.size()), distance.end(), INFINITE);
-            SeenBorder near = seen;
+            BorderFromSource near = from_source;
             near.distance = distance.data();
             near.code = code.data();
             near.foot = foot.data();
             near.height = height.data();
-            const Sight sight = kernel.see(near, is_own.data(), code.data(), foot.data(), height.data());
-            REQUIRE(sight.is_near());
-            CHECK(double{sight.reach} == doctest::Approx(50.0));
-            auto distances = cross(kernel, near, border.rows).distances;
+            const NearRange range =
+                kernels.prepare_crossing(near, is_own.data(), code.data(), foot.data(), height.data());
+            REQUIRE(range.is_near());
+            CHECK(double{range.reach} == doctest::Approx(50.0));
+            auto distances = cross(kernels, near, border.rows).distances;
             const auto before = distances;
-            kernel.cross_near(near, sight, border.rows, distances.data());
+            kernels.cross_near(near, range, border.rows, distances.data());
             uint64_t wrong = 0;
             for (size_t i = 0; i < points.size(); ++i) {
                 const double line = test::distance(source, points[i]);
@@ -108,22 +109,24 @@ TEST_CASE("crossing: what is far stays as it is") {
     const std::vector<Point> points{{9, 2}, {9, 90}};
     for (const Point source : {Point{9, -2}, Point{9, -90}}) {
         const FlatBorder border(30, source, points, random);
-        const SeenBorder seen = border.seen();
-        for (const CrossingKernel& kernel : crossing_kernels()) {
-            CAPTURE(kernel.name);
+        const BorderFromSource from_source = border.from_source();
+        for (const Kernels& kernels : runnable_kernels()) {
+            CAPTURE(kernels.name);
             const float longest = *std::max_element(border.length.begin(), border.length.begin() + 29);
             const float reach = near_radius(longest);
             const bool is_near = -source.y < double{reach};
-            const Sight sight{0, reach, is_near ? size_t{0} : size_t{1}, is_near ? size_t{29} : size_t{0}};
+            const NearRange range{0, reach, is_near ? size_t{0} : size_t{1},
+                                  is_near ? size_t{29} : size_t{0}};
             std::vector<float> distances{reach, reach * 2};
-            if (sight.is_near()) kernel.cross_near(seen, sight, border.rows, distances.data());
+            if (range.is_near()) kernels.cross_near(from_source, range, border.rows, distances.data());
             CHECK(double{distances[0]} == doctest::Approx(is_near ? 4 : double{reach}).epsilon(1e-3));
             CHECK(distances[1] == reach * 2);
         }
     }
 }
 
-TEST_CASE("crossing: the first place with the least sum wins, by every kernel, and all give the same bits") {
+TEST_CASE("crossing: the first place with the least sum wins, by every instruction set, and all give the "
+          "same bits") {
     std::mt19937 random(2);
     for (size_t places : {5u, 16u, 40u, 64u, 65u, 128u, 200u})
         for (uint32_t largest : {3u, 0x7ffeu}) { // small numbers tie
@@ -134,11 +137,11 @@ TEST_CASE("crossing: the first place with the least sum wins, by every kernel, a
                 border.code[k] = static_cast<int16_t>(SourceCode::NEAREST +
                                                       static_cast<int32_t>(random() % (largest / 2 + 1)));
             border.code[2 + random() % (places - 4)] = SourceCode::NEAREST;
-            const SeenBorder seen = border.seen();
+            const BorderFromSource from_source = border.from_source();
             Crossed first;
-            for (const CrossingKernel& kernel : crossing_kernels()) {
-                CAPTURE(kernel.name);
-                const Crossed crossed = cross(kernel, seen, border.rows);
+            for (const Kernels& kernels : runnable_kernels()) {
+                CAPTURE(kernels.name);
+                const Crossed crossed = cross(kernels, from_source, border.rows);
                 for (size_t r = 0; r < border.rows.size(); ++r) {
                     size_t least = 2;
                     const auto sum = [&](size_t k) { return border.code[k] + border.rows[r][k]; };
@@ -162,19 +165,19 @@ TEST_CASE("crossing: ways of which one end is out of reach") {
         if (k != 30) border.codes[40 + k] = TableCode::UNREACHED; // row 1: one far off
     }
     border.codes[40 + 30] = 0x7ffe;
-    const SeenBorder seen = border.seen();
-    for (const CrossingKernel& kernel : crossing_kernels()) {
-        CAPTURE(kernel.name);
-        const Crossed crossed = cross(kernel, seen, border.rows);
+    const BorderFromSource from_source = border.from_source();
+    for (const Kernels& kernels : runnable_kernels()) {
+        CAPTURE(kernels.name);
+        const Crossed crossed = cross(kernels, from_source, border.rows);
         CHECK(crossed.distances[0] == INFINITE);
-        CHECK(crossed.winners[0] == SeenBorder::NO_PLACE);
+        CHECK(crossed.winners[0] == BorderFromSource::NO_PLACE);
         CHECK(crossed.winners[1] == 30);
         CHECK(crossed.distances[1] <= border.to_source[30] + 0x7ffe * border.quantum);
         CHECK(double{crossed.distances[2]} == doctest::Approx(6).epsilon(1e-3));
     }
 }
 
-TEST_CASE("crossing: what is seen of a border, by every kernel") {
+TEST_CASE("crossing: a border is made ready, by every instruction set") {
     std::mt19937 random(4);
     for (size_t places : {5u, 16u, 33u, 70u, 129u}) {
         const Point source{9, -4};
@@ -187,28 +190,30 @@ TEST_CASE("crossing: what is seen of a border, by every kernel") {
         is_own[0] = is_own[1] = is_own[places - 2] = is_own[places - 1] = 0;
         float nearest = INFINITE;
         for (size_t k = 0; k < places; ++k) nearest = std::min(nearest, border.to_source[k]);
-        for (const CrossingKernel& kernel : crossing_kernels()) {
-            CAPTURE(kernel.name);
+        for (const Kernels& kernels : runnable_kernels()) {
+            CAPTURE(kernels.name);
             CAPTURE(places);
             std::vector<int16_t> code(room, 77);
             std::vector<float> foot(room), height(room);
-            const SeenBorder seen{places,
-                                  code.data(),
-                                  border.to_source.data(),
-                                  border.length.data(),
-                                  border.half_inverse.data(),
-                                  foot.data(),
-                                  height.data(),
-                                  border.quantum};
-            CHECK(kernel.see(seen, is_own.data(), code.data(), foot.data(), height.data()).nearest ==
-                  nearest);
+            const BorderFromSource from_source{places,
+                                               code.data(),
+                                               border.to_source.data(),
+                                               border.length.data(),
+                                               border.half_inverse.data(),
+                                               foot.data(),
+                                               height.data(),
+                                               border.quantum};
+            CHECK(
+                kernels.prepare_crossing(from_source, is_own.data(), code.data(), foot.data(), height.data())
+                    .nearest == nearest);
             uint64_t wrong = 0;
             for (size_t k = 0; k < (places + SourceCode::BLOCK - 1) / SourceCode::BLOCK * SourceCode::BLOCK;
                  ++k) {
-                const bool is_seen = k < places && is_own[k] && border.to_source[k] < INFINITE;
+                const bool is_reached = k < places && is_own[k] && border.to_source[k] < INFINITE;
                 const double steps = (double{border.to_source[k]} - double{nearest}) / double{border.quantum};
-                wrong += is_seen ? std::abs(code[k] - SourceCode::NEAREST - std::min(steps, 32766.0)) > 0.51
-                                 : code[k] != SourceCode::UNREACHED;
+                wrong += is_reached
+                             ? std::abs(code[k] - SourceCode::NEAREST - std::min(steps, 32766.0)) > 0.51
+                             : code[k] != SourceCode::UNREACHED;
             }
             for (size_t k = 0; k + 1 < places; ++k) {
                 if (border.to_source[k] == INFINITE || border.to_source[k + 1] == INFINITE) continue;
@@ -217,10 +222,10 @@ TEST_CASE("crossing: what is seen of a border, by every kernel") {
             }
             CHECK(wrong == 0);
             const std::vector<float> nothing(room, INFINITE);
-            SeenBorder unseen = seen;
-            unseen.distance = nothing.data();
-            CHECK(kernel.see(unseen, is_own.data(), code.data(), foot.data(), height.data()).nearest ==
-                  INFINITE);
+            BorderFromSource unreached = from_source;
+            unreached.distance = nothing.data();
+            CHECK(kernels.prepare_crossing(unreached, is_own.data(), code.data(), foot.data(), height.data())
+                      .nearest == INFINITE);
         }
     }
 }

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "src/overlay/kernels/crossing.h"
+#include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic::test {
@@ -25,7 +25,7 @@ inline std::vector<Point> line_of(size_t places, std::mt19937& random) {
     return border;
 }
 
-// A border in the plane, as seen from a source below it, and rows for points above.
+// A border in the plane, a source below it, and rows for points above.
 struct FlatBorder {
     FlatBorder(size_t places, Point source, const std::vector<Point>& targets, std::mt19937& random)
         : FlatBorder(line_of(places, random), source, targets) {}
@@ -48,11 +48,12 @@ struct FlatBorder {
                 std::lround(std::min((double{to_source[k]} - nearest) / double{quantum}, 32766.0)));
             const Point next = border[std::min(k + 1, places - 1)];
             const Point along{next.x - border[k].x, next.y - border[k].y};
-            const Point seen{source.x - border[k].x, source.y - border[k].y};
+            const Point relative{source.x - border[k].x, source.y - border[k].y};
             length[k] = k + 1 == places ? NAN : static_cast<float>(std::hypot(along.x, along.y));
             half_inverse[k] = 0.5f / length[k];
-            foot[k] = static_cast<float>((seen.x * along.x + seen.y * along.y) / double{length[k]});
-            height[k] = static_cast<float>(std::abs(seen.x * along.y - seen.y * along.x) / double{length[k]});
+            foot[k] = static_cast<float>((relative.x * along.x + relative.y * along.y) / double{length[k]});
+            height[k] =
+                static_cast<float>(std::abs(relative.x * along.y - relative.y * along.x) / double{length[k]});
         }
         // The ends are there to be neighbours only.
         for (size_t k : {size_t{0}, size_t{1}, places - 2, places - 1}) code[k] = SourceCode::UNREACHED;
@@ -67,7 +68,7 @@ struct FlatBorder {
     }
     static double geodesic_distance(Point a, Point b) { return test::distance(a, b); }
 
-    SeenBorder seen() const {
+    BorderFromSource from_source() const {
         return {rows.size() > 1 ? static_cast<size_t>(rows[1] - rows[0]) : codes.size() - SourceCode::BLOCK,
                 code.data(),
                 to_source.data(),

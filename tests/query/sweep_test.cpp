@@ -1,5 +1,5 @@
-// The innermost loop of MSAD: every kernel that this processor can run.
-#include "src/overlay/kernels/sweep.h"
+// The innermost loop of MSAD: by every instruction set that this processor has.
+#include "src/overlay/kernels/dispatch.h"
 
 #include <array>
 #include <cstring>
@@ -13,7 +13,7 @@ using namespace geodesic::test;
 
 namespace {
 
-constexpr size_t SOURCES = SweepKernel::SOURCES;
+constexpr size_t SOURCES = Kernels::SOURCES;
 
 // A border in the plane, with a gap here and there, sources below it and targets above.
 struct Plane {
@@ -76,38 +76,38 @@ struct Plane {
 };
 
 // Distances by row, of `count` sources from `first` on, side by side.
-std::vector<float> sweep(const SweepKernel& kernel, const Plane& plane, size_t first, size_t count) {
+std::vector<float> sweep(const Kernels& kernels, const Plane& plane, size_t first, size_t count) {
     const size_t places = plane.border.size();
     const size_t room = (SourceCode::whole_blocks(places) + SourceCode::BLOCK) * count;
     std::vector<float> from(room, INFINITE), middle_from(room, 12345);
     std::vector<int16_t> code(room, -77), middle(room, -77);
     for (size_t k = 0; k < places; ++k)
         for (size_t i = 0; i < count; ++i) from[k * count + i] = plane.from[first + i][k];
-    const SweptBorder border{places, from.data(), plane.length.data(), plane.quantum};
+    const BorderDistances border{places, from.data(), plane.length.data(), plane.quantum};
     std::array<float, SOURCES> nearest{};
-    const SweptCodes codes{code.data(), middle.data(), nearest.data()};
-    const SweptRows rows{plane.targets.size(), plane.codes.data(), plane.middles.data()};
+    const BorderCodes codes{code.data(), middle.data(), nearest.data()};
+    const SweepRows rows{plane.targets.size(), plane.codes.data(), plane.middles.data()};
     std::vector<float> distances(rows.count * count);
-    (count == 1 ? kernel.see : kernel.see_each)(border, codes, middle_from.data());
+    (count == 1 ? kernels.prepare_sweep : kernels.prepare_sweep_each)(border, codes, middle_from.data());
     if (count == 1 && nearest[0] == INFINITE)
         distances.assign(rows.count, INFINITE);
     else
-        (count == 1 ? kernel.sweep : kernel.sweep_each)(border, codes, rows, distances.data());
+        (count == 1 ? kernels.sweep : kernels.sweep_each)(border, codes, rows, distances.data());
     return distances;
 }
 
-// Of all sources, each alone and all at once, which must be the same bits, by every kernel.
+// Of all sources, each alone and all at once, which must be the same bits, by every instruction set.
 std::vector<float> sweep_every_way(const Plane& plane) {
     const size_t rows = plane.targets.size();
     std::vector<float> first;
     uint64_t different = 0;
-    for (const SweepKernel& kernel : sweep_kernels()) {
-        CAPTURE(kernel.name);
-        const auto each = sweep(kernel, plane, 0, SOURCES);
+    for (const Kernels& kernels : runnable_kernels()) {
+        CAPTURE(kernels.name);
+        const auto each = sweep(kernels, plane, 0, SOURCES);
         if (first.empty()) first = each;
         CHECK(std::memcmp(first.data(), each.data(), each.size() * sizeof(float)) == 0);
         for (size_t i = 0; i < SOURCES; ++i) {
-            const auto alone = sweep(kernel, plane, i, 1);
+            const auto alone = sweep(kernels, plane, i, 1);
             for (size_t r = 0; r < rows; ++r)
                 different += std::memcmp(&alone[r], &each[r * SOURCES + i], sizeof(float)) != 0;
         }
@@ -138,7 +138,7 @@ uint64_t count_wrong(const Plane& plane, const std::vector<float>& distances) {
 
 }
 
-TEST_CASE("sweep: the least way over places and middles, by every kernel") {
+TEST_CASE("sweep: the least way over places and middles, by every instruction set") {
     std::mt19937 random(1);
     for (size_t places : {5u, 7u, 16u, 17u, 31u, 33u, 48u, 63u, 100u, 129u, 300u})
         for (size_t targets : {1u, 2u, 7u, 8u, 9u, 64u}) {

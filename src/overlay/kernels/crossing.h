@@ -1,58 +1,264 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
+#include <algorithm>
+#include <cstring>
 
-#include "src/overlay/codes.h"
+#include "src/overlay/kernels/dispatch.h"
+#include "src/overlay/kernels/lanes.h"
+#include "src/overlay/kernels/nearest_places.h"
+#include "src/overlay/kernels/rounding.h"
+#include "src/overlay/near.h"
 
 namespace geodesic {
 
-// The border of a patch as seen from a source, by the places of its ring: what a kernel reads.
-struct SeenBorder {
-    static constexpr uint16_t NO_PLACE = 0xffff; // a winner where there is no way
+// The kernels that cross a border: what Kernels says of prepare_crossing(), cross(), cross_near() and
+// choose() is done by the structs of these names. Only dispatch.cpp includes this.
 
-    size_t places;
-    const int16_t* code;                // of SourceCode
-    const float* distance;              // infinity behind the last place, too, up to whole blocks
-    const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
-    const float *foot, *height;         // of the source, seen from the segment
-    float quantum;                      // of the rows
+// So many rows at a time: first their nearest places, then the ways over them, so that the processor has
+// several rows at work at once.
+constexpr size_t ROWS = 64;
+
+// ---- The border, made ready
+
+// Floats that the widest vector holds, so that results are of the same ones whatever the width.
+constexpr size_t PART = Lanes<64>::FLOATS;
+constexpr size_t whole_parts(size_t places) { return (places + PART - 1) / PART * PART; }
+
+template <size_t BYTES>
+[[gnu::always_inline]] inline void find_near_range(const BorderFromSource& border, NearRange& range) {
+    Floats<BYTES> nearest{}, shortest{}, distance, length;
+    nearest += INFINITE;
+    for (size_t k = 0; k < border.places; k += Lanes<BYTES>::FLOATS) {
+        load(border.distance + k, distance);
+        load(border.length + k, length);
+        lower(nearest, distance);
+        lower<Floats<BYTES>>(shortest, distance < INFINITE ? -length : shortest);
+    }
+    range = {least_of<BYTES>(nearest), near_radius(-least_of<BYTES>(shortest)), 1, 0};
+    if (range.nearest > range.reach) return;
+    const auto is_far = [&](size_t k) { return border.distance[k] > range.reach; };
+    for (range.first = 0; is_far(range.first);) ++range.first;
+    for (range.last = border.places - 1; is_far(range.last);) --range.last;
+}
+
+// Codes of places that are not the border's own are as those of places that are not reached.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void encode(const BorderFromSource& border, float nearest,
+                                          const int32_t* is_own, int16_t* code) {
+    using Numbers = typename Lanes<BYTES>::Keys;
+    using Codes = typename VectorOf<int16_t, BYTES / 2>::Type;
+    static_assert(SourceCode::UNREACHED == 0);
+    const float scale = steps_per_distance(border.quantum);
+    const Floats<BYTES> nearest_lanes = Floats<BYTES>{} + nearest;
+    for (size_t k = 0; k < border.places; k += Lanes<BYTES>::FLOATS) {
+        Floats<BYTES> distance;
+        Numbers own, codes;
+        load(border.distance + k, distance);
+        load(is_own + k, own);
+        round_to_codes<BYTES>(distance, nearest_lanes, scale, codes);
+        store(__builtin_convertvector(codes & own, Codes), code + k);
+    }
+    std::fill(code + border.places, code + SourceCode::whole_blocks(border.places), SourceCode::UNREACHED);
+}
+
+template <size_t BYTES>
+[[gnu::always_inline]] inline void unfold(const BorderFromSource& border, float* feet, float* heights) {
+    for (size_t k = 0; k < whole_parts(border.places); k += Lanes<BYTES>::FLOATS) {
+        Segments<Floats<BYTES>> segments;
+        load(border.length + k, segments.length);
+        load(border.half_inverse + k, segments.half_inverse);
+        Floats<BYTES> from_first, from_second, foot, height;
+        load(border.distance + k, from_first);
+        load(border.distance + k + 1, from_second);
+        segments.place_point(from_first, from_second, foot, height);
+        store(foot, feet + k);
+        store(height, heights + k);
+    }
+}
+
+template <size_t BYTES>
+struct PrepareCrossing {
+    [[gnu::always_inline]] static NearRange run(const BorderFromSource& border, const int32_t* is_own,
+                                                int16_t* code, float* foot, float* height) {
+        NearRange range;
+        find_near_range<BYTES>(border, range);
+        if (!(range.nearest < INFINITE)) return range;
+        encode<BYTES>(border, range.nearest, is_own, code);
+        unfold<BYTES>(border, foot, height);
+        return range;
+    }
 };
 
-// How a border is seen.
-struct Sight {
-    float nearest;      // the distance of the nearest place
-    float reach;        // up to which a distance is near
-    size_t first, last; // near places, and those between them; none if first > last
-    bool is_near() const { return first <= last; }
+// ---- The ways over the nearest places
+
+// Ways to be measured: over these places of a border, and these rows.
+struct Ways {
+    const int32_t* places;
+    const uint16_t* const* rows;
+
+    [[gnu::always_inline]] const uint16_t* codes_near(size_t way) const {
+        return rows[way] + places[way] - Rings::REACH;
+    }
+    [[gnu::always_inline]] NearFloats near(const float* values, size_t way) const {
+        return near_floats(values + places[way] - Rings::REACH);
+    }
 };
 
-// Rows of a table, each one code a place.
-using Rows = std::span<const uint16_t* const>;
+// The codes of the ways from `first` on, side by side, four each: those of the places that segments near the
+// place begin at, and those of the next ones.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void codes_near(const Ways& ways, size_t first, Floats<BYTES>& of_first,
+                                              Floats<BYTES>& of_second) {
+    constexpr std::make_index_sequence<BYTES / sizeof(uint16_t)> ALL;
+    typename VectorOf<uint16_t, BYTES>::Type codes;
+    typename Lanes<BYTES>::Keys numbers;
+    join([&](size_t i) { return load_eight(ways.codes_near(first + i)); }, codes);
+    widen_four<0>(codes, numbers, ALL);
+    of_first = __builtin_convertvector(numbers, Floats<BYTES>);
+    widen_four<1>(codes, numbers, ALL);
+    of_second = __builtin_convertvector(numbers, Floats<BYTES>);
+}
 
-// For one kind of processor.
-struct CrossingKernel {
-    const char* name;
+// Four ways, as many side by side as fit into a vector.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void measure_four(const BorderFromSource& border, const Ways& ways,
+                                                NearFloats& distances) {
+    constexpr size_t SIDE_BY_SIDE = BYTES / sizeof(NearFloats);
+    NearFloats squares[4], sums[4];
+    for (size_t r = 0; r < 4; r += SIDE_BY_SIDE) {
+        const auto near = [&](const float* values, Floats<BYTES>& out) {
+            join([&](size_t i) { return ways.near(values, r + i); }, out);
+        };
+        SegmentsFromSource<Floats<BYTES>> from_source;
+        near(border.length, from_source.segments.length);
+        near(border.half_inverse, from_source.segments.half_inverse);
+        near(border.foot, from_source.foot);
+        near(border.height, from_source.height);
+        Floats<BYTES> first, second, sum, square;
+        codes_near<BYTES>(ways, r, first, second);
+        first *= border.quantum;
+        second *= border.quantum;
+        near(border.distance, sum);
+        sum += first;
+        from_source.square_across(first, second, square);
+        split(sum, sums + r);
+        split(square, squares + r);
+    }
+    NearFloats over;
+    least_lanes(squares, distances);
+    take_square_root(distances);
+    pick_lanes<Rings::REACH>(sums, over);
+    lower(distances, over);
+}
 
-    // Fills code, foot and height, which are the border's own, from the rest of it; codes only where is_own
-    // is -1, not 0. If the nearest place is at infinity, it fills nothing.
-    Sight (*see)(const SeenBorder& border, const int32_t* is_own, int16_t* code, float* foot, float* height);
+// Each over its row, in groups of four, the last one filled up by its first way.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void measure(const BorderFromSource& shared_border, const int32_t* places,
+                                           Rows rows, float* distances) {
+    const BorderFromSource border = shared_border; // which nothing that is written can change
+    const size_t count = rows.size();
+    NearFloats measured;
+    size_t r = 0;
+    for (; r + 4 <= count; r += 4) {
+        measure_four<BYTES>(border, {places + r, rows.data() + r}, measured);
+        std::memcpy(distances + r, &measured, sizeof measured);
+    }
+    if (r == count) return;
+    int32_t last_places[4];
+    const uint16_t* last_rows[4];
+    for (size_t i = 0; i < 4; ++i) {
+        const size_t way = r + i < count ? r + i : r;
+        last_places[i] = places[way];
+        last_rows[i] = rows[way];
+    }
+    measure_four<BYTES>(border, {last_places, last_rows}, measured);
+    for (size_t i = 0; r + i < count; ++i) distances[r + i] = measured[i];
+}
 
-    // distances[r]: the least way over a place and row r, straightened over the segments near the place where
-    // that is shorter, or infinity; winners[r], if not NULL: that place, or NO_PLACE.
-    void (*cross)(const SeenBorder& border, Rows rows, float* distances, uint16_t* winners);
-
-    // distances[r], where it is near: the least way over row r and a near place, or straightened over any
-    // segment that is near. Where a border is jagged, the straight way does not always pass near the place
-    // with the least sum.
-    void (*cross_near)(const SeenBorder& border, const Sight& sight, Rows rows, float* distances);
-
-    // winners[r]: the place with the least sum of codes, or NO_PLACE; reads no more of the border than these.
-    void (*choose)(const SeenBorder& border, Rows rows, uint16_t* winners);
+template <size_t BYTES>
+struct Cross {
+    [[gnu::always_inline]] static void run(const BorderFromSource& border, Rows rows, float* distances,
+                                           uint16_t* winners) {
+        int32_t places[ROWS];
+        for (size_t done = 0; done < rows.size(); done += ROWS) {
+            const Rows part = rows.subspan(done, std::min(ROWS, rows.size() - done));
+            const Missing missing = find_nearest_places<BYTES>(border, part, places);
+            measure<BYTES>(border, places, part, distances + done);
+            missing.for_each([&](size_t r) { distances[done + r] = INFINITE; });
+            if (!winners) continue;
+            for (size_t r = 0; r < part.size(); ++r) winners[done + r] = static_cast<uint16_t>(places[r]);
+            missing.for_each([&](size_t r) { winners[done + r] = BorderFromSource::NO_PLACE; });
+        }
+    }
 };
 
-// Those that this processor can run, the fastest last. All give the same bits.
-std::span<const CrossingKernel> crossing_kernels();
+// ---- The ways over all near segments
+
+// As many codes as fit, as distances; infinity where there is no way.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void decode_row(const uint16_t* codes, float quantum,
+                                              Floats<BYTES>& distances) {
+    using Numbers = typename Lanes<BYTES>::Keys;
+    typename VectorOf<uint16_t, BYTES / 2>::Type narrow;
+    std::memcpy(&narrow, codes, sizeof narrow);
+    const Numbers numbers = __builtin_convertvector(narrow, Numbers);
+    const Floats<BYTES> none = Floats<BYTES>{} + INFINITE;
+    distances =
+        numbers < TableCode::UNREACHED ? __builtin_convertvector(numbers, Floats<BYTES>) * quantum : none;
+}
+
+// Over the places from `begin` to `end`, whole parts, and the segments that begin at them.
+template <size_t BYTES>
+[[gnu::always_inline]] inline float way_within(const BorderFromSource& border, size_t begin, size_t end,
+                                               const uint16_t* row) {
+    Floats<BYTES> least{}, least_square;
+    least += INFINITE;
+    least_square = least;
+    for (size_t k = begin; k < end; k += Lanes<BYTES>::FLOATS) {
+        SegmentsFromSource<Floats<BYTES>> from_source;
+        load(border.length + k, from_source.segments.length);
+        load(border.half_inverse + k, from_source.segments.half_inverse);
+        load(border.foot + k, from_source.foot);
+        load(border.height + k, from_source.height);
+        Floats<BYTES> distance, from_first, from_second, square;
+        load(border.distance + k, distance);
+        decode_row<BYTES>(row + k, border.quantum, from_first);
+        decode_row<BYTES>(row + k + 1, border.quantum, from_second);
+        from_source.square_across(from_first, from_second, square);
+        lower(least_square, square);
+        lower<Floats<BYTES>>(least, distance + from_first);
+    }
+    return std::min(std::sqrt(least_of<BYTES>(least_square)), least_of<BYTES>(least));
+}
+
+template <size_t BYTES>
+struct CrossNear {
+    [[gnu::always_inline]] static void run(const BorderFromSource& border, const NearRange& range, Rows rows,
+                                           float* distances) {
+        const size_t before = std::max(range.first, size_t{Rings::REACH}) - Rings::REACH;
+        const size_t begin = before / PART * PART,
+                     end = whole_parts(std::min(range.last + Rings::REACH, border.places));
+        for (size_t r = 0; r < rows.size(); ++r) {
+            if (distances[r] > range.reach) continue;
+            const float way = way_within<BYTES>(border, begin, end, rows[r]);
+            if (way < INFINITE) distances[r] = way;
+        }
+    }
+};
+
+template <size_t BYTES>
+struct Choose {
+    [[gnu::always_inline]] static void run(const BorderFromSource& border, Rows rows, uint16_t* winners) {
+        int32_t places[ROWS];
+        for (size_t done = 0; done < rows.size(); done += ROWS) {
+            const Rows part = rows.subspan(done, std::min(ROWS, rows.size() - done));
+            find_keys<BYTES>(border, part, places);
+            const Missing missing =
+                take_places(places, part.size(), [&](size_t r) { return choose_place(border, part[r]); });
+            for (size_t r = 0; r < part.size(); ++r) winners[done + r] = static_cast<uint16_t>(places[r]);
+            missing.for_each([&](size_t r) { winners[done + r] = BorderFromSource::NO_PLACE; });
+        }
+    }
+};
 
 }

@@ -35,6 +35,16 @@ using EightCodes [[gnu::vector_size(16)]] = uint16_t;
     return codes;
 }
 
+template <class V, class T>
+[[gnu::always_inline]] inline void load(const T* first, V& values) {
+    std::memcpy(&values, first, sizeof values);
+}
+
+template <class V, class T>
+[[gnu::always_inline]] inline void store(const V& values, T* first) {
+    std::memcpy(first, &values, sizeof values);
+}
+
 template <class V>
 [[gnu::always_inline]] inline void lower(V& least, const V& others) {
     least = others < least ? others : least;

@@ -3,7 +3,7 @@
 #include <bit>
 #include <limits>
 
-#include "src/overlay/kernels/crossing.h"
+#include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/kernels/lanes.h"
 
 namespace geodesic {
@@ -43,7 +43,7 @@ struct NearestPlaces {
     using Keys = typename Lanes<BYTES>::Keys;
     static constexpr size_t LANES = Lanes<BYTES>::CODES;
 
-    [[gnu::always_inline]] static void find(const SeenBorder& border, Rows rows, int32_t* keys) {
+    [[gnu::always_inline]] static void find(const BorderFromSource& border, Rows rows, int32_t* keys) {
         Codes codes[BLOCKS + 1];
         for (size_t b = 0; b < BLOCKS; ++b) codes[b] = at(border.code, b);
         size_t r = 0;
@@ -62,7 +62,7 @@ private:
         return *reinterpret_cast<const CodesAnywhere*>(first + block * LANES);
     }
 
-    [[gnu::always_inline]] static void find_four(const SeenBorder& border, const Codes* codes,
+    [[gnu::always_inline]] static void find_four(const BorderFromSource& border, const Codes* codes,
                                                  const uint16_t* const* rows, int32_t* keys) {
         const size_t blocks = BLOCKS ? BLOCKS : (border.places + LANES - 1) / LANES;
         Codes lanes;
@@ -95,7 +95,7 @@ private:
 };
 
 template <size_t BYTES>
-[[gnu::always_inline]] inline void find_keys(const SeenBorder& border, Rows rows, int32_t* keys) {
+[[gnu::always_inline]] inline void find_keys(const BorderFromSource& border, Rows rows, int32_t* keys) {
     switch ((border.places + Lanes<BYTES>::CODES - 1) / Lanes<BYTES>::CODES) {
     case 1:
         return NearestPlaces<BYTES, 1>::find(border, rows, keys);
@@ -121,9 +121,9 @@ template <size_t BYTES>
 // One place after the other, for what the sums of codes do not tell apart: ways of which one end is out of
 // reach. sum_of(k) is the way over place k. Returns NO_PLACE if there is no way.
 template <class SumOf>
-int32_t find_place(const SeenBorder& border, const uint16_t* row, const SumOf& sum_of) {
+int32_t find_place(const BorderFromSource& border, const uint16_t* row, const SumOf& sum_of) {
     float least = INFINITE;
-    int32_t nearest = SeenBorder::NO_PLACE;
+    int32_t nearest = BorderFromSource::NO_PLACE;
     for (size_t k = 0; k < border.places; ++k) {
         if (border.code[k] == SourceCode::UNREACHED || row[k] == TableCode::UNREACHED) continue;
         const float sum = sum_of(k);
@@ -135,14 +135,14 @@ int32_t find_place(const SeenBorder& border, const uint16_t* row, const SumOf& s
 }
 
 // By distances, of which codes are rounded.
-inline int32_t find_nearest_place(const SeenBorder& border, const uint16_t* row) {
+inline int32_t find_nearest_place(const BorderFromSource& border, const uint16_t* row) {
     return find_place(border, row, [&](size_t k) {
         return border.distance[k] + static_cast<float>(row[k]) * border.quantum;
     });
 }
 
 // By codes alone.
-inline int32_t choose_place(const SeenBorder& border, const uint16_t* row) {
+inline int32_t choose_place(const BorderFromSource& border, const uint16_t* row) {
     return find_place(border, row, [&](size_t k) { return static_cast<float>(border.code[k] + row[k]); });
 }
 
@@ -156,7 +156,7 @@ template <class FindOne>
         for (size_t r = 0; r < count; ++r) {
             if (keys[r] < SourceCode::NO_SUM * (1 << PLACE_BITS)) continue;
             keys[r] = find_one(r);
-            if (keys[r] != SeenBorder::NO_PLACE) continue;
+            if (keys[r] != BorderFromSource::NO_PLACE) continue;
             keys[r] = Rings::REACH;
             missing.bits |= uint64_t{1} << r;
         }
@@ -166,7 +166,7 @@ template <class FindOne>
 
 // Of each of up to 64 rows.
 template <size_t BYTES>
-[[gnu::always_inline]] inline Missing find_nearest_places(const SeenBorder& border, Rows rows,
+[[gnu::always_inline]] inline Missing find_nearest_places(const BorderFromSource& border, Rows rows,
                                                           int32_t* places) {
     find_keys<BYTES>(border, rows, places);
     return take_places(places, rows.size(), [&](size_t r) { return find_nearest_place(border, rows[r]); });

@@ -1,56 +1,299 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 
-#include "src/overlay/codes.h"
+#include "src/overlay/kernels/dispatch.h"
+#include "src/overlay/kernels/lanes.h"
+#include "src/overlay/kernels/rounding.h"
 
 namespace geodesic {
 
-// A ring, and the distances of sources from its places: infinity behind the last one, up to whole blocks.
-struct SweptBorder {
-    size_t places;
-    const float* distance;
-    const float* length; // of the segment to the next place; NaN: a gap
-    float quantum;       // of the rows
+// The kernels that sweep from a border to what lies inside of it: what Kernels says of prepare_sweep() and
+// sweep(), for one source and for each of several, is done by the structs of these names. Only dispatch.cpp
+// includes this.
+
+template <size_t BYTES>
+using Sums = typename Lanes<BYTES>::Codes;
+
+// ---- The border, made ready for `COUNT` sources, 1 or Kernels::SOURCES, side by side at each place
+
+template <size_t BYTES, size_t COUNT>
+struct PrepareSweep {
+    using Distances = Floats<BYTES>;
+    using Numbers = typename Lanes<BYTES>::Keys;
+    using Codes = typename VectorOf<int16_t, BYTES / 2>::Type;
+    static constexpr size_t LANES = Lanes<BYTES>::FLOATS;
+    static constexpr size_t VECTORS = COUNT == 1 ? 1 : COUNT / LANES; // of nearest distances
+
+    [[gnu::always_inline]] static void run(const BorderDistances& border, const BorderCodes& codes,
+                                           float* middle_distance) {
+        Distances nearest[VECTORS];
+        measure_middles(border, middle_distance, nearest);
+        if constexpr (COUNT == 1) {
+            const float least = least_of<BYTES>(nearest[0]);
+            nearest[0] = Distances{} + least;
+            *codes.nearest = least;
+        } else {
+            std::memcpy(codes.nearest, nearest, sizeof nearest);
+        }
+        encode(border, border.distance, nearest, codes.code);
+        encode(border, middle_distance, nearest, codes.middle);
+    }
+
+private:
+    // nearest: of places and middles.
+    [[gnu::always_inline]] static void measure_middles(const BorderDistances& border, float* middle_distance,
+                                                       Distances* nearest) {
+        for (size_t v = 0; v < VECTORS; ++v) nearest[v] = Distances{} + INFINITE;
+        for (size_t i = 0; i < border.places * COUNT; i += LANES) {
+            Distances first, second, length, middle;
+            load(border.distance + i, first);
+            load(border.distance + i + COUNT, second);
+            if constexpr (COUNT == 1)
+                load(border.length + i, length);
+            else
+                length = Distances{} + border.length[i / COUNT];
+            middle_square(first, second, length, middle);
+            take_square_root(middle);
+            store(middle, middle_distance + i);
+            lower(nearest[i / LANES % VECTORS], first);
+            lower(nearest[i / LANES % VECTORS], middle);
+        }
+        if constexpr (COUNT > 1) std::fill_n(middle_distance + border.places * COUNT, COUNT, INFINITE);
+    }
+
+    // LANES codes, of distances side by side.
+    [[gnu::always_inline]] static void round_lanes(const float* distances, const Distances& nearest,
+                                                   float scale, Numbers& codes) {
+        Distances distance;
+        load(distances, distance);
+        round_to_codes<BYTES>(distance, nearest, scale, codes);
+    }
+
+    [[gnu::always_inline]] static void encode(const BorderDistances& border, const float* distances,
+                                              const Distances* nearest, int16_t* codes) {
+        const float scale = steps_per_distance(border.quantum);
+        const size_t places_filled = border.places + border.places % 2;
+        Numbers of_place, of_next;
+        if constexpr (COUNT == 1) {
+            for (size_t k = 0; k < border.places; k += LANES) {
+                round_lanes(distances + k, *nearest, scale, of_place);
+                store(__builtin_convertvector(of_place, Codes), codes + k);
+            }
+        } else {
+            for (size_t k = 0; k < places_filled; k += 2)
+                for (size_t v = 0; v < VECTORS; ++v) {
+                    const float* of_sources = distances + k * COUNT + v * LANES;
+                    round_lanes(of_sources, nearest[v], scale, of_place);
+                    round_lanes(of_sources + COUNT, nearest[v], scale, of_next);
+                    const Numbers pairs = (of_place & 0xffff) | (of_next << 16);
+                    store(pairs, codes + k * COUNT + 2 * v * LANES);
+                }
+        }
+        std::fill(codes + places_filled * COUNT, codes + SourceCode::whole_blocks(border.places) * COUNT,
+                  SourceCode::UNREACHED);
+    }
 };
 
-// The distances as codes of SourceCode, from the places and from the middles of the segments that begin at
-// them.
-struct SweptCodes {
-    int16_t *code, *middle;
-    float* nearest; // per source; infinity: none is reached, and its codes say nothing
+template <size_t BYTES>
+using PrepareSweepOfOne = PrepareSweep<BYTES, 1>;
+template <size_t BYTES>
+using PrepareSweepOfEach = PrepareSweep<BYTES, Kernels::SOURCES>;
+
+// ---- The least ways
+
+// For what sums of codes do not tell: ways of which one end is out of reach. Over places only.
+inline float way_over_places(const BorderDistances& border, size_t stride, const float* distance,
+                             const uint16_t* row) {
+    float least = INFINITE;
+    for (size_t k = 0; k < border.places; ++k)
+        if (row[k] != TableCode::UNREACHED)
+            least = std::min(least, distance[k * stride] + static_cast<float>(row[k]) * border.quantum);
+    return least;
+}
+
+template <class V>
+[[gnu::always_inline]] inline bool any(const V& mask) {
+    int64_t bits[sizeof mask / sizeof(int64_t)], all = 0;
+    std::memcpy(bits, &mask, sizeof mask);
+    for (int64_t part : bits) all |= part;
+    return all != 0;
+}
+
+// distances = nearest + sums, counted from the smallest number.
+template <class Narrow, class Wide>
+[[gnu::always_inline]] inline void decode_sums(const Narrow& sums, float quantum, const Wide& nearest,
+                                               float* distances) {
+    using Numbers = typename VectorOf<int32_t, sizeof(Wide)>::Type;
+    const Numbers steps = __builtin_convertvector(sums, Numbers) - SourceCode::NEAREST;
+    const Wide distance = nearest + __builtin_convertvector(steps, Wide) * quantum;
+    store(distance, distances);
+}
+
+// least[i]: the least lane of eight[i].
+template <class Eight>
+[[gnu::always_inline]] inline void least_lanes_of_eight(const Eight eight[8], Eight& least) {
+    Eight four[4], two[2];
+    for (int i = 0; i < 4; ++i) {
+        const Eight &a = eight[2 * i], &b = eight[2 * i + 1];
+        four[i] = __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
+        lower<Eight>(four[i], __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15));
+    }
+    for (int i = 0; i < 2; ++i) {
+        const Eight &a = four[2 * i], &b = four[2 * i + 1];
+        two[i] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 2, 3, 10, 11);
+        lower<Eight>(two[i], __builtin_shufflevector(a, b, 4, 5, 12, 13, 6, 7, 14, 15));
+    }
+    least = __builtin_shufflevector(two[0], two[1], 0, 1, 2, 3, 8, 9, 10, 11);
+    lower<Eight>(least, __builtin_shufflevector(two[0], two[1], 4, 5, 6, 7, 12, 13, 14, 15));
+}
+
+[[gnu::always_inline]] inline void prefetch(const uint16_t* codes, size_t offset) {
+    __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<uintptr_t>(codes) + offset));
+}
+
+// Also of rows behind the last one, with which the next sweep is likely to begin.
+[[gnu::always_inline]] inline void prefetch_rows(const BorderDistances& border, const SweepRows& rows,
+                                                 size_t first, size_t count) {
+    constexpr size_t LINE = 64;
+    const size_t row_size = border.places * sizeof(uint16_t);
+    for (size_t offset = first * row_size; offset < (first + count) * row_size; offset += LINE) {
+        prefetch(rows.codes, offset);
+        prefetch(rows.middles, offset);
+    }
+}
+
+// ---- From one source: eight rows at a time, a vector of places after the other
+
+template <size_t BYTES>
+struct Sweep {
+    static constexpr size_t ROWS = 8, LANES = Lanes<BYTES>::CODES;
+    using Eight = Sums<ROWS * sizeof(int16_t)>;
+
+    [[gnu::always_inline]] static void lower_all(const BorderDistances& border, const int16_t* codes,
+                                                 const uint16_t* table, const size_t* row_begin,
+                                                 Sums<BYTES>* least) {
+        for (size_t k = 0; k < border.places; k += LANES) {
+            Sums<BYTES> code, entries;
+            load(codes + k, code);
+            for (size_t r = 0; r < ROWS; ++r) {
+                load(table + row_begin[r] + k, entries);
+                lower<Sums<BYTES>>(least[r], code + entries);
+            }
+        }
+    }
+
+    // Rows may be the same.
+    [[gnu::always_inline]] static void sweep_eight(const BorderDistances& border, const BorderCodes& codes,
+                                                   const SweepRows& rows, const size_t* row_begin,
+                                                   float* distances) {
+        Sums<BYTES> least[ROWS];
+        for (auto& lanes : least) lanes = Sums<BYTES>{} + std::numeric_limits<int16_t>::max();
+        lower_all(border, codes.code, rows.codes, row_begin, least);
+        lower_all(border, codes.middle, rows.middles, row_begin, least);
+        Eight folded[ROWS], sums;
+        for (size_t r = 0; r < ROWS; ++r) fold(least[r], folded[r]);
+        least_lanes_of_eight(folded, sums);
+        using EightFloats = Floats<ROWS * sizeof(float)>;
+        const EightFloats nearest = EightFloats{} + *codes.nearest;
+        decode_sums(sums, border.quantum, nearest, distances);
+        if (any(sums >= static_cast<int16_t>(SourceCode::NO_SUM))) [[unlikely]]
+            for (size_t r = 0; r < ROWS; ++r)
+                if (sums[r] >= SourceCode::NO_SUM)
+                    distances[r] = way_over_places(border, 1, border.distance, rows.codes + row_begin[r]);
+    }
+
+    [[gnu::always_inline]] static void run(const BorderDistances& border, const BorderCodes& codes,
+                                           const SweepRows& rows, float* distances) {
+        if (rows.count == 0) return;
+        size_t row_begin[ROWS];
+        for (size_t done = 0; done < rows.count; done += ROWS) {
+            for (size_t r = 0; r < ROWS; ++r)
+                row_begin[r] = std::min(done + r, rows.count - 1) * border.places;
+            prefetch_rows(border, rows, done + ROWS, ROWS);
+            if (done + ROWS <= rows.count) {
+                sweep_eight(border, codes, rows, row_begin, distances + done);
+            } else {
+                float last[ROWS];
+                sweep_eight(border, codes, rows, row_begin, last);
+                std::copy_n(last, rows.count - done, distances + done);
+            }
+        }
+    }
 };
 
-// Rows of codes, end to end: one a place, and one a segment's middle.
-struct SweptRows {
-    size_t count;
-    const uint16_t *codes, *middles;
+// ---- From each of Kernels::SOURCES: lanes are the sources, each with two places; several rows share what
+// they read of the border
+
+template <size_t BYTES>
+struct SweepEach {
+    static constexpr size_t SOURCES = Kernels::SOURCES;
+    static constexpr size_t LANES = BYTES / sizeof(int32_t), VECTORS = SOURCES / LANES;
+    using Pairs = typename Lanes<BYTES>::Keys;
+
+    // Entries of two places, as each source's.
+    [[gnu::always_inline]] static void load_pair(const uint16_t* entries, Sums<BYTES>& pairs) {
+        int32_t pair;
+        std::memcpy(&pair, entries, sizeof pair);
+        pairs = reinterpret_cast<Sums<BYTES>>(Pairs{} + pair);
+    }
+
+    template <size_t ROWS>
+    [[gnu::always_inline]] static void lower_all(const BorderDistances& border, const int16_t* codes,
+                                                 const uint16_t* row, Sums<BYTES>* least) {
+        for (size_t k = 0; k < border.places; k += 2) {
+            Sums<BYTES> code[VECTORS], entries;
+            std::memcpy(code, codes + k * SOURCES, sizeof code);
+            for (size_t r = 0; r < ROWS; ++r) {
+                load_pair(row + r * border.places + k, entries);
+                for (size_t v = 0; v < VECTORS; ++v)
+                    lower<Sums<BYTES>>(least[r * VECTORS + v], code[v] + entries);
+            }
+        }
+    }
+
+    // The rows from `first` on.
+    template <size_t ROWS>
+    [[gnu::always_inline]] static void sweep_rows(const BorderDistances& border, const BorderCodes& codes,
+                                                  const SweepRows& rows, size_t first, float* distances) {
+        Sums<BYTES> least[ROWS * VECTORS];
+        for (auto& lanes : least) lanes = Sums<BYTES>{} + std::numeric_limits<int16_t>::max();
+        lower_all<ROWS>(border, codes.code, rows.codes + first * border.places, least);
+        lower_all<ROWS>(border, codes.middle, rows.middles + first * border.places, least);
+        for (size_t i = 0; i < ROWS * VECTORS; ++i) {
+            const Pairs pairs = reinterpret_cast<Pairs>(least[i]);
+            Pairs sums = pairs >> 16;
+            lower<Pairs>(sums, (pairs << 16) >> 16);
+            Floats<BYTES> nearest;
+            load(codes.nearest + i % VECTORS * LANES, nearest);
+            decode_sums(sums, border.quantum, nearest, distances + first * SOURCES + i * LANES);
+            if (any(sums >= SourceCode::NO_SUM)) [[unlikely]]
+                for (size_t lane = 0; lane < LANES; ++lane)
+                    if (sums[lane] >= SourceCode::NO_SUM)
+                        sweep_one(border, codes, rows, first * SOURCES + i * LANES + lane, distances);
+        }
+    }
+
+    static void sweep_one(const BorderDistances& border, const BorderCodes& codes, const SweepRows& rows,
+                          size_t way, float* distances) {
+        const size_t row = way / SOURCES, source = way % SOURCES;
+        if (codes.nearest[source] == INFINITE) return;
+        distances[way] =
+            way_over_places(border, SOURCES, border.distance + source, rows.codes + row * border.places);
+    }
+
+    [[gnu::always_inline]] static void run(const BorderDistances& border, const BorderCodes& codes,
+                                           const SweepRows& rows, float* distances) {
+        constexpr size_t ROWS = BYTES >= 32 ? 4 : 2;
+        size_t r = 0;
+        for (; r + ROWS <= rows.count; r += ROWS) {
+            prefetch_rows(border, rows, r + ROWS, ROWS);
+            sweep_rows<ROWS>(border, codes, rows, r, distances);
+        }
+        for (; r < rows.count; ++r) sweep_rows<1>(border, codes, rows, r, distances);
+    }
 };
-
-// For one kind of processor. A sweep is the innermost loop of MSAD: from a border to all that lies one hop
-// inside of it, over places and middles.
-struct SweepKernel {
-    // Of several sources, everything of a place or a row lies side by side.
-    static constexpr size_t SOURCES = 16;
-
-    const char* name;
-
-    // Fills codes, with room for whole blocks; middle_distance: as much room, for what it computes.
-    void (*see)(const SweptBorder& border, const SweptCodes& codes, float* middle_distance);
-    void (*see_each)(const SweptBorder& border, const SweptCodes& codes, float* middle_distance);
-
-    // distances[row]: the least way over any place or middle, or infinity; of each: distances[row * SOURCES +
-    // source].
-    void (*sweep)(const SweptBorder& border, const SweptCodes& codes, const SweptRows& rows,
-                  float* distances);
-    void (*sweep_each)(const SweptBorder& border, const SweptCodes& codes, const SweptRows& rows,
-                       float* distances);
-};
-
-// Those that this processor can run, the fastest last. All give the same bits, and for each of several
-// sources the same as for one alone.
-std::span<const SweepKernel> sweep_kernels();
 
 }

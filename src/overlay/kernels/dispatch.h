@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "src/overlay/codes.h"
+
+namespace geodesic {
+
+// What the kernels read and write, and the one table through which they are called.
+
+// Rows of a table, each one code a place.
+using Rows = std::span<const uint16_t* const>;
+
+// ---- What a crossing reads: a border, one source, and any rows
+
+// The border of a patch and the distances of one source from it, by the places of the border's ring.
+struct BorderFromSource {
+    static constexpr uint16_t NO_PLACE = 0xffff; // a winner where there is no way
+
+    size_t places;
+    const int16_t* code;                // of SourceCode
+    const float* distance;              // infinity behind the last place, too, up to whole blocks
+    const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
+    const float *foot, *height;         // of the source, in the plane of the segment
+    float quantum;                      // of the rows
+};
+
+// The part of a border that is near to the source.
+struct NearRange {
+    float nearest;      // the distance of the nearest place
+    float reach;        // up to which a distance is near
+    size_t first, last; // near places, and those between them; none if first > last
+    bool is_near() const { return first <= last; }
+};
+
+// ---- What a sweep reads: a border, one or several sources, and all rows of the table in their order
+
+// The distances of sources from the places of a ring: infinity behind the last one, up to whole blocks.
+struct BorderDistances {
+    size_t places;
+    const float* distance;
+    const float* length; // of the segment to the next place; NaN: a gap
+    float quantum;       // of the rows
+};
+
+// The distances as codes of SourceCode, from the places and from the middles of the segments that begin at
+// them.
+struct BorderCodes {
+    int16_t *code, *middle;
+    float* nearest; // per source; infinity: none is reached, and its codes say nothing
+};
+
+// Rows of codes, end to end: one a place, and one a segment's middle.
+struct SweepRows {
+    size_t count;
+    const uint16_t *codes, *middles;
+};
+
+// ---- The table
+
+// All kernels, compiled for one instruction set.
+struct Kernels {
+    // Of several sources, everything of a place or a row lies side by side.
+    static constexpr size_t SOURCES = 16;
+
+    const char* name;
+
+    // Fills code, foot and height, which are the border's own, from the rest of it; codes only where is_own
+    // is -1, not 0. If the nearest place is at infinity, it fills nothing.
+    NearRange (*prepare_crossing)(const BorderFromSource& border, const int32_t* is_own, int16_t* code,
+                                  float* foot, float* height);
+
+    // distances[r]: the least way over a place and row r, straightened over the segments near the place where
+    // that is shorter, or infinity; winners[r], if not NULL: that place, or NO_PLACE.
+    void (*cross)(const BorderFromSource& border, Rows rows, float* distances, uint16_t* winners);
+
+    // distances[r], where it is near: the least way over row r and a near place, or straightened over any
+    // segment that is near. Where a border is jagged, the straight way does not always pass near the place
+    // with the least sum.
+    void (*cross_near)(const BorderFromSource& border, const NearRange& range, Rows rows, float* distances);
+
+    // winners[r]: the place with the least sum of codes, or NO_PLACE; reads no more of the border than these.
+    void (*choose)(const BorderFromSource& border, Rows rows, uint16_t* winners);
+
+    // A sweep is the innermost loop of MSAD: from a border to all that lies one hop inside of it, over places
+    // and middles. Each kernel of it comes for one source, and for SOURCES at once, which gives the same
+    // bits.
+
+    // Fills codes, with room for whole blocks; middle_distance: as much room, for what it computes.
+    void (*prepare_sweep)(const BorderDistances& border, const BorderCodes& codes, float* middle_distance);
+    void (*prepare_sweep_each)(const BorderDistances& border, const BorderCodes& codes,
+                               float* middle_distance);
+
+    // distances[row]: the least way over any place or middle, or infinity; of each: distances[row * SOURCES +
+    // source].
+    void (*sweep)(const BorderDistances& border, const BorderCodes& codes, const SweepRows& rows,
+                  float* distances);
+    void (*sweep_each)(const BorderDistances& border, const BorderCodes& codes, const SweepRows& rows,
+                       float* distances);
+};
+
+// Those that this processor can run, the fastest last. All give the same bits.
+std::span<const Kernels> runnable_kernels();
+
+// The names that SSSD has for these.
+using SeenBorder = BorderFromSource;
+inline std::span<const Kernels> crossing_kernels() { return runnable_kernels(); }
+
+}
