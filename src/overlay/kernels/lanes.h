@@ -17,7 +17,6 @@ template <size_t BYTES>
 struct Lanes {
     static constexpr size_t CODES = BYTES / sizeof(int16_t), FLOATS = BYTES / sizeof(float);
     using Codes [[gnu::vector_size(BYTES)]] = int16_t;
-    using CodesAnywhere [[gnu::vector_size(BYTES), gnu::aligned(2), gnu::may_alias]] = int16_t;
     using Keys [[gnu::vector_size(BYTES)]] = int32_t;
 };
 

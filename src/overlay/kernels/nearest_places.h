@@ -39,13 +39,12 @@ make_keys(const typename Lanes<BYTES>::Codes& sum, const typename Lanes<BYTES>::
 template <size_t BYTES, size_t BLOCKS>
 struct NearestPlaces {
     using Codes = typename Lanes<BYTES>::Codes;
-    using CodesAnywhere = typename Lanes<BYTES>::CodesAnywhere;
     using Keys = typename Lanes<BYTES>::Keys;
     static constexpr size_t LANES = Lanes<BYTES>::CODES;
 
     [[gnu::always_inline]] static void find(const BorderFromSource& border, Rows rows, int32_t* keys) {
         Codes codes[BLOCKS + 1];
-        for (size_t b = 0; b < BLOCKS; ++b) codes[b] = at(border.code, b);
+        for (size_t b = 0; b < BLOCKS; ++b) load(border.code + b * LANES, codes[b]);
         size_t r = 0;
         for (; r + 4 <= rows.size(); r += 4) find_four(border, codes, rows.data() + r, keys + r);
         if (r == rows.size()) return;
@@ -57,9 +56,13 @@ struct NearestPlaces {
     }
 
 private:
-    template <class Code>
-    [[gnu::always_inline]] static const CodesAnywhere& at(const Code* first, size_t block) {
-        return *reinterpret_cast<const CodesAnywhere*>(first + block * LANES);
+    // The border's codes of a block, from a register if they are in one.
+    [[gnu::always_inline]] static void read(const BorderFromSource& border, const Codes* codes, size_t block,
+                                            Codes& code) {
+        if constexpr (BLOCKS)
+            code = codes[block];
+        else
+            load(border.code + block * LANES, code);
     }
 
     [[gnu::always_inline]] static void find_four(const BorderFromSource& border, const Codes* codes,
@@ -68,15 +71,19 @@ private:
         Codes lanes;
         for (size_t i = 0; i < LANES; ++i) lanes[i] = static_cast<int16_t>(i);
         Codes least[4], place[4], here = lanes;
+        Codes code, entries;
+        read(border, codes, 0, code);
         for (size_t i = 0; i < 4; ++i) {
-            least[i] = at(rows[i], 0) + (BLOCKS ? codes[0] : at(border.code, 0));
+            load(rows[i], entries);
+            least[i] = entries + code;
             place[i] = lanes;
         }
         for (size_t b = 1; b < blocks; ++b) {
             here += static_cast<int16_t>(LANES);
-            const Codes code = BLOCKS ? codes[b] : at(border.code, b);
+            read(border, codes, b, code);
             for (size_t i = 0; i < 4; ++i) {
-                const Codes sum = at(rows[i], b) + code;
+                load(rows[i] + b * LANES, entries);
+                const Codes sum = entries + code;
                 place[i] = sum < least[i] ? here : place[i];
                 lower(least[i], sum);
             }
