@@ -104,8 +104,4 @@ struct Kernels {
 // Those that this processor can run, the fastest last. All give the same bits.
 std::span<const Kernels> runnable_kernels();
 
-// The names that SSSD has for these.
-using SeenBorder = BorderFromSource;
-inline std::span<const Kernels> crossing_kernels() { return runnable_kernels(); }
-
 }

@@ -1,0 +1,59 @@
+#include "src/overlay/sssd/ascent.h"
+
+#include <algorithm>
+
+namespace geodesic {
+
+BorderLabel label_of(const OverlayIndex& index, uint32_t vertex, uint32_t patch) {
+    const Numbering& numbering = index.numbering;
+    const uint32_t entry = numbering.entry(vertex);
+    const int16_t* label = index.labels.codes.data() + index.labels.begin[entry] +
+                           uint64_t{vertex - numbering.first_inner(entry)} * index.labels.offset[entry] +
+                           index.labels.offset[patch];
+    const uint32_t nearest = static_cast<uint32_t>(static_cast<uint16_t>(label[0])) +
+                             0x10000u * static_cast<uint32_t>(static_cast<uint16_t>(label[1]));
+    return {nearest, index.quantum[numbering.parent[patch]], label + Labels::HEAD,
+            index.is_labelled_whole(patch)};
+}
+
+RingRow inner_row_of(const OverlayIndex& index, uint32_t vertex) {
+    const Numbering& numbering = index.numbering;
+    const uint32_t patch = numbering.entry(vertex);
+    return {index.hops.inner.data() + index.inner_row(patch, vertex - numbering.first_inner(patch)),
+            index.rings.begin[patch], index.quantum[patch]};
+}
+
+size_t largest_sample_count(const OverlayIndex& index) {
+    size_t largest = 0;
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p)
+        largest = std::max(largest, index.samples.of(p).size());
+    return largest;
+}
+
+Ascent::Ascent(const OverlayIndex& index, std::pmr::memory_resource* memory)
+    : patches(memory), sample_distances(memory) {
+    patches.reserve(index.numbering.level_count());
+    sample_distances.reserve(largest_sample_count(index));
+}
+
+void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Ascent& ascent) {
+    const uint32_t entry = index.numbering.entry(vertex);
+    ascent.vertex = vertex;
+    ascent.patches.clear();
+    for (uint32_t patch = entry; patch != top; patch = index.numbering.parent[patch]) {
+        if (patch != entry && index.is_labelled_whole(patch)) ascent.patches.clear();
+        ascent.patches.push_back(patch);
+    }
+    const uint32_t patch = ascent.last_patch();
+    const auto samples = index.samples.of(patch);
+    ascent.sample_distances.resize(samples.size());
+    if (patch == entry) {
+        read_samples(index, patch, inner_row_of(index, vertex), ascent.sample_distances);
+        return;
+    }
+    const BorderLabel label = label_of(index, vertex, patch);
+    for (uint32_t i = 0; i < samples.size(); ++i)
+        ascent.sample_distances[i] = label.distance(label.is_whole ? samples[i] : i);
+}
+
+}
