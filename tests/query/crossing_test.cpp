@@ -7,7 +7,6 @@
 
 #include <doctest/doctest.h>
 
-#include "src/overlay/near.h"
 #include "tests/query/flat_border.h"
 
 using namespace geodesic;
@@ -25,6 +24,29 @@ Crossed cross(const Kernels& kernels, const BorderFromSource& border, Rows rows)
     kernels.cross(border, rows, crossed.distances.data(), crossed.winners.data());
     return crossed;
 }
+
+// A border as a kernel prepares it; its places are all their vertices' own.
+struct PreparedBorder {
+    PreparedBorder(const Kernels& kernels, const FlatBorder& flat, size_t places)
+        : distance(flat.to_source), code(flat.code.size()), foot(code.size()), height(code.size()) {
+        std::fill(distance.begin() + static_cast<std::ptrdiff_t>(places), distance.end(), INFINITE);
+        border = flat.from_source();
+        border.distance = distance.data();
+        border.code = code.data();
+        border.foot = foot.data();
+        border.height = height.data();
+        const std::vector<int32_t> is_own(code.size(), -1);
+        range = kernels.prepare_crossing(border, is_own.data(), code.data(), foot.data(), height.data());
+    }
+    PreparedBorder(const PreparedBorder&) = delete;
+    PreparedBorder& operator=(const PreparedBorder&) = delete;
+
+    std::vector<float> distance;
+    std::vector<int16_t> code;
+    std::vector<float> foot, height;
+    BorderFromSource border{};
+    NearRange range{};
+};
 
 }
 
@@ -69,27 +91,15 @@ TEST_CASE("crossing: near segments of a jagged border, by every instruction set"
         for (int i = 0; i < 70; ++i) points.push_back({along(random), off(random)});
         const Point source{along(random), -off(random)};
         const FlatBorder border(hook, source, points);
-        const BorderFromSource from_source = border.from_source();
-        const std::vector<int32_t> is_own(border.code.size(), -1);
         std::vector<float> first;
         for (const Kernels& kernels : runnable_kernels()) {
             CAPTURE(kernels.name);
-            std::vector<int16_t> code(border.code.size());
-            std::vector<float> foot(code.size()), height(code.size());
-            auto distance = border.to_source;
-            std::fill(distance.begin() + static_cast<std::ptrdiff_t>(hook.size()), distance.end(), INFINITE);
-            BorderFromSource near = from_source;
-            near.distance = distance.data();
-            near.code = code.data();
-            near.foot = foot.data();
-            near.height = height.data();
-            const NearRange range =
-                kernels.prepare_crossing(near, is_own.data(), code.data(), foot.data(), height.data());
-            REQUIRE(range.is_near());
-            CHECK(double{range.reach} == doctest::Approx(50.0));
-            auto distances = cross(kernels, near, border.rows).distances;
+            const PreparedBorder prepared(kernels, border, hook.size());
+            REQUIRE(prepared.range.is_near());
+            CHECK(double{prepared.range.reach} == doctest::Approx(50.0));
+            auto distances = cross(kernels, prepared.border, border.rows).distances;
             const auto before = distances;
-            kernels.cross_near(near, range, border.rows, distances.data());
+            kernels.cross_near(prepared.border, prepared.range, border.rows, distances.data());
             uint64_t wrong = 0;
             for (size_t i = 0; i < points.size(); ++i) {
                 const double line = test::distance(source, points[i]);
@@ -104,23 +114,29 @@ TEST_CASE("crossing: near segments of a jagged border, by every instruction set"
     CHECK(missed > 1000); // without cross_near()
 }
 
-TEST_CASE("crossing: what is far stays as it is") {
+TEST_CASE("crossing: near is what lies within five segments, and what is far stays as it is") {
     std::mt19937 random(8);
-    const std::vector<Point> points{{9, 2}, {9, 90}};
-    for (const Point source : {Point{9, -2}, Point{9, -90}}) {
-        const FlatBorder border(30, source, points, random);
-        const BorderFromSource from_source = border.from_source();
+    const std::vector<Point> line = line_of(30, random);
+    double longest = 0;
+    for (size_t k = 0; k + 1 < line.size(); ++k) longest = std::max(longest, distance(line[k], line[k + 1]));
+    const double reach = 5 * longest;
+    for (const double share : {0.1, 0.6, 0.99, 1.01, 10.0}) {
+        const Point source{line[14].x, -share * reach};
+        const FlatBorder border(line, source, {{source.x, 2}, {source.x, 90}});
         for (const Kernels& kernels : runnable_kernels()) {
             CAPTURE(kernels.name);
-            const float longest = *std::max_element(border.length.begin(), border.length.begin() + 29);
-            const float reach = near_radius(longest);
-            const bool is_near = -source.y < double{reach};
-            const NearRange range{0, reach, is_near ? size_t{0} : size_t{1},
-                                  is_near ? size_t{29} : size_t{0}};
-            std::vector<float> distances{reach, reach * 2};
-            if (range.is_near()) kernels.cross_near(from_source, range, border.rows, distances.data());
-            CHECK(double{distances[0]} == doctest::Approx(is_near ? 4 : double{reach}).epsilon(1e-3));
-            CHECK(distances[1] == reach * 2);
+            CAPTURE(share);
+            const PreparedBorder prepared(kernels, border, line.size());
+            CHECK(double{prepared.range.reach} == doctest::Approx(reach));
+            REQUIRE(prepared.range.is_near() == (share < 1));
+            if (!prepared.range.is_near()) continue;
+            for (size_t k = 0; k < line.size(); ++k)
+                CHECK((distance(source, line[k]) <= reach) ==
+                      (k >= prepared.range.first && k <= prepared.range.last));
+            std::vector<float> distances{prepared.range.reach, prepared.range.reach * 2};
+            kernels.cross_near(prepared.border, prepared.range, border.rows, distances.data());
+            CHECK(double{distances[0]} == doctest::Approx(share * reach + 2).epsilon(1e-3));
+            CHECK(distances[1] == prepared.range.reach * 2);
         }
     }
 }
