@@ -11,7 +11,6 @@
 #include "geoidx.h"
 #include "src/metric/edge_graph.h"
 #include "src/metric/window_propagation.h"
-#include "src/partition/patch.h"
 #include "src/partition/split.h"
 #include "tests/support/meshes.h"
 #include "tests/support/oracles.h"
@@ -50,31 +49,59 @@ std::vector<Surface> surfaces() {
             {"two triangles", triangles(2)}};
 }
 
-// Edges between faces, found anew: faces that share two vertices.
-bool edge_connected(const Mesh& mesh, const Faces& faces) {
-    std::map<std::array<uint32_t, 2>, std::vector<size_t>> faces_at;
-    for (size_t i = 0; i < faces.size(); ++i)
+// ---- What a patch is judged by, found anew from nothing but the corners of faces
+
+using Edge = std::array<uint32_t, 2>;
+
+std::map<Edge, std::vector<uint32_t>> faces_at_edges(const Mesh& mesh, const Faces& faces) {
+    std::map<Edge, std::vector<uint32_t>> faces_at;
+    for (uint32_t f : faces)
         for (size_t k = 0; k < 3; ++k) {
-            const uint32_t a = mesh.faces[faces[i]][k], b = mesh.faces[faces[i]][(k + 1) % 3];
-            faces_at[{std::min(a, b), std::max(a, b)}].push_back(i);
+            const uint32_t a = mesh.faces[f][k], b = mesh.faces[f][(k + 1) % 3];
+            faces_at[{std::min(a, b), std::max(a, b)}].push_back(f);
         }
-    std::vector<size_t> group(faces.size());
-    std::iota(group.begin(), group.end(), size_t{0});
-    const auto find = [&](size_t i) {
-        while (group[i] != i) i = group[i];
-        return i;
-    };
-    for (const auto& [edge, at] : faces_at)
-        for (size_t i : at) group[find(i)] = find(at.front());
-    for (size_t i = 0; i < faces.size(); ++i)
-        if (find(i) != find(0)) return false;
+    return faces_at;
+}
+
+// Things by number, some of which are one.
+class Groups {
+public:
+    uint32_t find(uint32_t i) {
+        uint32_t& group = group_.try_emplace(i, i).first->second;
+        return group == i ? i : group = find(group);
+    }
+    void join(uint32_t a, uint32_t b) { group_[find(a)] = find(b); }
+
+private:
+    std::map<uint32_t, uint32_t> group_;
+};
+
+bool edge_connected(const Mesh& mesh, const Faces& faces) {
+    Groups groups;
+    for (const auto& [edge, at] : faces_at_edges(mesh, faces))
+        for (uint32_t f : at) groups.join(f, at.front());
+    for (uint32_t f : faces)
+        if (groups.find(f) != groups.find(faces.front())) return false;
     return !faces.empty();
 }
 
+// Edges where the patch ends, because of another patch or with the mesh, hang together at vertices; each
+// such group with an edge to another patch is a ring.
 uint32_t border_rings(const Mesh& mesh, const Faces& faces) {
-    std::vector<uint8_t> inside(mesh.face_count(), 0);
-    for (uint32_t f : faces) inside[f] = 1;
-    return count_border_rings(mesh, faces, inside);
+    Faces all(mesh.face_count());
+    std::iota(all.begin(), all.end(), 0u);
+    const auto of_mesh = faces_at_edges(mesh, all);
+    Groups groups;
+    std::vector<uint32_t> at_other_patches;
+    for (const auto& [edge, inside] : faces_at_edges(mesh, faces)) {
+        const size_t around = of_mesh.at(edge).size();
+        if (around == inside.size() && around > 1) continue;
+        groups.join(edge[0], edge[1]);
+        if (around > inside.size()) at_other_patches.push_back(edge[0]);
+    }
+    std::set<uint32_t> rings;
+    for (uint32_t v : at_other_patches) rings.insert(groups.find(v));
+    return static_cast<uint32_t>(rings.size());
 }
 
 Hierarchy build(const Mesh& mesh, std::vector<uint32_t> split, uint64_t seed = 1, uint32_t threads = 1) {
