@@ -205,25 +205,63 @@ TEST_CASE("on a plane the distance is the straight line, with a small mean error
     }
 }
 
+namespace {
+
+// The relative errors of MSAD on a plane from one vertex.
+struct ErrorsFrom {
+    double sum = 0, signed_sum = 0, max = 0;
+};
+
+ErrorsFrom errors_from(const geoidx* index, const TestMesh& plane, uint32_t source) {
+    const auto answers = msad(index, source, plane.vertex_count());
+    ErrorsFrom errors;
+    for (uint32_t b = 0; b < plane.vertex_count(); ++b) {
+        if (b == source) continue;
+        const double error = double{answers[b]} / plane.straight(source, b) - 1;
+        errors.sum += std::abs(error);
+        errors.signed_sum += error;
+        errors.max = std::max(errors.max, std::abs(error));
+    }
+    return errors;
+}
+
+}
+
 TEST_CASE("the measured error in the info is that of MSAD") {
-    // One leaf: the error is float rounding. Bounds from the answers themselves otherwise.
+    // One leaf: the error is float rounding.
     const TestMesh small = grid(6, 6, 0.2);
     auto options = build_options(GEOIDX_METRIC_EXACT, 1);
     options.patches[0] = 1;
     CHECK(info_of(build(small, options).get()).error_max < 2e-7);
 
     const TestMesh mesh = grid(16, 15, 0.2);
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
-    double largest = 0;
-    for (uint32_t a = 0; a < mesh.vertex_count(); ++a) {
-        const auto answers = msad(index.get(), a, mesh.vertex_count());
-        for (uint32_t b = 0; b < mesh.vertex_count(); ++b)
-            if (a != b) largest = std::max(largest, double{answers[b]} / mesh.straight(a, b) - 1);
+    const uint32_t count = mesh.vertex_count();
+    for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
+        CAPTURE(engine);
+        options = build_options(GEOIDX_METRIC_EXACT, 2);
+        options.engine = engine;
+        const auto index = build(mesh, options);
+        const geoidx_info info = info_of(index.get());
+        ErrorsFrom all;
+        uint32_t with_that_max = 0, with_less = 0;
+        for (uint32_t a = 0; a < count; ++a) {
+            const ErrorsFrom errors = errors_from(index.get(), mesh, a);
+            all.sum += errors.sum;
+            all.signed_sum += errors.signed_sum;
+            with_that_max += std::abs(errors.max - info.error_max) < 2 * ROUNDING;
+            with_less += errors.max < info.error_max;
+        }
+        // The largest one is that of some source, and of 20 sources at random one is among the worse half but
+        // once in a million times. What 20 of 240 say of the mean is near that of all.
+        CHECK(with_that_max > 0);
+        CHECK(with_less >= count / 2);
+        const double pairs = 1.0 * count * (count - 1);
+        CHECK(info.error_mean == doctest::Approx(all.sum / pairs).epsilon(0.25));
+        CHECK(std::abs(info.error_signed_mean - all.signed_sum / pairs) < 0.25 * all.sum / pairs);
+        CHECK(info.error_mean < info.error_p99);
+        CHECK(info.error_p99 <= info.error_p999);
+        CHECK(info.error_p999 <= info.error_max);
     }
-    const geoidx_info info = info_of(index.get());
-    CHECK(info.error_max <= largest + ROUNDING);
-    CHECK(info.error_max > 0);
-    CHECK(info.error_mean <= info.error_p99);
 }
 
 TEST_CASE("vertices that cannot be reached and vertices that no triangle uses") {
