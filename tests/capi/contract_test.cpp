@@ -10,9 +10,17 @@
 
 using namespace geodesic::test;
 
+namespace {
+
+std::string dotted(uint32_t version) {
+    return std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." +
+           std::to_string(version % 100);
+}
+
+}
+
 TEST_CASE("version and status strings") {
-    CHECK(geoidx_version() ==
-          GEOIDX_VERSION_MAJOR * 10000 + GEOIDX_VERSION_MINOR * 100 + GEOIDX_VERSION_PATCH);
+    CHECK(dotted(geoidx_version()) == GEOIDX_VERSION_OF_PROJECT);
     std::set<std::string> phrases;
     for (geoidx_status status = GEOIDX_ERROR_INTERNAL; status <= GEOIDX_OK; ++status) {
         REQUIRE(geoidx_status_string(status) != nullptr);
@@ -45,6 +53,12 @@ TEST_CASE("the numbers of statuses and enumerations stay as released") {
     CHECK(GEOIDX_METRIC_EXACT == 0);
     CHECK(GEOIDX_METRIC_EDGES == 1);
     CHECK(GEOIDX_METRIC_CALLBACK == 2);
+    CHECK(GEOIDX_METRIC_WEIGHTED == 3);
+    CHECK(GEOIDX_METRIC_UNFOLDABLE == 1);
+    CHECK(GEOIDX_ENGINE_GRAPH == 0);
+    CHECK(GEOIDX_ENGINE_OVERLAY == 1);
+    CHECK(GEOIDX_POSITION_FLOAT == 0);
+    CHECK(GEOIDX_POSITION_DOUBLE == 1);
 }
 
 // Of an older caller, whose struct ends earlier, only that much may be written.
