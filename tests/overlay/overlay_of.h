@@ -1,0 +1,45 @@
+#pragma once
+
+#include "src/build/build.h"
+#include "tests/capi/calls.h"
+
+namespace geodesic::test {
+
+// The index of the overlay engine of a mesh, as it is built.
+inline Index overlay_of(const TestMesh& mesh, geoidx_build_options options) {
+    options.engine = GEOIDX_ENGINE_OVERLAY;
+    Index index(std::pmr::get_default_resource());
+    build_index(mesh.view(), options, index);
+    return index;
+}
+
+// Vertices close together along x: the borders of its patches have many.
+inline TestMesh pressed(TestMesh mesh, double factor) {
+    for (size_t i = 0; i < mesh.positions.size(); i += 3) mesh.positions[i] *= factor;
+    return mesh;
+}
+
+// The metric of a plane without holes, the straight line, quick to build with however many vertices a border
+// has. The mesh must outlive the build.
+inline geoidx_build_options options_of_plane(const TestMesh& mesh, std::initializer_list<uint32_t> patches) {
+    auto options = build_options(GEOIDX_METRIC_CALLBACK, static_cast<uint32_t>(patches.size()));
+    std::copy(patches.begin(), patches.end(), options.patches);
+    options.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
+    options.metric_user = const_cast<TestMesh*>(&mesh);
+    options.metric_callback = [](void* user, uint32_t source, const uint32_t* targets, uint32_t count,
+                                 double* distances) {
+        for (uint32_t i = 0; i < count; ++i)
+            distances[i] = static_cast<const TestMesh*>(user)->straight(source, targets[i]);
+        return geoidx_status{GEOIDX_OK};
+    };
+    return options;
+}
+
+inline std::vector<uint32_t> ids_by_number(const Index& index) {
+    std::vector<uint32_t> ids(index.numbering().vertex_count());
+    for (uint32_t id = 0; id < index.number_of_id.size(); ++id)
+        if (index.number_of_id[id] != NONE) ids[index.number_of_id[id]] = id;
+    return ids;
+}
+
+}
