@@ -6,7 +6,7 @@
 namespace geodesic {
 
 OverlayBatch::OverlayBatch(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : index_(index), numbering_(index.numbering), sweep_(index, SOURCES, memory), out_(memory),
+    : numbering_(index.numbering), sweep_(index, SOURCES, memory), out_(memory),
       sources_inside_(index.numbering.patch_count(), memory) {
     static_assert(SOURCES <= 8 * sizeof(sources_inside_[0]));
     out_.resize(index.numbering.largest_inner_size() * SOURCES);

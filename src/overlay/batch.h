@@ -24,7 +24,6 @@ private:
     void mark_patches_around(std::span<const uint32_t> sources);
     void descend(uint32_t patch, std::span<float> distances);
 
-    const OverlayIndex& index_;
     const Numbering& numbering_;
     InnerSweep sweep_;               // of the current patch
     Array<float> out_;               // SOURCES distances for each row
