@@ -7,7 +7,7 @@ packages=(
     libeigen3-dev libzstd-dev libpng-dev zlib1g-dev libxxhash-dev
     doctest-dev libcli11-dev libtinyobjloader-dev
     libcgal-dev libgmp-dev libmpfr-dev
-    clang-14 libclang-rt-14-dev clang-format-14
+    clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14
     glmark2-data abigail-tools
     python3-numpy python3-venv python3-pip python3-setuptools python3-wheel python3-xxhash python3-zstandard mypy
     mono-devel
