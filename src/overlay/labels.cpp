@@ -119,7 +119,12 @@ private:
         const StepsOf steps(distances, quantum);
         *label++ = static_cast<int16_t>(steps.nearest() & 0xffff);
         *label++ = static_cast<int16_t>(steps.nearest() >> 16);
-        for (const float distance : distances) *label++ = steps.code(distance);
+        // Only a distance of 0 is 0 steps, so that different vertices stay apart.
+        const bool is_apart = steps.nearest() > 0;
+        for (const float distance : distances)
+            *label++ =
+                std::max(steps.code(distance),
+                         static_cast<int16_t>(SourceCode::NEAREST + (is_apart || distance == 0 ? 0 : 1)));
     }
 
     OverlayIndex& index_;

@@ -16,12 +16,15 @@ public:
     // From the metric's own distance and the shortest way along edges.
     double least(double exact) const;
     double most(double along_edges) const;
+    // From the sum of two answers over a third vertex.
+    double most_over(double sum) const;
 
 private:
     bool is_graph_;
     bool unfolds_;
-    double detour_;   // what pruning may add to a way
-    double rounding_; // of 16-bit tables, over all hops of a way
+    bool is_along_edges_; // no way but along edges
+    double detour_;       // what pruning may add to a way
+    double rounding_;     // of 16-bit tables, over all hops of a way
     double longest_edge_ = 0;
 };
 

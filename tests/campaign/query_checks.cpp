@@ -49,6 +49,20 @@ void check_pairs(const Subject& subject, std::span<const Truth> truths, Dice& di
     }
 }
 
+// No way is longer than one over a third vertex, but for what answers may be off: over any two sources and
+// every vertex.
+void check_triangles(const Subject& subject, std::span<const uint32_t> sources, const Floats& fields) {
+    const size_t count = subject.vertex_count();
+    for (size_t i = 0; i < sources.size(); ++i)
+        for (size_t j = 0; j < sources.size(); ++j)
+            for (size_t v = 0; v < count; ++v) {
+                const double direct{fields[i * count + v]};
+                const double over = double{fields[i * count + sources[j]]} + double{fields[j * count + v]};
+                expect(direct <= subject.bounds().most_over(over), "msad keeps the triangle inequality",
+                       "%u to %zu: %.9g, over %u: %.9g", sources[i], v, direct, sources[j], over);
+            }
+}
+
 void check_fields(const Subject& subject, std::span<const Truth> truths) {
     std::vector<uint32_t> sources;
     Floats fields;
@@ -59,6 +73,7 @@ void check_fields(const Subject& subject, std::span<const Truth> truths) {
         sources.push_back(truth.sources[0]);
         fields.insert(fields.end(), field.begin(), field.end());
     }
+    check_triangles(subject, sources, fields);
     Floats batch(fields.size(), -1);
     const auto count = static_cast<uint32_t>(sources.size());
     succeed(geoidx_ssad_batch(subject.index(), sources.data(), count, batch.data(), batch.size()),

@@ -34,10 +34,10 @@ class GraphEngine:
         ):
             distance[numbers] = numpy.minimum(distance[numbers], ways)
 
-    def _cross(self, patches, distance):
-        """To the lengths of shortest paths over the border tables of all children of these patches."""
+    def _cross(self, patches, distance, others=()):
+        """To the lengths of shortest paths over the border tables of all children of these patches, and of others."""
         children = [child for patch in patches for child in self.index.children[patch]]
-        borders = [(self.index.border[child], self.index.border_table[child]) for child in children]
+        borders = [(self.index.border[patch], self.index.border_table[patch]) for patch in [*children, *others]]
         while any([lower(distance, border, border, table) for border, table in borders]):
             pass
 
@@ -88,7 +88,7 @@ class GraphEngine:
         distance[a] = 0
         if not self.index.is_border(a):
             self._leave(a, distance)
-        self._cross(sorted(allowed), distance)
+        self._cross(sorted(allowed), distance, [common] if common else [])
         if self.index.is_border(b):
             return float(distance[b])
         leaf = int(self.index.entry[b])
