@@ -67,7 +67,8 @@ TEST_CASE("prepare and restore: every field comes back, of both engines, whateve
     for (const auto& [name, mesh] : mesh_zoo())
         for (const uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY})
             for (const uint32_t levels : {1u, 3u}) {
-                CAPTURE(name);
+                const auto& surface_name = name; // clang 14 captures no structured binding
+                CAPTURE(surface_name);
                 CAPTURE(engine);
                 CAPTURE(levels);
                 auto options = build_options(GEOIDX_METRIC_EXACT, levels);

@@ -133,7 +133,8 @@ TEST_CASE("rings: give back the segments that they were made of") {
 
 TEST_CASE("rings: a segment to another vertex than the next one, or the chain's first one, is refused") {
     const Numbering numbering = numbering_of({6, 6});
-    for (const auto& [from, to] : {std::pair{0u, 0u}, {0u, 2u}, {3u, 3u}, {3u, 1u}, {5u, 6u}, {2u, 100u}}) {
+    for (const auto& pair : {std::pair{0u, 0u}, {0u, 2u}, {3u, 3u}, {3u, 1u}, {5u, 6u}, {2u, 100u}}) {
+        const uint32_t from = pair.first, to = pair.second;
         CAPTURE(from);
         CAPTURE(to);
         BorderSegments segments(12);
