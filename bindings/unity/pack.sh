@@ -9,6 +9,7 @@ runtimes=${GEOIDX_RUNTIMES:-$here/../csharp/runtimes}
 mkdir -p "$1"
 out=$(cd "$1" && pwd)
 package=$out/package
+rm -rf "$package" "$out"/com.geoidx-*.tgz
 
 native_of() { # META
     local plugin
@@ -27,7 +28,6 @@ if [ ${#with[@]} -eq 0 ]; then
     exit 1
 fi
 
-rm -rf "$package" "$out"/com.geoidx-*.tgz
 mkdir -p "$package"
 cp -R "$here"/{README.md,Editor,Samples~} "$package"
 version=$("$here/../../scripts/version.sh")

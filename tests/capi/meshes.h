@@ -57,7 +57,9 @@ inline TestMesh grid(uint32_t columns, uint32_t rows, double jitter = 0) {
     for (uint32_t y = 0; y < rows; ++y)
         for (uint32_t x = 0; x < columns; ++x) {
             const bool boundary = x == 0 || y == 0 || x + 1 == columns || y + 1 == rows;
-            mesh.add_vertex(boundary ? x : moved(x, columns), boundary ? y : moved(y, rows), 0);
+            // In this order, which that of a call's arguments would leave to the compiler.
+            const double at_y = boundary ? y : moved(y, rows), at_x = boundary ? x : moved(x, columns);
+            mesh.add_vertex(at_x, at_y, 0);
         }
     for (uint32_t y = 0; y + 1 < rows; ++y)
         for (uint32_t x = 0; x + 1 < columns; ++x) {

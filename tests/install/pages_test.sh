@@ -55,7 +55,7 @@ grep -qF "// $distance" <<<"$(first_block cpp "$page")" || fail "the example of 
 
 install=$(page_lines 'cmake --install ')
 [ -n "$install" ] || fail "$page does not say how to install"
-(cd "$work" && eval "${install//build\/release/\"\$build\"}" >/dev/null)
+(cd "$work" && eval "${install/build\/release/\"\$build\"}" >/dev/null)
 
 eval "$(page_lines 'export ')"
 [ -d "$PKG_CONFIG_PATH" ] || fail "$page names a folder for pkg-config that is not there"
