@@ -245,3 +245,58 @@ TEST_CASE("crossing: a border is made ready, by every instruction set") {
         }
     }
 }
+
+namespace {
+
+// One end below a border and one above it, with infinity behind the border.
+struct FlatBorderBetween {
+    FlatBorderBetween(const std::vector<Point>& line, Point from, Point to)
+        : flat(line, from, {to}), to_target(flat.to_source.size(), INFINITE), places(line.size()) {
+        for (size_t k = 0; k < places; ++k) to_target[k] = static_cast<float>(distance(line[k], to));
+        std::fill(flat.to_source.begin() + static_cast<std::ptrdiff_t>(places), flat.to_source.end(),
+                  INFINITE);
+    }
+    BorderBetween border() const {
+        return {places, flat.to_source.data(), to_target.data(), flat.length.data(),
+                flat.half_inverse.data()};
+    }
+
+    FlatBorder flat;
+    std::vector<float> to_target;
+    size_t places;
+};
+
+}
+
+TEST_CASE(
+    "crossing: two ends meet on a straight line or over an end of the border, by every instruction set") {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> along(-30, 90), off(0.1, 40);
+    for (size_t places : {1u, 2u, 5u, 15u, 16u, 17u, 31u, 64u, 100u})
+        for (int repetition = 0; repetition < 50; ++repetition) {
+            const std::vector<Point> line = line_of(places, random);
+            const Point from{along(random), -off(random)}, to{along(random), off(random)};
+            const double crossing = from.x + (to.x - from.x) * from.y / (from.y - to.y);
+            const Point over{std::clamp(crossing, 0.0, line.back().x), 0};
+            const double expected = distance(from, over) + distance(over, to);
+            const FlatBorderBetween between(line, from, to);
+            const float first = runnable_kernels().front().meet(between.border());
+            CHECK(double{first} == doctest::Approx(expected).epsilon(1e-4));
+            for (const Kernels& kernels : runnable_kernels()) CHECK(kernels.meet(between.border()) == first);
+        }
+}
+
+TEST_CASE("crossing: two ends meet only where both reach the border") {
+    std::mt19937 random(10);
+    const std::vector<Point> line = line_of(40, random);
+    FlatBorderBetween between(line, {9, -4}, {12, 3});
+    std::fill_n(between.flat.to_source.begin() + 20, 20, INFINITE);
+    std::fill_n(between.to_target.begin(), 19, INFINITE);
+    for (const Kernels& kernels : runnable_kernels()) {
+        CAPTURE(kernels.name);
+        CHECK(double{kernels.meet(between.border())} ==
+              doctest::Approx(distance({9, -4}, line[19]) + distance(line[19], {12, 3})));
+    }
+    between.to_target[19] = INFINITE;
+    for (const Kernels& kernels : runnable_kernels()) CHECK(kernels.meet(between.border()) == INFINITE);
+}

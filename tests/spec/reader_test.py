@@ -18,11 +18,6 @@ from reader import NONE, OVERLAY, Index
 TOOL, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 MESHES = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
 TOLERANCE = 1e-5
-# SSSD of the overlay engine: the document's answer is the shortest way over all of a border, the library measures a
-# few ways that samples of the border tell, and may lose the shortest one. It does for 3 of 1,500 pairs anywhere on spot
-# (by up to 0.2 %) and 4 of 1,500 on another mesh (0.25 %), and for none of 1,200 near ones on either. This share of pairs
-# may be longer by more than TOLERANCE, none by more than LOST_WAY. No answer may be shorter.
-LOST_SHARE, LOST_WAY = 0.03, 0.01
 
 
 def torus(around, across, bumps):
@@ -142,12 +137,7 @@ class ReaderTest(unittest.TestCase):
     def check_pairs(self, subject, pairs):
         off = excess(subject.sssd_by_library(pairs), subject.sssd_by_reader(pairs))
         self.assertGreater(len(off), self.PAIRS // 2)
-        if subject.index.engine != OVERLAY:
-            self.assertLessEqual(numpy.abs(off).max(), TOLERANCE)
-            return
-        self.assertGreaterEqual(off.min(), -TOLERANCE)
-        self.assertLessEqual((off > TOLERANCE).mean(), LOST_SHARE)
-        self.assertLessEqual(off.max(), LOST_WAY)
+        self.assertLessEqual(numpy.abs(off).max(), TOLERANCE)
 
     def procedural(self, name, *options):
         mesh = FOLDER / "procedural.off"

@@ -11,8 +11,8 @@
 
 namespace geodesic {
 
-// The kernels that cross a border: what Kernels says of prepare_crossing(), cross(), cross_near() and
-// choose() is done by the structs of these names. Only dispatch.cpp includes this.
+// The kernels that cross a border: what Kernels says of prepare_crossing(), cross(), cross_near(),
+// choose() and meet() is done by the structs of these names. Only dispatch.cpp includes this.
 
 // So many rows at a time: first their nearest places, then the ways over them, so that the processor has
 // several rows at work at once.
@@ -258,6 +258,34 @@ struct Choose {
             for (size_t r = 0; r < part.size(); ++r) winners[done + r] = static_cast<uint16_t>(places[r]);
             missing.for_each([&](size_t r) { winners[done + r] = BorderFromSource::NO_PLACE; });
         }
+    }
+};
+
+// ---- Where two ends meet
+
+template <size_t BYTES>
+struct Meet {
+    [[gnu::always_inline]] static float run(const BorderBetween& border) {
+        Floats<BYTES> least{}, least_square;
+        least += INFINITE;
+        least_square = least;
+        for (size_t k = 0; k < border.places; k += Lanes<BYTES>::FLOATS) {
+            SegmentsFromSource<Floats<BYTES>> from_source;
+            load(border.length + k, from_source.segments.length);
+            load(border.half_inverse + k, from_source.segments.half_inverse);
+            Floats<BYTES> first, second, sum, square;
+            load(border.from + k, first);
+            load(border.from + k + 1, second);
+            from_source.segments.place_point(first, second, from_source.foot, from_source.height);
+            sum = first;
+            load(border.to + k, first);
+            load(border.to + k + 1, second);
+            sum += first;
+            from_source.square_across(first, second, square);
+            lower(least_square, square);
+            lower(least, sum);
+        }
+        return std::min(std::sqrt(least_of<BYTES>(least_square)), least_of<BYTES>(least));
     }
 };
 

@@ -58,6 +58,7 @@ constexpr Kernels kernels_of() {
             Set::template run<Cross>,
             Set::template run<CrossNear>,
             Set::template run<Choose>,
+            Set::template run<Meet>,
             Set::template run<PrepareSweepOfOne>,
             Set::template run<PrepareSweepOfEach>,
             Set::template run<Sweep>,

@@ -35,6 +35,13 @@ struct NearRange {
     bool is_near() const { return first <= last; }
 };
 
+// The places of a ring that a path crosses from one end to the other, and the segments that begin at them.
+struct BorderBetween {
+    size_t places;
+    const float *from, *to; // distances of the two ends; infinity behind the last place, up to whole blocks
+    const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
+};
+
 // ---- What a sweep reads: a border, one or several sources, and all rows of the table in their order
 
 // The distances of sources from the places of a ring: infinity behind the last one, up to whole blocks.
@@ -83,6 +90,9 @@ struct Kernels {
 
     // winners[r]: the place with the least sum of codes, or NO_PLACE; reads no more of the border than these.
     void (*choose)(const BorderFromSource& border, Rows rows, uint16_t* winners);
+
+    // The least way over any place, or straightened over any segment, or infinity.
+    float (*meet)(const BorderBetween& border);
 
     // A sweep is the innermost loop of MSAD: from a border to all that lies one hop inside of it, over places
     // and middles. Each kernel of it comes for one source, and for SOURCES at once, which gives the same

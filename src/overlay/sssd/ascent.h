@@ -71,11 +71,14 @@ struct Ascent {
 
     uint32_t vertex = 0;
     Array<uint32_t> patches;       // Each patch is the parent of the one before it.
-    Array<float> sample_distances; // From the vertex to the samples of the last patch's border.
+    Array<float> sample_distances; // From the vertex to the samples of the last patch's border, once read.
 };
 
 // Climbs from a vertex up to a child of `top`. The borders begin with the outermost one for which the index
 // holds the distances to all vertices: those inside of it need not be crossed.
 void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Ascent& ascent);
+
+// Writes the distances of a vertex from the samples of the border of a patch around it.
+void read_samples(const OverlayIndex& index, uint32_t vertex, uint32_t patch, std::span<float> out);
 
 }

@@ -77,6 +77,12 @@ bool BorderRanges::find(const Ascent& ascent, SampleRange samples) {
     return true;
 }
 
+void BorderRanges::take_whole(const Ascent& ascent) {
+    const auto& begin = index_.rings.begin;
+    ranges_.assign(1, {begin[ascent.last_patch()], begin[ascent.last_patch() + 1] - 1});
+    prefetch_tables(ascent, 0);
+}
+
 // Writes the codes of the distances from the end to the places of a patch's coarse ring, in steps of the
 // parent's quantum.
 void BorderRanges::read_codes(const Ascent& ascent, uint32_t patch, std::span<int16_t> out) {

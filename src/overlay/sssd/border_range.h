@@ -42,12 +42,15 @@ class BorderRanges {
 public:
     BorderRanges(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
-    // Reads what the ranges of all candidates of an end have in common; to be called after each climb.
+    // Reads what the ranges of all candidates of an end have in common; to be called before find().
     void begin(const Ascent& ascent);
 
     // Finds the ranges of paths to samples of the last border and asks for the memory that measuring reads.
     // Returns whether such paths exist; otherwise, ranges() says nothing.
     bool find(const Ascent& ascent, SampleRange samples);
+
+    // Takes the whole of the only border that the end has climbed to.
+    void take_whole(const Ascent& ascent);
 
     // There is one range for each patch of the ascent.
     std::span<const BorderRange> ranges() const { return ranges_; }

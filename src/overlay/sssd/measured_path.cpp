@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "src/overlay/unfolding.h"
-
 namespace geodesic {
 
 namespace {
@@ -38,8 +36,7 @@ uint32_t begin_crossing(const OverlayIndex& index, uint32_t patch, BorderRange r
 // overlay_position(k) is the position of place k in the parent's overlay.
 template <class OverlayPosition>
 void cross(const OverlayIndex& index, uint32_t patch, BorderRange range, const float* distances,
-           BorderRange to, const OverlayPosition& overlay_position, Straighten straighten,
-           BorderCrossing& crossing, float* out) {
+           BorderRange to, const OverlayPosition& overlay_position, BorderCrossing& crossing, float* out) {
     const uint32_t first = begin_crossing(index, patch, range, distances, crossing.field);
     if (!crossing.field.finish()) {
         std::fill_n(out, to.size(), INFINITE);
@@ -51,22 +48,22 @@ void cross(const OverlayIndex& index, uint32_t patch, BorderRange range, const f
     for (uint32_t i = 0; i < to.size(); ++i)
         crossing.rows[i] = rows + size_t{overlay_position(to.first + i)} * index.rings.size(patch);
     crossing.field.cross(crossing.rows, out);
-    if (straighten == Straighten::EVERYWHERE) crossing.field.cross_near(crossing.rows, out);
+    crossing.field.cross_near(crossing.rows, out);
 }
 
 }
 
 MeasuredEnd::MeasuredEnd(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : index_(index), stride_(index.rings.largest_size()), ranges_(memory), distances_(memory) {
+    : index_(index), stride_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK),
+      ranges_(memory), distances_(memory) {
     ranges_.reserve(index.numbering.level_count());
     distances_.resize(index.numbering.level_count() * stride_);
 }
 
-void MeasuredEnd::measure(const Ascent& ascent, std::span<const BorderRange> ranges, Straighten straighten,
+void MeasuredEnd::measure(const Ascent& ascent, std::span<const BorderRange> ranges,
                           BorderCrossing& crossing) {
     size_t kept = 0;
-    if (straighten == Straighten::BESIDE_LEAST_SUM)
-        while (kept < ranges_.size() && ranges_[kept].covers(ranges[kept])) ++kept;
+    while (kept < ranges_.size() && ranges_[kept].covers(ranges[kept])) ++kept;
     ranges_.resize(kept);
     if (kept == 0) {
         ranges_.push_back(ranges.front());
@@ -75,47 +72,19 @@ void MeasuredEnd::measure(const Ascent& ascent, std::span<const BorderRange> ran
     const auto position = [this](uint32_t place) { return index_.rings.position[place]; };
     for (size_t b = ranges_.size(); b < ranges.size(); ++b) {
         cross(index_, ascent.patches[b - 1], ranges_.back(), distances_of(b - 1), ranges[b], position,
-              straighten, crossing, distances_of(b));
+              crossing, distances_of(b));
         ranges_.push_back(ranges[b]);
     }
+    std::fill_n(distances_of(ranges_.size() - 1) + last_range().size(), SourceCode::BLOCK, INFINITE);
 }
 
-std::span<const float> MeasuredEnd::last_distances() const {
-    return {distances_.data() + (ranges_.size() - 1) * stride_, last_range().size()};
-}
-
-void MeasuredEnd::cross_to(const Ascent& ascent, uint32_t sibling, BorderRange range, Straighten straighten,
+void MeasuredEnd::cross_to(const Ascent& ascent, uint32_t sibling, BorderRange range,
                            BorderCrossing& crossing, std::span<float> out) const {
     const uint32_t* positions =
         index_.numbering.overlay_position.data() + index_.numbering.border_begin[sibling];
     cross(
-        index_, ascent.last_patch(), last_range(), last_distances().data(), range,
-        [&](uint32_t place) { return positions[index_.rings.position[place]]; }, straighten, crossing,
-        out.data());
-}
-
-float shortest_path(const Rings& rings, BorderRange range, std::span<const float> from,
-                    std::span<const float> to, Straighten straighten) {
-    float shortest = INFINITE;
-    uint32_t nearest = range.first;
-    for (uint32_t k = range.first; k <= range.last; ++k) {
-        const float sum = from[k - range.first] + to[k - range.first];
-        if (!rings.is_own[k] || !(sum < shortest)) continue;
-        shortest = sum;
-        nearest = k;
-    }
-    if (!(shortest < INFINITE)) return INFINITE;
-    const auto inside = [range](std::span<const float> distance) {
-        return [range, distance](size_t k) {
-            return k >= range.first && k <= range.last ? distance[k - range.first] : INFINITE;
-        };
-    };
-    const bool everywhere = straighten == Straighten::EVERYWHERE;
-    const uint32_t first = everywhere ? range.first + REACH : nearest;
-    const uint32_t last = everywhere ? range.last + REACH : nearest;
-    for (uint32_t k = first; k <= last; k += 2 * REACH)
-        shortest = std::min(shortest, straightened(rings, k, inside(from), inside(to)));
-    return shortest;
+        index_, ascent.last_patch(), last_range(), last_distances(), range,
+        [&](uint32_t place) { return positions[index_.rings.position[place]]; }, crossing, out.data());
 }
 
 }

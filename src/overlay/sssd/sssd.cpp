@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 
-#include "src/overlay/unfolding.h"
+#include "src/overlay/kernels/dispatch.h"
+#include "src/overlay/ring_segments.h"
 
 namespace geodesic {
 
 namespace {
 
-constexpr uint32_t REACH = Rings::REACH;
+// Borders that have no more pairs of places than this are crossed as a whole: that takes less time than
+// finding the part of them that a path may cross.
+constexpr size_t FEW_PAIRS = size_t{1} << 14;
 
 // Returns the first level whose borders have few places on average and are all labelled whole.
 uint32_t first_level_of_short_borders(const OverlayIndex& index) {
@@ -45,37 +48,22 @@ struct KnownDistances {
     float operator()(size_t place) const { return of_vertex[vertex[place]]; }
 };
 
-// Returns the shortest path over the border of a patch, given the distances from both ends to its places.
-template <class From, class To>
-float shortest_path_over(const OverlayIndex& index, uint32_t patch, From from, To to) {
-    const Rings& rings = index.rings;
-    const size_t first = rings.begin[patch], end = rings.begin[patch + 1];
-    float shortest = INFINITE;
-    size_t nearest = 0;
-    for (size_t k = first; k < end; ++k) {
-        const float sum = from(k) + to(k);
-        if (!rings.is_own[k] || !(sum < shortest)) continue;
-        shortest = sum;
-        nearest = k;
-    }
-    if (!(shortest < INFINITE)) return INFINITE;
-    if (shortest > index.near[patch]) return straightened(rings, nearest, from, to);
-    for (size_t k = first + REACH; k + REACH < end; ++k)
-        shortest = std::min(shortest, straightened(rings, k, from, to));
-    return shortest;
-}
-
 }
 
 OverlaySssd::OverlaySssd(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), prepared_level_(first_level_of_short_borders(index)),
       crossing_(index, memory), from_(index, memory), to_(index, memory), samples_(index, memory),
-      from_distances_(index.rings.largest_size(), memory) {}
+      from_distances_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, memory) {}
 
 void OverlaySssd::End::climb(const OverlayIndex& index, uint32_t vertex, uint32_t top) {
     geodesic::climb(index, vertex, top, ascent);
-    ranges.begin(ascent);
     measured.begin();
+}
+
+void OverlaySssd::End::read_samples(const OverlayIndex& index) {
+    ascent.sample_distances.resize(index.samples.of(ascent.last_patch()).size());
+    geodesic::read_samples(index, ascent.vertex, ascent.last_patch(), ascent.sample_distances);
+    ranges.begin(ascent);
 }
 
 struct OverlaySssd::Climber {
@@ -84,6 +72,7 @@ struct OverlaySssd::Climber {
     uint32_t patch; // Where the ends meet: its border is crossed to from that of a sibling.
 
     void read_samples() const {
+        end.read_samples(search.index_);
         cross_samples(search.index_, end.ascent, patch, search.crossing_, search.samples_);
     }
 
@@ -99,9 +88,16 @@ struct OverlaySssd::Climber {
     bool find_ranges_within(float reach) const {
         return end.ranges.find(end.ascent, samples_within(search.index_, end.ascent, reach));
     }
-    void measure(BorderRange range, Straighten straighten, std::span<float> out) const {
-        end.measured.measure(end.ascent, end.ranges.ranges(), straighten, search.crossing_);
-        end.measured.cross_to(end.ascent, patch, range, straighten, search.crossing_, out);
+    // Whether the border that the other end climbs to is to be crossed as a whole from that of this end.
+    bool crosses_whole() const {
+        const Rings& rings = search.index_.rings;
+        return end.ascent.patches.size() == 1 &&
+               size_t{rings.size(patch)} * rings.size(end.ascent.last_patch()) <= FEW_PAIRS;
+    }
+    void take_whole() const { end.ranges.take_whole(end.ascent); }
+    void measure(BorderRange range, std::span<float> out) const {
+        end.measured.measure(end.ascent, end.ranges.ranges(), search.crossing_);
+        end.measured.cross_to(end.ascent, patch, range, search.crossing_, out);
     }
 };
 
@@ -119,7 +115,9 @@ struct OverlaySssd::KnownVertex {
     }
     bool find_ranges(uint32_t) const { return true; }
     bool find_ranges_within(float) const { return true; }
-    void measure(BorderRange range, Straighten, std::span<float> out) const {
+    bool crosses_whole() const { return true; }
+    void take_whole() const {}
+    void measure(BorderRange range, std::span<float> out) const {
         for (uint32_t i = 0; i < range.size(); ++i) out[i] = distance_to(range.first + i);
     }
 };
@@ -174,50 +172,55 @@ float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, 
     if (entry < numbering_.level_begin[prepared_level_]) return known[target];
     uint32_t patch = entry;
     while (patch >= numbering_.level_begin[prepared_level_ + 1]) patch = numbering_.parent[patch];
-    if (!numbering_.is_within(source_entry, patch)) return distance_over(patch, known, target);
-    const uint32_t top = lowest_common_patch(numbering_, source_entry, entry);
-    if (entry == top) return known[target];
-    const uint32_t child = child_around(numbering_, top, entry);
-    if (source_entry == top)
-        if (const float d = distance_to_border(child, source, target); d < INFINITE) return d;
-    to_.climb(index_, target, top);
-    return meet(KnownVertex<KnownDistances>{*this, child, {known, index_.rings.vertex.data()}});
+    if (numbering_.is_within(source_entry, patch)) {
+        const uint32_t top = lowest_common_patch(numbering_, source_entry, entry);
+        if (entry == top) return known[target];
+        patch = child_around(numbering_, top, entry);
+        if (source_entry == top)
+            if (const float d = distance_to_border(patch, source, target); d < INFINITE) return d;
+    }
+    to_.climb(index_, target, numbering_.parent[patch]);
+    return meet(KnownVertex<KnownDistances>{*this, patch, {known, index_.rings.vertex.data()}});
 }
 
-// Returns the distance of a target inside of a patch whose border is labelled whole from a source outside.
-float OverlaySssd::distance_over(uint32_t patch, std::span<const float> known, uint32_t target) const {
-    const KnownDistances from{known, index_.rings.vertex.data()};
-    return with_ring_distances(index_, target, patch,
-                               [&](const auto& to) { return shortest_path_over(index_, patch, from, to); });
-}
-
-// Measures each candidate on the border where `to_` ends its climb. If the shortest path is so short that the
-// straight way may pass anywhere near the ends, measures once more, over all that lies within its length.
+// Measures the path over the whole border where `to_` ends its climb if that takes little time, and over the
+// ranges around each candidate otherwise. If the shortest path is so short that the straight way may pass
+// anywhere near the ends, measures once more, over all that lies within its length.
 template <class From>
 float OverlaySssd::meet(const From& from) {
-    const uint32_t patch = to_.ascent.last_patch();
+    if (to_.ascent.patches.size() == 1 && from.crosses_whole()) {
+        from.take_whole();
+        to_.ranges.take_whole(to_.ascent);
+        return measure(from);
+    }
+    to_.read_samples(index_);
     from.read_samples();
+    const uint32_t patch = to_.ascent.last_patch();
     float shortest = INFINITE;
     for (const uint32_t place :
          find_candidates(index_, patch, samples_.distance, to_.ascent.sample_distances))
         if (from.find_ranges(place) && to_.ranges.find(to_.ascent, {place, place}))
-            shortest = std::min(shortest, measure(from, Straighten::BESIDE_LEAST_SUM));
+            shortest = std::min(shortest, measure(from));
     if (!(shortest <= index_.near[patch])) return shortest;
     const float reach = shortest + 2 * index_.samples.longest_gap[patch];
     if (from.find_ranges_within(reach) &&
         to_.ranges.find(to_.ascent, samples_within(index_, to_.ascent, reach)))
-        shortest = std::min(shortest, measure(from, Straighten::EVERYWHERE));
+        shortest = std::min(shortest, measure(from));
     return shortest;
 }
 
-// Measures the path over the ranges that both ends have found.
+// Measures the path over the ranges that both ends have found. The kernel reads whole blocks, behind which
+// the paths must not be shorter.
 template <class From>
-float OverlaySssd::measure(const From& from, Straighten straighten) {
-    to_.measured.measure(to_.ascent, to_.ranges.ranges(), straighten, crossing_);
+float OverlaySssd::measure(const From& from) {
+    to_.measured.measure(to_.ascent, to_.ranges.ranges(), crossing_);
     const BorderRange range = to_.measured.last_range();
-    const auto from_distances = std::span(from_distances_).first(range.size());
-    from.measure(range, straighten, from_distances);
-    return shortest_path(index_.rings, range, from_distances, to_.measured.last_distances(), straighten);
+    from.measure(range, from_distances_);
+    std::fill_n(from_distances_.begin() + range.size(), SourceCode::BLOCK, INFINITE);
+    const RingSegments segments = segments_from(index_.rings, range.first);
+    return runnable_kernels().back().meet({range.size(), from_distances_.data(),
+                                           to_.measured.last_distances(), segments.length,
+                                           segments.half_inverse});
 }
 
 }

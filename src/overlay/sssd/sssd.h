@@ -12,8 +12,9 @@
 namespace geodesic {
 
 // Single source, single destination on overlay tables. Both ends climb to the children of the lowest patch
-// that has them both and meet on the border of one of these children. Samples of the borders give a few
-// candidates; each is then measured over all vertices of the border ranges around it. Vertices are given by
+// that has them both and meet on the border of one of these children. Short borders are crossed as a whole.
+// Of longer ones, samples give a few candidates; each is then measured over all vertices of the border ranges
+// around it. Vertices are given by
 // their numbers. An object is the scratch of one thread.
 class OverlaySssd {
 public:
@@ -32,6 +33,7 @@ private:
         End(const OverlayIndex& index, std::pmr::memory_resource* memory)
             : ascent(index, memory), ranges(index, memory), measured(index, memory) {}
         void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top);
+        void read_samples(const OverlayIndex& index);
 
         Ascent ascent;
         BorderRanges ranges;
@@ -46,12 +48,11 @@ private:
 
     float distance_inside(uint32_t patch, uint32_t low, uint32_t high) const;
     float distance_to_border(uint32_t patch, uint32_t border_vertex, uint32_t vertex) const;
-    float distance_over(uint32_t patch, std::span<const float> known, uint32_t target) const;
 
     template <class From>
     float meet(const From& from);
     template <class From>
-    float measure(const From& from, Straighten straighten);
+    float measure(const From& from);
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
