@@ -4,6 +4,7 @@ Each mesh is built and asked with the command line tool. MESHES: a folder with s
 """
 
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -105,7 +106,7 @@ def excess(library, reader):
 
 
 class ReaderTest(unittest.TestCase):
-    PAIRS = 150
+    PAIRS = int(os.environ.get("GEOIDX_READER_PAIRS", 150))
 
     def check(self, mesh, name, *options):
         subject = Subject(mesh, name, *options)
