@@ -19,6 +19,7 @@
 #include "src/metric/window_propagation.h"
 #include "tests/support/meshes.h"
 #include "tests/support/oracles.h"
+#include "tests/support/stress_meshes.h"
 #include "tools/mesh_io/mesh_io.h"
 
 using namespace geodesic;
@@ -116,69 +117,6 @@ void compare_with_steiner(const std::string& name, const Mesh& mesh) {
     }
 }
 
-// ---- Stress meshes: each family is drawn from many times
-
-Soup scaled(Soup soup, double x, double y, double z) {
-    for (auto& p : soup.positions) p = p.cwiseProduct(Eigen::Vector3d(x, y, z));
-    return soup;
-}
-
-Soup slivers(std::mt19937_64& random) {
-    // Angles down to about 1e-6: a triangulation squeezed in one direction.
-    const double squeeze = std::pow(10, uniform(random, -5.5, -1));
-    return scaled(delaunay_square(60, random()), 1, squeeze, 1);
-}
-
-Soup needle_fan(std::mt19937_64& random) {
-    const auto count = static_cast<uint32_t>(100 + random() % 200);
-    return cone(cone_rays(count, uniform(random, -1.2, 1.2)), static_cast<uint32_t>(1 + random() % 3));
-}
-
-// A band of uneven steps, bent at every one.
-Soup strip(std::mt19937_64& random) {
-    Soup soup;
-    double x = 0;
-    for (uint32_t i = 0; i < 60; ++i) {
-        x += std::pow(10, uniform(random, -3, 0));
-        const double z = uniform(random, -1, 1);
-        soup.positions.push_back({x, uniform(random, -0.1, 0.1), z});
-        soup.positions.push_back({x, 1 + uniform(random, -0.1, 0.1), z});
-        if (i == 0) continue;
-        const uint32_t a = 2 * i - 2;
-        soup.triangles.push_back({a, a + 2, a + 1});
-        soup.triangles.push_back({a + 1, a + 2, a + 3});
-    }
-    return soup;
-}
-
-Soup any_torus(std::mt19937_64& random) {
-    return torus(static_cast<uint32_t>(8 + random() % 20), static_cast<uint32_t>(4 + random() % 12), 2,
-                 uniform(random, 0.05, 1.5));
-}
-
-Soup saddle(std::mt19937_64& random) {
-    return cone(saddle_rays(static_cast<uint32_t>(4 + 2 * (random() % 10)), uniform(random, 0.1, 1.3)),
-                static_cast<uint32_t>(2 + random() % 5));
-}
-
-// Thousands of equal distances, at rest or bent along one line.
-Soup regular_grid(std::mt19937_64& random) {
-    Soup soup =
-        grid(static_cast<uint32_t>(6 + random() % 14), static_cast<uint32_t>(6 + random() % 14), 1, 1);
-    if (random() % 2 == 0)
-        for (auto& p : soup.positions) p.z() = std::abs(p.x() - 0.5);
-    return soup;
-}
-
-Soup bumpy(std::mt19937_64& random) {
-    return bumpy_sphere(static_cast<uint32_t>(1 + random() % 2), random());
-}
-
-using Family = Soup (*)(std::mt19937_64&);
-constexpr std::pair<const char*, Family> FAMILIES[] = {
-    {"slivers", slivers}, {"needle fan", needle_fan},     {"strip", strip}, {"torus", any_torus},
-    {"saddle", saddle},   {"regular grid", regular_grid}, {"bumpy", bumpy}};
-
 }
 
 TEST_CASE("CGAL: generated meshes") {
@@ -202,10 +140,11 @@ TEST_CASE("CGAL: generated meshes") {
 // what Steiner points show to be possible.
 TEST_CASE("CGAL: 200 stress meshes, in millimetres and kilometres, too") {
     std::mt19937_64 random(77);
+    const auto families = stress_families();
     double worst_of_all = 0;
     for (uint32_t i = 0; i < 200; ++i) {
-        const auto& [name, family] = FAMILIES[i % std::size(FAMILIES)];
-        const double scale = std::array{1.0, 1e-3, 1e3}[i / std::size(FAMILIES) % 3];
+        const auto& [name, family] = families[i % families.size()];
+        const double scale = std::array{1.0, 1e-3, 1e3}[i / families.size() % 3];
         const Soup soup = family(random);
         const Mesh mesh = mesh_of(soup), scaled_mesh = mesh_of(scaled(soup, scale, scale, scale));
         SurfaceMesh surface;
@@ -227,12 +166,11 @@ TEST_CASE("CGAL: 200 stress meshes, in millimetres and kilometres, too") {
 
 TEST_CASE("Steiner points: stress meshes that CGAL drops faces of") {
     std::mt19937_64 random(78);
+    const auto families = unorientable_families();
     for (uint32_t i = 0; i < 12; ++i) {
         const double scale = std::array{1.0, 1e-3, 1e3}[i % 3];
-        const Soup soups[] = {with_mixed_winding(bumpy_sphere(2, random()), random()),
-                              moebius(static_cast<uint32_t>(16 + random() % 10), 3), pinched_sheets(3),
-                              comb(1)};
-        compare_with_steiner("stress", mesh_of(scaled(soups[i % 4], scale, scale, scale)));
+        const Soup soup = families[i % families.size()].draw(random);
+        compare_with_steiner("stress", mesh_of(scaled(soup, scale, scale, scale)));
     }
 }
 

@@ -1,0 +1,88 @@
+#include "tests/support/stress_meshes.h"
+
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace geodesic::test {
+
+namespace {
+
+Soup slivers(std::mt19937_64& random) {
+    // Angles down to about 1e-6: a triangulation squeezed in one direction.
+    const double squeeze = std::pow(10, uniform(random, -5.5, -1));
+    return scaled(delaunay_square(60, random()), 1, squeeze, 1);
+}
+
+Soup needle_fan(std::mt19937_64& random) {
+    const auto count = static_cast<uint32_t>(100 + random() % 200);
+    return cone(cone_rays(count, uniform(random, -1.2, 1.2)), static_cast<uint32_t>(1 + random() % 3));
+}
+
+// A band of uneven steps, bent at every one.
+Soup strip(std::mt19937_64& random) {
+    Soup soup;
+    double x = 0;
+    for (uint32_t i = 0; i < 60; ++i) {
+        x += std::pow(10, uniform(random, -3, 0));
+        const double z = uniform(random, -1, 1);
+        soup.positions.push_back({x, uniform(random, -0.1, 0.1), z});
+        soup.positions.push_back({x, 1 + uniform(random, -0.1, 0.1), z});
+        if (i == 0) continue;
+        const uint32_t a = 2 * i - 2;
+        soup.triangles.push_back({a, a + 2, a + 1});
+        soup.triangles.push_back({a + 1, a + 2, a + 3});
+    }
+    return soup;
+}
+
+Soup any_torus(std::mt19937_64& random) {
+    return torus(static_cast<uint32_t>(8 + random() % 20), static_cast<uint32_t>(4 + random() % 12), 2,
+                 uniform(random, 0.05, 1.5));
+}
+
+Soup saddle(std::mt19937_64& random) {
+    return cone(saddle_rays(static_cast<uint32_t>(4 + 2 * (random() % 10)), uniform(random, 0.1, 1.3)),
+                static_cast<uint32_t>(2 + random() % 5));
+}
+
+// Thousands of equal distances, at rest or bent along one line.
+Soup regular_grid(std::mt19937_64& random) {
+    Soup soup =
+        grid(static_cast<uint32_t>(6 + random() % 14), static_cast<uint32_t>(6 + random() % 14), 1, 1);
+    if (random() % 2 == 0)
+        for (auto& p : soup.positions) p.z() = std::abs(p.x() - 0.5);
+    return soup;
+}
+
+Soup bumpy(std::mt19937_64& random) {
+    return bumpy_sphere(static_cast<uint32_t>(1 + random() % 2), random());
+}
+
+Soup mixed_winding(std::mt19937_64& random) {
+    const Soup sphere = bumpy_sphere(2, random());
+    return with_mixed_winding(sphere, random());
+}
+
+Soup any_moebius(std::mt19937_64& random) { return moebius(static_cast<uint32_t>(16 + random() % 10), 3); }
+Soup any_pinched(std::mt19937_64& random) { return pinched_sheets(static_cast<uint32_t>(3 + random() % 2)); }
+Soup any_comb(std::mt19937_64& random) { return comb(static_cast<uint32_t>(1 + random() % 2)); }
+
+constexpr StressFamily MANIFOLD[] = {
+    {"slivers", slivers}, {"needle fan", needle_fan},     {"strip", strip}, {"torus", any_torus},
+    {"saddle", saddle},   {"regular grid", regular_grid}, {"bumpy", bumpy}};
+
+constexpr StressFamily UNORIENTABLE[] = {
+    {"mixed winding", mixed_winding}, {"moebius", any_moebius}, {"pinched", any_pinched}, {"comb", any_comb}};
+
+}
+
+Soup scaled(Soup soup, double x, double y, double z) {
+    for (auto& p : soup.positions) p = p.cwiseProduct(Eigen::Vector3d(x, y, z));
+    return soup;
+}
+
+std::span<const StressFamily> stress_families() { return MANIFOLD; }
+std::span<const StressFamily> unorientable_families() { return UNORIENTABLE; }
+
+}
