@@ -3,25 +3,34 @@
 
 #include <doctest/doctest.h>
 
-#include "src/build/build.h"
-#include "tests/capi/calls.h"
+#include "tests/overlay/overlay_of.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
 
 namespace {
 
-OverlayIndex build_overlay(const TestMesh& mesh, geoidx_build_options options) {
-    options.engine = GEOIDX_ENGINE_OVERLAY;
-    Index index(std::pmr::get_default_resource());
-    build_index(mesh.view(), options, index);
-    return std::get<OverlayIndex>(std::move(index.engine));
+OverlayIndex build_overlay(const TestMesh& mesh, const geoidx_build_options& options) {
+    return std::get<OverlayIndex>(std::move(overlay_of(mesh, options).engine));
 }
 
 // As it was made, without padding.
 uint64_t codes_made(const OverlayIndex& index) {
     return index.hops.outer.size() + index.hops.inner.size() + index.hops.inner_middles.size() +
            index.samples.tables.size() + index.labels.codes.size() - 4 * TableCode::PADDING;
+}
+
+uint64_t coarse_codes(const OverlayIndex& index) { return index.samples.tables.size() - TableCode::PADDING; }
+
+// The number of patches whose inner vertices have labels to the samples of a border, and not to all of it.
+uint32_t labels_to_samples(const OverlayIndex& index) {
+    const Numbering& numbering = index.numbering;
+    uint32_t patches = 0;
+    for (uint32_t p = 1; p < numbering.patch_count(); ++p) {
+        const uint32_t parent = numbering.parent[p], size = numbering.border_size(parent);
+        patches += parent != 0 && size > Labels::WHOLE && index.samples.of(parent).size() < size;
+    }
+    return patches;
 }
 
 }
@@ -31,18 +40,20 @@ TEST_CASE("proportion: as many codes are derived as are foreseen, and they are f
         for (uint32_t levels : {1u, 2u, 3u}) {
             CAPTURE(metric);
             CAPTURE(levels);
-            auto options = build_options(metric, levels);
-            options.patches[0] = 2; // a border that is sampled
-            const OverlayIndex index = build_overlay(grid(4, 220), options);
+            const OverlayIndex index = build_overlay(grid(4, 220), build_options(metric, levels));
             CHECK(derived_codes(index) == codes_made(index));
             CHECK(derived_codes(index) < 40 * stored_numbers(index));
         }
 }
 
+// What has coarse tables has chains of segments, which no metric along edges has.
 TEST_CASE("proportion: coarse tables and labels to samples are foreseen") {
-    auto options = build_options(GEOIDX_METRIC_EDGES, 2);
-    options.patches[0] = options.patches[1] = 3;
-    options.exact_vertices = 1;
-    const OverlayIndex index = build_overlay(grid(300, 6), options);
-    CHECK(derived_codes(index) == codes_made(index));
+    const TestMesh mesh = pressed(grid(420, 7), 0.01);
+    for (const auto patches : {std::initializer_list<uint32_t>{2}, {2, 3}}) {
+        CAPTURE(patches.size());
+        const OverlayIndex index = build_overlay(mesh, options_of_plane(mesh, patches));
+        CHECK(coarse_codes(index) > 10000);
+        CHECK((labels_to_samples(index) > 0) == (patches.size() > 1));
+        CHECK(derived_codes(index) == codes_made(index));
+    }
 }
