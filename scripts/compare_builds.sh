@@ -61,6 +61,13 @@ make_side() { # SIDE FOLDER MESH ENGINE
 
 verdict() { if cmp -s "$work/before.$1" "$work/after.$1"; then echo equal; else echo DIFFERENT; fi; }
 
+# How much of the files differs, from which byte on (0 is the first).
+describe_files() {
+    cmp -l "$work"/{before,after}.geoidx >"$work/bytes.txt" 2>/dev/null || true
+    echo "    $(wc -c <"$work/before.geoidx") and $(wc -c <"$work/after.geoidx") bytes;" \
+        "$(wc -l <"$work/bytes.txt") differ, first byte $(awk 'NR == 1 { print $1 - 1 }' "$work/bytes.txt")"
+}
+
 compare() { # MESH ENGINE
     local name file=DIFFERENT answers=DIFFERENT reason=
     name=$(basename "$1")
@@ -74,6 +81,7 @@ compare() { # MESH ENGINE
     [ -z "$reason" ] || echo "$reason"
     if [ "$file" = equal ] && [ "$answers" = equal ]; then return; fi
     differences=$((differences + 1))
+    [ -n "$reason" ] || [ "$file" = equal ] || describe_files
     [ -n "$reason" ] || diff "$work/before.txt" "$work/after.txt" | sed -n 's/^[<>]/    &/p' || true
 }
 

@@ -43,6 +43,7 @@ fake_build other_file
 tool other_file "exec '$build/bin/geoidx' \"\$@\" \$([ \"\$1\" = build ] && echo --delta 1e-9)"
 compare 1 "$build" other_file grid.obj
 says 'overlay +file DIFFERENT, answers equal$'
+says '^    [0-9]+ and [0-9]+ bytes; [1-9][0-9]* differ, first byte [0-9]+$'
 says 'graph +file DIFFERENT, answers equal$'
 says '^2 compared, 2 different$'
 
