@@ -20,7 +20,7 @@ namespace geodesic {
 
 namespace {
 
-constexpr double TABLES_END = 0.91; // of the work
+constexpr double TABLES_END = 0.91; // the share of the work that is done when all tables are filled
 
 [[noreturn]] void invalid(const std::string& detail) { throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail); }
 

@@ -12,8 +12,9 @@ namespace {
 
 constexpr uint64_t CALIBRATION_SEED = 0x7363616C65;
 
-// The share by which paths are too long everywhere: the mean of the signed errors, without those of paths
-// that take another way altogether, such as a detour of pruned borders, which say nothing of the others.
+// The share by which paths are too long everywhere: the mean of the signed errors. Large errors are left out,
+// since such a path takes another way altogether, for instance a detour over pruned borders, and says nothing
+// about the others.
 double common_share(std::vector<double> errors) {
     constexpr double ANOTHER_WAY = 0.1;
     std::erase_if(errors, [](double error) { return std::abs(error) > ANOTHER_WAY; });

@@ -34,7 +34,7 @@ std::string edge_name(uint32_t a, uint32_t b) {
     return "the edge between vertices " + std::to_string(a) + " and " + std::to_string(b);
 }
 
-// The edge lengths, lowered or raised to the caller's costs.
+// The length of each edge or, where the caller gives a cost for it, that cost.
 std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options& options) {
     std::vector<double> costs = edge_lengths(intake.mesh);
     if (options.edge_cost_count == 0) return costs;
@@ -56,7 +56,8 @@ std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options&
     return costs;
 }
 
-// Of triangles that are one face the cheapest counts; those that were dropped are checked all the same.
+// The cost of each face. If several triangles are one face, the cheapest counts. The costs of dropped
+// triangles are checked, too.
 std::vector<double> face_costs(const Intake& intake, const geoidx_build_options& options) {
     if (!options.face_costs) invalid("metric is GEOIDX_METRIC_WEIGHTED, but face_costs is NULL");
     if (options.face_cost_count != intake.face_of_triangle.size())
@@ -73,7 +74,7 @@ std::vector<double> face_costs(const Intake& intake, const geoidx_build_options&
     return costs;
 }
 
-// Sides of a triangle of the caller's, each opposite to a corner.
+// The sides of one of the caller's triangles, each opposite to a corner.
 void check_sides(uint64_t triangle, std::span<const double, 3> sides) {
     const std::string name = "triangle " + std::to_string(triangle);
     for (double side : sides)
@@ -86,7 +87,7 @@ void check_sides(uint64_t triangle, std::span<const double, 3> sides) {
     }
 }
 
-// The caller's own lengths of all edges of the mesh; none where it gives none.
+// The lengths that the caller gives for the edges of the mesh, or nothing if it gives none.
 std::vector<double> own_lengths(const geoidx_mesh& mesh, const Intake& intake,
                                 const geoidx_build_options& options) {
     if (options.edge_length_count == 0) return {};
@@ -109,7 +110,7 @@ std::vector<double> own_lengths(const geoidx_mesh& mesh, const Intake& intake,
             if (length == 0) length = sides[k];
         }
     }
-    // With the lengths that were kept, the first ones.
+    // The sides of a triangle are those that were kept: the first length given for each edge.
     for (uint64_t t = 0; t < mesh.triangle_count; ++t) {
         const uint32_t face = intake.face_of_triangle[t];
         if (face == NONE) continue;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t SOURCES = 20;
 
-// MSAD from one source, by number.
+// Returns the distances of MSAD from one source, by vertex number.
 void answer(const Index& index, Crossing crossing, uint32_t source, std::span<float> distance) {
     std::pmr::memory_resource* const memory = std::pmr::get_default_resource();
     if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine))

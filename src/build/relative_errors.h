@@ -9,13 +9,13 @@
 
 namespace geodesic {
 
-// Distances under the metric from some random sources to all vertices, by number.
+// Distances under the metric from some random sources to all vertices, by vertex number.
 struct ExactFields {
     std::vector<uint32_t> sources; // mesh vertices
     std::vector<std::vector<double>> distances;
 };
 
-// vertex_of_number: the mesh vertex of each number. Other seeds choose other sources.
+// vertex_of_number gives the mesh vertex of each number. Another seed chooses other sources.
 ExactFields exact_fields(const Description& about, std::span<const uint32_t> vertex_of_number, uint64_t seed,
                          Workers& workers);
 
@@ -26,7 +26,7 @@ std::vector<double> relative_errors(const Index& index, Crossing crossing,
 
 MeasuredError summary(std::vector<double> errors);
 
-// Whether MSAD answers differently by Crossing.
+// Whether the answers of MSAD depend on where paths cross borders.
 bool crosses_between_vertices(const Description& about);
 
 }

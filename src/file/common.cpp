@@ -1,4 +1,4 @@
-// Sections of either engine.
+// The sections that both engines have.
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -87,8 +87,8 @@ std::vector<std::byte> hierarchy_bytes(const StoredIndex& stored) {
     return writer.take();
 }
 
-// `patch_room`: more patches than the section BORD, as it was decoded, has entries cannot be. Returns how
-// many leaves there are.
+// Returns the number of leaves. Refuses more than `patch_room` patches besides the root, since the section
+// BORD has numbers for each of them.
 uint32_t read_hierarchy(const format::Container& container, uint64_t patch_room, StoredIndex& stored) {
     const auto bytes = container.read_bytes(TAG_HIERARCHY, MAX_BYTES);
     format::ByteReader reader(bytes, "section HIER");
@@ -127,7 +127,7 @@ std::vector<std::byte> vertex_bytes(const StoredIndex& stored) {
     return writer.take();
 }
 
-// The vertex count is that of `positions`, which read_positions() fills.
+// The vertex count of VERT becomes the size of `positions`, which read_positions() fills.
 void read_vertices(const format::Container& container, StoredIndex& stored) {
     const uint64_t id_count = stored.description.id_count;
     const auto bytes = container.read_bytes(TAG_VERTICES, sizeof(uint64_t) + id_count * sizeof(uint32_t));
@@ -177,7 +177,7 @@ std::vector<std::byte> border_bytes(const StoredIndex& stored) {
     return writer.take();
 }
 
-// `count` numbers, which with `sum` add up to less than NONE. Returns the whole sum.
+// Reads `count` numbers and returns their sum plus `sum`, which must stay below NONE.
 uint64_t read_counts(format::ByteReader& reader, size_t count, uint64_t sum, std::vector<uint32_t>& counts) {
     for (size_t i = 0; i < count; ++i) {
         counts.push_back(reader.u32());
@@ -187,7 +187,7 @@ uint64_t read_counts(format::ByteReader& reader, size_t count, uint64_t sum, std
     return sum;
 }
 
-// A vertex has one place on a border: no second one is kept of it.
+// Refuses a vertex that is on one border twice, since a vertex has a single position on a border.
 void refuse_repeated(const StoredIndex& stored, uint64_t border_vertex_count) {
     std::vector<uint32_t> last_patch(border_vertex_count, 0);
     size_t next = 0;

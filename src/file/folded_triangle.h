@@ -6,9 +6,9 @@
 
 namespace geodesic {
 
-// The entries below the diagonal of a symmetric matrix of `size` rows, folded into a rectangle without a gap:
-// line r is row size - 1 - r followed by row r (of an even size) or r + 1 (of an odd one). As the file stores
-// them.
+// The entries below the diagonal of a symmetric matrix of `size` rows, folded into a rectangle without a gap,
+// as the file stores them. Line r of the rectangle is row size - 1 - r of the matrix, followed by row r if
+// the size is even, or by row r + 1 if it is odd.
 struct FoldedShape {
     uint32_t rows, cols;
 };
@@ -18,7 +18,7 @@ inline FoldedShape folded_shape(uint32_t size) {
     return {size / 2, size - 1 + size % 2};
 }
 
-// entry(i, j), i > j, is visited in the order of the folded rectangle.
+// Calls entry(i, j), with i > j, for each entry in the order of the folded rectangle.
 template <class Entry>
 void for_each_folded(uint32_t size, const Entry& entry) {
     for (uint32_t r = 0; r < folded_shape(size).rows; ++r) {

@@ -12,8 +12,8 @@ namespace geodesic {
 // The bytes of an index as format/SPEC.md describes them.
 std::vector<std::byte> write_index(const StoredIndex& stored);
 
-// Throws Error where the bytes are not those of an index. What needs the numbering to be checked, prepare()
-// checks.
+// Throws Error if the bytes are not those of an index. prepare() checks what can be checked only with the
+// numbering at hand.
 StoredIndex read_index(std::span<const std::byte> file);
 
 }

@@ -21,7 +21,7 @@ inline constexpr uint32_t TAG_BORDER_TABLES = format::make_tag("BVBV");
 inline constexpr uint32_t TAG_BORDER_INTERNAL_TABLES = format::make_tag("BVIV");
 inline constexpr uint32_t TAG_INTERNAL_TABLES = format::make_tag("IVIV");
 
-// Of the overlay engine only.
+// These are of the overlay engine only.
 inline constexpr uint32_t TAG_QUANTA = format::make_tag("QUAN");
 inline constexpr uint32_t TAG_SEGMENTS = format::make_tag("SEGM");
 inline constexpr uint32_t TAG_OVERLAY_TABLES = format::make_tag("OVOV");
@@ -38,9 +38,10 @@ inline constexpr std::array INDEX_TAGS{TAG_META,
                                        TAG_SEGMENTS,
                                        TAG_OVERLAY_TABLES};
 
-// Each pair writes and reads a group of sections: common.cpp those of either engine, graph.cpp and
-// overlay.cpp those of one. They are to be read in this order, since later ones are as large as earlier ones
-// say. Reading throws Error CORRUPT for what format/SPEC.md refuses.
+// Each pair of functions writes and reads a group of sections. Those in common.cpp are for sections that both
+// engines have, those in graph.cpp and overlay.cpp for sections of one engine. Sections must be read in this
+// order, since earlier ones say how large later ones are. Reading throws Error CORRUPT for what
+// format/SPEC.md refuses.
 void write_common(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_common(const format::Container& container, StoredIndex& stored);
 

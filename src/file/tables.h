@@ -9,20 +9,21 @@
 
 namespace geodesic {
 
-// The tables of one section, as matrices of float32. Values lie end to end as in StoredIndex; a file folds
+// The tables of one section as matrices of float32. Values lie end to end as in StoredIndex. The file folds
 // the entries below a diagonal into a rectangle.
 class TableSection {
 public:
     explicit TableSection(uint32_t tag) : tag_(tag) {}
 
-    // The next table: full, or below the diagonal of so many rows.
+    // Adds the next table: a full one, or one of so many rows of which the entries below the diagonal are
+    // kept.
     void add(uint32_t rows, uint32_t cols);
     void add_below_diagonal(uint32_t size);
 
     void write(std::span<const float> values, format::ContainerWriter& writer) const;
 
-    // The section's size is compared before anything is allocated. Throws Error CORRUPT also where an entry
-    // is negative or NaN.
+    // Compares the size of the section with the tables before anything is allocated. Throws Error CORRUPT if
+    // it differs, and if an entry is negative or NaN.
     std::vector<float> read(const format::Container& container) const;
 
 private:
@@ -36,7 +37,7 @@ private:
     uint64_t entries_ = 0;
 };
 
-// Those of leaves, whichever engine's.
+// The tables of leaves, which both engines have.
 TableSection border_internal_section(const StoredIndex& stored);
 TableSection internal_section(const StoredIndex& stored);
 

@@ -11,8 +11,8 @@ struct MeasuredError {
     double mean_at_vertices = 0; // if paths crossed borders at vertices only
 };
 
-// Describes the mesh and the options that an index was built with, and what was measured. It is the
-// fingerprint in the header of a file and the section META.
+// Describes the mesh and the options that an index was built with, and what was measured. A file
+// has the fingerprint in its header and the rest in the section META.
 struct Description {
     uint64_t mesh_fingerprint = 0;
     uint64_t id_count = 0, triangle_count = 0, seed = 0;

@@ -23,7 +23,7 @@ uint32_t child_count(const HierarchyOptions& options, uint32_t level, double sha
     return std::max(1u, static_cast<uint32_t>(std::lround(count * share_of_faces / average_share)));
 }
 
-// Whoever gives the patches of three levels means three levels.
+// A caller who gives the patch counts of three levels wants three levels.
 uint32_t levels_named(std::span<const uint32_t> given) {
     auto count = static_cast<uint32_t>(given.size());
     while (count > 0 && given[count - 1] == 0) --count;
@@ -56,8 +56,8 @@ std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_coun
             remaining /= split[l];
     }
     const double each = open ? std::pow(std::max(1.0, remaining), 1.0 / open) : 0;
-    // Who asks for more levels than the vertices call for gets smaller leaves; only a mesh that is a leaf by
-    // itself is left whole.
+    // If the caller asks for more levels than the mesh needs, leaves become smaller. Only a mesh that is
+    // small enough for a single leaf is not split.
     const uint32_t fewest = level_count > 1 ? 2 : 1;
     for (uint32_t& count : split)
         if (count == 0) count = std::max(fewest, static_cast<uint32_t>(std::lround(each)));

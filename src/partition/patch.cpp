@@ -33,7 +33,7 @@ private:
 
 struct BoundaryEdge {
     std::array<uint32_t, 2> vertices;
-    bool shared; // another patch lies beyond
+    bool shared; // another patch lies on the other side
 };
 
 std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh, std::span<const uint32_t> faces,

@@ -6,7 +6,7 @@ namespace geodesic {
 
 namespace {
 
-// Adds a sample: lowers every candidate's distance to its nearest sample, as far as `radius`.
+// Adds a sample: lowers the distances of candidates within `radius` of it to their nearest sample.
 void add_sample(FieldSolver& solver, std::span<const uint32_t> candidates, uint32_t sample, double radius,
                 std::vector<double>& nearest) {
     solver.solve({&sample, 1}, candidates, radius);
@@ -23,8 +23,9 @@ double largest_finite(std::span<const double> values) {
 
 }
 
-// Throws darts in a random order at a radius that shrinks whenever no candidate is left outside all disks,
-// until there are enough. Distances found at a larger radius stay valid at a smaller one.
+// Takes candidates in a random order, each as a sample if it lies outside the disks of all samples before it.
+// Whenever no candidate lies outside all disks, the radius of the disks shrinks, until there are enough
+// samples. Distances that were found for a larger radius stay valid for a smaller one.
 std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, std::span<const uint32_t> candidates,
                                            uint32_t count, Random& random) {
     constexpr double SHRINK = 0.8;
@@ -42,7 +43,7 @@ std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, std::span<const 
             samples.push_back(shuffled[i]);
             add_sample(solver, shuffled, shuffled[i], radius, nearest);
         }
-        if (largest_finite(nearest) == 0) break; // only candidates at distance 0 of a sample are left
+        if (largest_finite(nearest) == 0) break; // every candidate left is at distance 0 from a sample
         radius *= SHRINK;
     }
     return samples;

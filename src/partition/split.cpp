@@ -16,13 +16,13 @@ namespace {
 
 using Faces = std::vector<uint32_t>;
 
-// What one call of split_patch works with.
+// The arguments and the scratch of one call of split_patch.
 struct Splitter {
     const Mesh& mesh;
     uint32_t lloyd_iterations;
     FieldSolver& solver;
     Random& random;
-    std::vector<uint8_t> inside; // per face of the mesh, scratch of has_one_ring
+    std::vector<uint8_t> inside; // per face of the mesh; scratch of has_one_ring
 };
 
 std::vector<uint32_t> relaxed_cells(Splitter& splitter, std::span<const uint32_t> faces, uint32_t count) {
@@ -38,7 +38,7 @@ std::vector<uint32_t> relaxed_cells(Splitter& splitter, std::span<const uint32_t
     return cell;
 }
 
-// The component that most edges of a small component lead to, or NONE if none lead to another one.
+// Returns the other component that shares most edges with a small component, or NONE if no other shares any.
 uint32_t best_neighbour(const Mesh& mesh, std::span<const uint32_t> faces, const Components& components,
                         const std::unordered_map<uint32_t, uint32_t>& position, uint32_t component,
                         std::span<const uint32_t> members) {
@@ -58,8 +58,8 @@ uint32_t best_neighbour(const Mesh& mesh, std::span<const uint32_t> faces, const
     return best;
 }
 
-// Groups faces by cell. A cell's largest connected component is its patch; a smaller one joins the neighbour
-// it shares most edges with, or is a patch of its own where it has none.
+// Groups faces by cell. The largest connected component of a cell becomes a patch. Each smaller component
+// joins the neighbour that it shares most edges with; one without neighbours becomes a patch by itself.
 std::vector<Faces> connected_patches(const Mesh& mesh, std::span<const uint32_t> faces,
                                      std::span<const uint32_t> cell) {
     Components components = connected_components(mesh, faces, cell);
@@ -72,7 +72,7 @@ std::vector<Faces> connected_patches(const Mesh& mesh, std::span<const uint32_t>
     for (uint32_t i = 0; i < faces.size(); ++i) position.emplace(faces[i], i);
 
     std::vector<uint32_t> order(
-        components.count); // small ones first: they may join one that then joins another
+        components.count); // small ones first, since one that others have joined may join another
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(),
                      [&](uint32_t a, uint32_t b) { return members[a].size() < members[b].size(); });
@@ -104,7 +104,7 @@ bool has_one_ring(Splitter& splitter, const Faces& faces) {
     return rings <= 1;
 }
 
-// Cuts off the first face: the way out where cells cannot divide a patch any more.
+// Makes the first face a patch of its own. This is the last resort where cells cannot divide a patch.
 std::vector<Faces> cut_off_one_face(const Mesh& mesh, const Faces& faces) {
     std::vector<uint32_t> cell(faces.size(), 1);
     cell[0] = 0;
@@ -114,7 +114,7 @@ std::vector<Faces> cut_off_one_face(const Mesh& mesh, const Faces& faces) {
     return patches;
 }
 
-// Two halves of an annulus are discs, if they are not rings again.
+// A patch with several rings, such as an annulus, is cut in halves until each part has one ring.
 void split_until_one_ring(Splitter& splitter, Faces faces, std::vector<Faces>& done) {
     if (faces.size() == 1 || has_one_ring(splitter, faces)) {
         done.push_back(std::move(faces));

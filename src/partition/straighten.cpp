@@ -8,7 +8,8 @@ namespace geodesic {
 
 namespace {
 
-// The neighbours, over edges of two faces, of each of some faces, by their positions among these.
+// The neighbours of each of some faces over edges that two faces share. Faces are given by their positions
+// among these faces.
 class Neighbours {
 public:
     Neighbours(const Mesh& mesh, std::span<const uint32_t> faces) {
@@ -33,7 +34,7 @@ private:
     std::vector<uint32_t> begin_ = {0}, neighbours_;
 };
 
-// The cell that most neighbours are in, the own one where others have no more.
+// Returns the cell that most neighbours are in. If it is a tie with the own cell, the own one is returned.
 uint32_t best_cell(std::span<const uint32_t> neighbours, std::span<const uint32_t> cell, uint32_t own) {
     const auto count = [&](uint32_t wanted) {
         return std::ranges::count_if(neighbours, [&](uint32_t j) { return cell[j] == wanted; });

@@ -18,8 +18,8 @@ uint32_t cell_of_face(const FieldSolver& solver, const std::array<uint32_t, 3>& 
     return solver.nearest(closest);
 }
 
-// The cell that all faces around a vertex within the patch belong to, or NONE on a border of cells or of the
-// patch.
+// Returns the cell that all faces of the patch around a vertex belong to, or NONE if the vertex lies on a
+// border of a cell or of the patch.
 std::unordered_map<uint32_t, uint32_t> only_cells(const Mesh& mesh, std::span<const uint32_t> faces,
                                                   std::span<const uint32_t> cell) {
     struct Seen {

@@ -43,7 +43,8 @@ float Query::sssd(uint32_t source_id, uint32_t target_id) {
     return std::visit([&](auto& engine) { return engine.sssd(std::min(a, b), std::max(a, b)); }, engine_);
 }
 
-// Pairs that begin near each other one after the other: what the ones have read is at hand for the next.
+// Pairs that begin near each other are answered one after the other, since they read the same tables, which
+// are in the cache then.
 void Query::sssd_each(std::span<const uint32_t> ids, std::span<float> distances) {
     constexpr size_t AT_ONCE = 1 << 16;
     for (uint32_t id : ids) number_of(id);

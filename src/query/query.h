@@ -19,7 +19,7 @@ public:
     // Single source, single destination: symmetric bit for bit.
     float sssd(uint32_t source_id, uint32_t target_id);
 
-    // Of pairs of vertices that follow each other.
+    // Fills the distances of pairs of vertices: ids[2 i] and ids[2 i + 1] are one.
     void sssd_each(std::span<const uint32_t> ids, std::span<float> distances);
 
     // From then on prepared_sssd() is from this source, until the next call.
@@ -32,7 +32,7 @@ public:
     // Threads of msad(), 0: one per processor; the graph engine uses one.
     void set_threads(uint32_t count);
 
-    // Of each source by itself: distances[i * id_count + id].
+    // Fills the distances from each source by itself: distances[i * id_count + id].
     void ssad_each(std::span<const uint32_t> source_ids, std::span<float> distances);
 
 private:
@@ -46,7 +46,7 @@ private:
     const Index& index_;
     std::variant<GraphQuery, OverlayQuery> engine_;
     uint32_t prepared_id_ = NONE, prepared_ = NONE;
-    Array<std::pair<uint64_t, uint32_t>> order_; // of pairs: by their numbers, and which ones they are
+    Array<std::pair<uint64_t, uint32_t>> order_; // the vertex numbers of a pair, and its position
     Array<uint32_t> sources_;                    // of MSAD, by number
     Array<float> distance_;                      // by number; of ssad_at_once() side by side
 };

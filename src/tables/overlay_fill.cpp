@@ -30,7 +30,7 @@ std::vector<uint8_t> exact_patches(const Numbering& numbering, uint32_t exact_ve
     return exact;
 }
 
-// The number of rows that closing computes, from below and from above.
+// The number of table rows that are put together from children and then lowered by parents.
 size_t closure_rows(const Numbering& numbering, const std::vector<uint8_t>& exact) {
     size_t rows = 0;
     for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
