@@ -1,22 +1,17 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "geoidx.h"
 #include "tests/campaign/oracle.h"
 #include "tests/campaign/random_options.h"
+#include "tests/support/handles.h"
 
 namespace geodesic::campaign {
 
-struct Close {
-    void operator()(geoidx* index) const { geoidx_close(index); }
-    void operator()(geoidx_query* query) const { geoidx_query_close(query); }
-    void operator()(geoidx_solver* solver) const { geoidx_solver_close(solver); }
-};
-using IndexHandle = std::unique_ptr<geoidx, Close>;
-using QueryHandle = std::unique_ptr<geoidx_query, Close>;
-using SolverHandle = std::unique_ptr<geoidx_solver, Close>;
+using test::IndexHandle;
+using test::QueryHandle;
+using test::SolverHandle;
 
 // A call that must succeed.
 void succeed(geoidx_status status, const char* call);

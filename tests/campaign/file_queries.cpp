@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <memory>
 #include <string>
 
 #include "geoidx.h"
 #include "tests/campaign/file_memory.h"
 #include "tests/campaign/file_random.h"
+#include "tests/support/handles.h"
 
 namespace geodesic::file_campaign {
 
@@ -26,13 +26,6 @@ bool same_bits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
-
-struct Close {
-    void operator()(geoidx* index) const { geoidx_close(index); }
-    void operator()(geoidx_query* query) const { geoidx_query_close(query); }
-};
-using OwnedIndex = std::unique_ptr<geoidx, Close>;
-using OwnedQuery = std::unique_ptr<geoidx_query, Close>;
 
 std::vector<std::byte> saved(const geoidx& index) {
     uint64_t size = 0;
@@ -224,7 +217,7 @@ private:
     const geoidx& index_;
     Random random_;
     const uint32_t ids_;
-    OwnedQuery query_;
+    test::QueryHandle query_;
 };
 
 void check_saving(const FileContent& content, const WrittenFile& file, const geoidx& index) {
@@ -232,7 +225,7 @@ void check_saving(const FileContent& content, const WrittenFile& file, const geo
     if (content.is_canonical) require(bytes == file.bytes, "what is saved is what was opened");
     geoidx* again = nullptr;
     succeed(geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &again), "opening what was saved");
-    require(saved(*OwnedIndex(again)) == bytes, "what is saved of that is the same again");
+    require(saved(*test::IndexHandle(again)) == bytes, "what is saved of that is the same again");
 }
 
 // Everything that is derived from a file, and all scratch, these questions' own included, is in proportion to
@@ -252,7 +245,7 @@ bool ask_everything(const FileContent& content, const WrittenFile& file, uint64_
     const uint64_t before = peak_memory();
     geoidx* opened = nullptr;
     const geoidx_status status = geoidx_open_memory(file.bytes.data(), file.bytes.size(), nullptr, &opened);
-    const OwnedIndex index(opened);
+    const test::IndexHandle index(opened);
     require((status == GEOIDX_OK) == (index != nullptr), "there is an index or an error");
     require(status == GEOIDX_OK || status == GEOIDX_ERROR_LIMIT,
             std::string("a file that contradicts nothing is refused: ") + geoidx_last_error());

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdlib>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,18 +10,11 @@
 
 #include "geoidx.h"
 #include "tests/capi/meshes.h"
+#include "tests/support/handles.h"
 
 // The C API with owning handles and vectors. Each call is required to succeed.
 namespace geodesic::test {
 
-struct Close {
-    void operator()(geoidx* index) const { geoidx_close(index); }
-    void operator()(geoidx_query* query) const { geoidx_query_close(query); }
-    void operator()(geoidx_solver* solver) const { geoidx_solver_close(solver); }
-};
-using IndexHandle = std::unique_ptr<geoidx, Close>;
-using QueryHandle = std::unique_ptr<geoidx_query, Close>;
-using SolverHandle = std::unique_ptr<geoidx_solver, Close>;
 using Bytes = std::vector<std::byte>;
 
 // Two threads, whatever the machine, the given levels, and the graph engine, whose distances are known to
