@@ -42,9 +42,13 @@ int report(const CLI::App& app, std::string message, ExitStatus status) {
     return status;
 }
 
-// CLI11 itself says only that a subcommand is missing.
+// CLI11 itself says only that a subcommand is missing, or that an option before it is not expected.
 std::string message_of(const CLI::App& app, const CLI::ParseError& error, const char* word) {
-    if (!chosen_command(app).empty() || !word || *word == '-') return error.what();
+    const std::string command = chosen_command(app);
+    if (word && *word == '-')
+        return quoted(word) + " stands before the command; options come after it, as in 'geoidx " +
+               (command.empty() ? "COMMAND" : command) + " ... " + word + "'";
+    if (!command.empty() || !word) return error.what();
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
     const std::string meant = probable_word(word, names);

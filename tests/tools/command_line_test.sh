@@ -253,6 +253,19 @@ msd msad
 exakt exact
 benhc bench
 WORDS
+while read -r words; do
+    misuse $words
+    option=${words%% *}
+    grep -q -- "'$option' stands before the command; options come after it, as in 'geoidx [a-zA-Z]* \.\.\. $option'" err.txt ||
+        fail "'$words' is not told that options come after the command: $(cat err.txt)"
+done <<'LINES'
+--json info grid.obj.geoidx
+--json info
+--json
+--seed 3 build grid.obj -o x.geoidx
+-o x.geoidx build grid.obj
+--unknown info grid.obj.geoidx
+LINES
 misuse build
 misuse build grid.obj
 misuse build grid.obj -o x.geoidx --metric heat
