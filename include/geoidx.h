@@ -118,10 +118,12 @@ enum { GEOIDX_POSITION_FLOAT = 0, GEOIDX_POSITION_DOUBLE = 1 };
 
 /* A triangle mesh, as arrays of the caller's. Vertices with equal positions are one vertex (see
  * weld_tolerance), degenerate and duplicate triangles are dropped, a vertex that no triangle uses keeps its
- * id and is unreachable. Any number of components, open boundaries, any genus, either orientation, vertices
- * where several fans of triangles meet, and edges with three or more triangles are fine: paths pass from each
- * of them to every other. A NaN or infinite position, a double that is larger than the largest float, and an
- * id out of range are GEOIDX_ERROR_BAD_MESH. */
+ * id and is unreachable. Vertices are welded before it is asked which ones a triangle uses: an unused vertex
+ * at the place of a used one is reached as that one is, whereas unused vertices that are welded to each
+ * other only are unreachable from each other, too. Any number of components, open boundaries, any genus,
+ * either orientation, vertices where several fans of triangles meet, and edges with three or more triangles
+ * are fine: paths pass from each of them to every other. A NaN or infinite position, a double that is larger
+ * than the largest float, and an id out of range are GEOIDX_ERROR_BAD_MESH. */
 typedef struct geoidx_mesh {
     uint32_t struct_size;
     uint32_t position_type;    /* GEOIDX_POSITION_FLOAT (default) or GEOIDX_POSITION_DOUBLE */

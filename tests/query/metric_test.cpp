@@ -302,6 +302,46 @@ TEST_CASE("equal positions are one vertex") {
     }
 }
 
+// A vertex that no triangle uses before the mesh and one after it lie where a vertex of the mesh does, two
+// more lie together elsewhere.
+TEST_CASE("an unused vertex at the place of a used one is that one; unused ones together stay unreachable") {
+    const TestMesh surface = hills(12, 11);
+    for (const double apart : {0.0, 1e-6}) {
+        TestMesh mesh;
+        mesh.add_vertex(surface.positions[90] + apart, surface.positions[91], surface.positions[92]);
+        append(mesh, surface, 0);
+        const uint32_t before = 0, used = 1 + 30, corner = 1;
+        const uint32_t after =
+            mesh.add_vertex(surface.positions[90], surface.positions[91] + apart, surface.positions[92]);
+        const uint32_t lost = mesh.add_vertex(50, 0, 0), beside = mesh.add_vertex(50 + apart, 0, 0);
+        const uint32_t count = mesh.vertex_count();
+        for (const uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
+            CAPTURE(engine);
+            auto options = build_options(GEOIDX_METRIC_EXACT, 2);
+            options.engine = engine;
+            options.weld_tolerance = 2 * apart;
+            const auto index = build(mesh, options);
+            CHECK(info_of(index.get()).welded_vertex_count == surface.vertex_count());
+            const auto metric = solver(mesh, options);
+            for (const uint32_t unused : {before, after}) {
+                CHECK(sssd(index.get(), unused, used) == 0);
+                CHECK(sssd(index.get(), unused, before + after - unused) == 0);
+                CHECK(sssd(index.get(), unused, corner) == sssd(index.get(), used, corner));
+                CHECK(std::isfinite(sssd(index.get(), unused, corner)));
+                CHECK(msad(index.get(), unused, count) == msad(index.get(), used, count));
+                CHECK(metric_distances(metric.get(), unused, count) ==
+                      metric_distances(metric.get(), used, count));
+            }
+            CHECK(sssd(index.get(), lost, beside) == INFINITE);
+            CHECK(sssd(index.get(), lost, used) == INFINITE);
+            for (uint32_t v = 0; v < count; ++v) {
+                CHECK(msad(index.get(), lost, count)[v] == (v == lost ? 0 : INFINITE));
+                CHECK(metric_distances(metric.get(), lost, count)[v] == (v == lost ? 0.0 : double{INFINITE}));
+            }
+        }
+    }
+}
+
 TEST_CASE("geoidx_query_* answers as geoidx_* does, batch as single") {
     const TestMesh mesh = components_and_unused();
     const uint32_t count = mesh.vertex_count();
