@@ -267,60 +267,52 @@ static Bytes hollow_frame(uint64_t content) {
     return frame;
 }
 
+// The original with sections of bytes replaced: `victim` is a hollow frame that claims `claimed` bytes, and
+// others are what change(tag, bytes) makes of them. Sections of matrices are empty.
+template <class Change>
+static Bytes with_hollow_section(uint32_t victim, uint64_t claimed, const Change& change) {
+    format::ContainerWriter writer(1);
+    const auto container = format::Container::parse(original().file, INDEX_TAGS);
+    size_t position = 0;
+    for (size_t i = 0; i < container.sections().size(); ++i) {
+        const uint32_t tag = container.sections()[i].tag;
+        if (tag == victim) {
+            position = i;
+            writer.add_raw(tag, hollow_frame(claimed));
+        } else if (container.sections()[i].codec == format::Codec::Png) {
+            writer.add_matrices(tag, {});
+        } else {
+            writer.add_bytes(tag, change(tag, container.read_bytes(tag, UINT64_MAX)));
+        }
+    }
+    Bytes file = writer.finish();
+    format::test::put(file, format::test::record(position) + format::test::CODEC, 1, 4);
+    format::test::put(file, format::test::record(position) + format::test::RAW_SIZE, claimed, 8);
+    format::test::reseal(file);
+    return file;
+}
+
 // What the file claims is compared with what is stored before memory is asked for: OUT_OF_MEMORY, or a crash
 // of the sanitizer, would show that it was not.
 TEST_CASE("hostile sizes are refused before memory is allocated for them") {
-    constexpr uint64_t HUGE_SIZE = uint64_t{1} << 39;
     for (uint32_t victim : {TAG_META, TAG_HIERARCHY, TAG_VERTICES, TAG_POSITIONS, TAG_BORDERS}) {
         CAPTURE(format::tag_text(victim));
-        format::ContainerWriter writer(1);
-        const auto container = format::Container::parse(original().file, INDEX_TAGS);
-        size_t position = 0;
-        for (size_t i = 0; i < container.sections().size(); ++i) {
-            const uint32_t tag = container.sections()[i].tag;
-            if (tag == victim) {
-                position = i;
-                writer.add_raw(tag, hollow_frame(HUGE_SIZE));
-            } else if (container.sections()[i].codec == format::Codec::Png) {
-                writer.add_matrices(tag, {});
-            } else {
-                writer.add_bytes(tag, container.read_bytes(tag, UINT64_MAX));
-            }
-        }
-        Bytes file = writer.finish();
-        format::test::put(file, format::test::record(position) + format::test::CODEC, 1, 4);
-        format::test::put(file, format::test::record(position) + format::test::RAW_SIZE, HUGE_SIZE, 8);
-        format::test::reseal(file);
+        const Bytes file =
+            with_hollow_section(victim, uint64_t{1} << 39, [](uint32_t, Bytes bytes) { return bytes; });
         CHECK(status_of_file(file) == GEOIDX_ERROR_CORRUPT);
     }
 }
 
 TEST_CASE("a hierarchy of more patches than the file has room for is refused before it is made") {
     // BORD claims a terabyte, HIER that the root has 2^31 children.
-    format::ContainerWriter writer(1);
-    const auto container = format::Container::parse(original().file, INDEX_TAGS);
-    size_t position = 0;
-    for (size_t i = 0; i < container.sections().size(); ++i) {
-        const uint32_t tag = container.sections()[i].tag;
-        if (tag == TAG_BORDERS) {
-            position = i;
-            writer.add_raw(tag, hollow_frame(uint64_t{1} << 40));
-        } else if (tag == TAG_HIERARCHY) {
-            format::ByteWriter bytes;
-            bytes.u32(1);
-            bytes.u64(1);
-            bytes.u32(1u << 31);
-            writer.add_bytes(tag, bytes.take());
-        } else if (container.sections()[i].codec == format::Codec::Png) {
-            writer.add_matrices(tag, {});
-        } else {
-            writer.add_bytes(tag, container.read_bytes(tag, UINT64_MAX));
-        }
-    }
-    Bytes file = writer.finish();
-    format::test::put(file, format::test::record(position) + format::test::CODEC, 1, 4);
-    format::test::put(file, format::test::record(position) + format::test::RAW_SIZE, uint64_t{1} << 40, 8);
-    format::test::reseal(file);
+    const Bytes file = with_hollow_section(TAG_BORDERS, uint64_t{1} << 40, [](uint32_t tag, Bytes bytes) {
+        if (tag != TAG_HIERARCHY) return bytes;
+        format::ByteWriter writer;
+        writer.u32(1);
+        writer.u64(1);
+        writer.u32(1u << 31);
+        return Bytes(writer.take());
+    });
     CHECK(status_of_file(file) == GEOIDX_ERROR_CORRUPT);
 }
 
