@@ -26,6 +26,14 @@ namespace Geoidx
 
         internal static bool IsEnding => isEnding;
 
+        internal static int Count
+        {
+            get
+            {
+                lock (Gate) return calls;
+            }
+        }
+
         /// <summary>A native call, until the scope is left.</summary>
         /// <exception cref="OperationCanceledException">The AppDomain or the program ends.</exception>
         internal static Call BeginCall()
