@@ -14,7 +14,7 @@ namespace geodesic {
 class ArcQueue {
 public:
     struct Entry {
-        float key;
+        double key;
         uint32_t node;
 
         friend bool operator>(const Entry& a, const Entry& b) {
@@ -27,7 +27,7 @@ public:
     bool empty() const { return heap_.empty(); }
     void clear() { heap_.clear(); }
 
-    void push(float key, uint32_t node) {
+    void push(double key, uint32_t node) {
         heap_.push_back({key, node});
         std::push_heap(heap_.begin(), heap_.end(), std::greater<>{});
     }

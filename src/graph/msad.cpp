@@ -9,17 +9,17 @@ namespace geodesic {
 namespace {
 
 namespace simd = std::experimental;
-using Floats = simd::native_simd<float>;
-
 // distances[i] = min(distances[i], d + row[i]): one step of a min-plus product.
-void add_row(float d, std::span<const float> row, float* distances) {
+template <class Number>
+void add_row(Number d, std::span<const float> row, Number* distances) {
+    using Numbers = simd::native_simd<Number>;
     size_t i = 0;
-    for (; i + Floats::size() <= row.size(); i += Floats::size()) {
-        const Floats through = d + Floats(row.data() + i, simd::element_aligned);
-        simd::min(through, Floats(distances + i, simd::element_aligned))
+    for (; i + Numbers::size() <= row.size(); i += Numbers::size()) {
+        const Numbers through = d + Numbers(row.data() + i, simd::element_aligned);
+        simd::min(through, Numbers(distances + i, simd::element_aligned))
             .copy_to(distances + i, simd::element_aligned);
     }
-    for (; i < row.size(); ++i) distances[i] = std::min(distances[i], d + row[i]);
+    for (; i < row.size(); ++i) distances[i] = std::min(distances[i], d + Number{row[i]});
 }
 
 }
@@ -74,13 +74,13 @@ void GraphQuery::cross_overlay(uint32_t patch, uint32_t start_count) {
     const uint32_t first = numbering_.border_begin[numbering_.child_begin[patch]];
     const uint32_t last = numbering_.border_begin[numbering_.child_begin[patch + 1]];
     for (uint32_t slot = first; slot < last; ++slot) {
-        slot_distance_[slot] = distance_[numbering_.border[slot]];
+        slot_distance_[slot] = double{distance_[numbering_.border[slot]]};
         if (numbering_.overlay_position[slot] < start_count && slot_distance_[slot] < INFINITE)
             activate(slot);
     }
     for (uint32_t child; (child = nearest_active_child(patch)) != NONE;) cross_child(patch, child);
     for (uint32_t slot = first; slot < last; ++slot)
-        distance_[numbering_.border[slot]] = slot_distance_[slot];
+        distance_[numbering_.border[slot]] = static_cast<float>(slot_distance_[slot]);
 }
 
 void GraphQuery::activate(uint32_t slot) {
@@ -93,7 +93,7 @@ void GraphQuery::activate(uint32_t slot) {
 
 uint32_t GraphQuery::nearest_active_child(uint32_t patch) const {
     uint32_t nearest = NONE;
-    float smallest = INFINITE;
+    double smallest = INFINITE;
     for (uint32_t child = numbering_.child_begin[patch]; child < numbering_.child_begin[patch + 1]; ++child)
         if (nearest_active_[child] < smallest) {
             smallest = nearest_active_[child];
@@ -118,7 +118,7 @@ void GraphQuery::cross_child(uint32_t patch, uint32_t child) {
         if (crossed_[k] < slot_distance_[first + k]) pass_on(patch, first + k, crossed_[k]);
 }
 
-void GraphQuery::pass_on(uint32_t patch, uint32_t slot, float distance) {
+void GraphQuery::pass_on(uint32_t patch, uint32_t slot, double distance) {
     for (uint32_t copy : numbering_.slots_of(patch, numbering_.overlay_position[slot])) {
         slot_distance_[copy] = distance;
         if (copy != slot) activate(copy);

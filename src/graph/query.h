@@ -9,6 +9,8 @@
 namespace geodesic {
 
 // Queries by a search over the tables of borders (paper 3.4). Vertices are given by their numbers.
+// Sums along a border are doubles: a border has many ways of nearly the same length, and of the sums of
+// floats the one with the most hops rounded down would be the least.
 class GraphQuery {
 public:
     GraphQuery(const GraphIndex& index, std::pmr::memory_resource* memory);
@@ -35,15 +37,15 @@ private:
     void activate(uint32_t slot);
     uint32_t nearest_active_child(uint32_t patch) const;
     void cross_child(uint32_t patch, uint32_t child);
-    void pass_on(uint32_t patch, uint32_t slot, float distance);
+    void pass_on(uint32_t patch, uint32_t slot, double distance);
     void fill_leaf(uint32_t leaf);
 
     // sssd.cpp
     float same_leaf_distance(uint32_t a, uint32_t b) const;
-    float search(uint32_t source, uint32_t target);
+    double search(uint32_t source, uint32_t target);
     void allow_ancestors(uint32_t source, uint32_t target);
-    void open(uint32_t node, float distance, uint32_t target);
-    void relax_border_vertex(uint32_t node, float distance, uint32_t target);
+    void open(uint32_t node, double distance, uint32_t target);
+    void relax_border_vertex(uint32_t node, double distance, uint32_t target);
 
     const GraphIndex& index_;
     const Numbering& numbering_;
@@ -56,15 +58,15 @@ private:
     // The overlay that is being crossed: distances per slot, so that a table row meets them side by side; per
     // child the slots whose rows have not been looked at since their distance fell, in the child's part of
     // the array.
-    Array<float> slot_distance_;
+    Array<double> slot_distance_;
     Array<uint8_t> slot_is_active_;
     Array<uint32_t> active_slots_;
     Array<uint32_t> active_count_; // per patch
-    Array<float> nearest_active_;  // per patch: no active slot is nearer; infinity without one
-    Array<float> crossed_;         // of one child's border, while its rows are looked at
+    Array<double> nearest_active_; // per patch: no active slot is nearer; infinity without one
+    Array<double> crossed_;        // of one child's border, while its rows are looked at
 
     // SSSD: distances of border vertices, valid where the epoch is the current one; likewise allowed patches.
-    Array<float> search_distance_;
+    Array<double> search_distance_;
     Array<uint32_t> search_epoch_, allowed_epoch_;
     uint32_t epoch_ = 0;
     uint32_t top_ = 0; // the first common ancestor of both vertices' patches

@@ -29,15 +29,15 @@ float crossing_distance(const GraphIndex& index, uint32_t border_vertex, uint32_
 }
 
 // A lower bound that no table entry undercuts (paper 3.4), which makes the search A*.
-float bound(const GraphIndex& index, uint32_t a, uint32_t b) {
-    return static_cast<float>(double{index.bound_scale} * straight_distance(index.numbering, a, b));
+double bound(const GraphIndex& index, uint32_t a, uint32_t b) {
+    return double{index.bound_scale} * straight_distance(index.numbering, a, b);
 }
 
 }
 
 float GraphQuery::sssd(uint32_t low, uint32_t high) {
     const float direct = same_leaf_distance(low, high);
-    return direct < INFINITE ? direct : search(low, high);
+    return direct < INFINITE ? direct : static_cast<float>(search(low, high));
 }
 
 // The table's distance of two vertices that a leaf or a border has in common; infinity if there is none.
@@ -78,23 +78,23 @@ void GraphQuery::allow_ancestors(uint32_t source, uint32_t target) {
     top_ = a;
 }
 
-void GraphQuery::open(uint32_t node, float distance, uint32_t target) {
+void GraphQuery::open(uint32_t node, double distance, uint32_t target) {
     if (search_epoch_[node] == epoch_ && !(distance < search_distance_[node])) return;
     search_epoch_[node] = epoch_;
     search_distance_[node] = distance;
     queue_.push(distance + bound(index_, node, target), node);
 }
 
-void GraphQuery::relax_border_vertex(uint32_t node, float distance, uint32_t target) {
+void GraphQuery::relax_border_vertex(uint32_t node, double distance, uint32_t target) {
     for (const BorderPlace& place : numbering_.places_of(node)) {
         if (place.patch != top_ && allowed_epoch_[numbering_.parent[place.patch]] != epoch_) continue;
         const auto border = numbering_.border_of(place.patch);
         const float* row = index_.border_row(place.patch, place.position);
-        for (size_t i = 0; i < border.size(); ++i) open(border[i], distance + row[i], target);
+        for (size_t i = 0; i < border.size(); ++i) open(border[i], distance + double{row[i]}, target);
     }
 }
 
-float GraphQuery::search(uint32_t source, uint32_t target) {
+double GraphQuery::search(uint32_t source, uint32_t target) {
     allow_ancestors(source, target);
     queue_.clear();
     if (numbering_.is_border(source)) {
@@ -105,14 +105,15 @@ float GraphQuery::search(uint32_t source, uint32_t target) {
         for (uint32_t i = 0; i < border.size(); ++i)
             open(border[i], index_.border_internal_row(leaf, i)[own], target);
     }
-    float best = INFINITE;
+    double best = INFINITE;
     while (!queue_.empty()) {
         const auto [key, node] = queue_.pop();
         if (key >= best) break;
-        const float d = search_distance_[node];
+        const double d = search_distance_[node];
         if (key > d + bound(index_, node, target)) continue;
         if (node == target) return d;
-        if (!numbering_.is_border(target)) best = std::min(best, d + crossing_distance(index_, node, target));
+        if (!numbering_.is_border(target))
+            best = std::min(best, d + double{crossing_distance(index_, node, target)});
         relax_border_vertex(node, d, target);
     }
     return best;

@@ -364,6 +364,28 @@ TEST_CASE("geoidx_query_* answers as geoidx_* does, batch as single") {
     }
 }
 
+// A border along which many ways are equally long, each of as many short entries as it has vertices: rounding
+// them down hundreds of times must not pay.
+TEST_CASE("the graph engine is not below the metric where borders have many short edges") {
+    constexpr uint32_t COLUMNS = 7, ROWS = 301;
+    TestMesh mesh = grid(COLUMNS, ROWS);
+    for (size_t y = 1; y < mesh.positions.size(); y += 3) mesh.positions[y] *= 0.00012048;
+    const auto options = build_options(GEOIDX_METRIC_EDGES, 1);
+    const auto index = build(mesh, options);
+    const auto metric = solver(mesh, options);
+    uint64_t below = 0, farther = 0;
+    for (uint32_t a : {0u, 3u, COLUMNS * ROWS / 2}) {
+        const auto exact = metric_distances(metric.get(), a, mesh.vertex_count());
+        const auto answers = msad(index.get(), a, mesh.vertex_count());
+        for (uint32_t b = 0; b < mesh.vertex_count(); ++b) {
+            below += !is_sound(answers[b], exact[b]) || !is_sound(sssd(index.get(), a, b), exact[b]);
+            farther += exact[b] > 2; // where the short edges are far below the rounding of a sum
+        }
+    }
+    CHECK(below == 0);
+    CHECK(farther > 1000);
+}
+
 // Distances up to 3e38 are floats; a query must not lose them, nor very short ones, on its way.
 TEST_CASE("very large and very small meshes") {
     for (const auto& [engine, shortened] :
