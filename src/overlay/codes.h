@@ -75,14 +75,17 @@ public:
     StepsOf(std::span<const float> distances, float quantum) : scale_(steps_per_distance(quantum)) {
         float nearest = INFINITE;
         for (const float d : distances) nearest = std::min(nearest, d);
-        if (nearest < INFINITE) nearest_ = static_cast<uint32_t>(std::min(nearest * scale_, 0x1p30f));
+        if (nearest < INFINITE)
+            nearest_ = std::trunc(std::min(nearest * scale_, std::numeric_limits<float>::max()));
     }
 
-    uint32_t nearest() const { return nearest_; }
+    // Whole, and too large for any integer where the distances are long and the quantum is that of a tiny
+    // part.
+    float nearest() const { return nearest_; }
 
     int16_t code(float distance) const {
         if (distance == INFINITE) return SourceCode::UNREACHED;
-        const float steps = std::clamp(distance * scale_ - static_cast<float>(nearest_) + 0.5f, 0.f, MOST);
+        const float steps = std::clamp(distance * scale_ - nearest_ + 0.5f, 0.f, MOST);
         return static_cast<int16_t>(SourceCode::NEAREST + static_cast<int32_t>(steps));
     }
 
@@ -90,7 +93,7 @@ private:
     static constexpr float MOST = SourceCode::UNREACHED - 2 - SourceCode::NEAREST;
 
     float scale_;
-    uint32_t nearest_ = 0;
+    float nearest_ = 0;
 };
 
 }

@@ -1,6 +1,7 @@
 #include "src/overlay/labels.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -117,8 +118,9 @@ private:
 
     static void write_label(std::span<const float> distances, float quantum, int16_t* label) {
         const StepsOf steps(distances, quantum);
-        *label++ = static_cast<int16_t>(steps.nearest() & 0xffff);
-        *label++ = static_cast<int16_t>(steps.nearest() >> 16);
+        const auto nearest = std::bit_cast<uint32_t>(steps.nearest());
+        *label++ = static_cast<int16_t>(nearest & 0xffff);
+        *label++ = static_cast<int16_t>(nearest >> 16);
         // Only a distance of 0 is 0 steps, so that different vertices stay apart.
         const bool is_apart = steps.nearest() > 0;
         for (const float distance : distances)

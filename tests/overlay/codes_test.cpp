@@ -62,17 +62,17 @@ TEST_CASE("table codes: converted to steps of another quantum") {
 TEST_CASE("source codes: steps beyond the nearest one, within half a step of the distances") {
     std::mt19937 random(2);
     for (const float quantum : {1e-20f, 0.01f, 3.f})
-        for (const double offset : {0.0, 0.4, 100.6, 200000.0}) {
+        for (const double offset : {0.0, 0.4, 100.6, 200000.0, 1e10, 1e15}) {
             std::vector<float> distances;
             for (int i = 0; i < 200; ++i)
                 distances.push_back(static_cast<float>((offset + any(32000, random)) * double{quantum}));
             const StepsOf steps(distances, quantum);
             const float nearest = *std::min_element(distances.begin(), distances.end());
             const double nearest_steps = double{nearest} / double{quantum};
-            CHECK(steps.nearest() <= nearest_steps * (1 + 1e-6));
-            CHECK(steps.nearest() > nearest_steps * (1 - 1e-6) - 1);
+            CHECK(double{steps.nearest()} <= nearest_steps * (1 + 1e-6));
+            CHECK(double{steps.nearest()} > nearest_steps * (1 - 1e-6) - 1);
             for (const float distance : distances) {
-                const double decoded = 32768.0 + steps.nearest() + steps.code(distance);
+                const double decoded = 32768.0 + double{steps.nearest()} + steps.code(distance);
                 REQUIRE(std::abs(decoded - double{distance} / double{quantum}) <=
                         0.5 + 2e-7 * (offset + 32000));
             }

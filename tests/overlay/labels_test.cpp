@@ -2,6 +2,7 @@
 #include "src/overlay/labels.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -59,7 +60,8 @@ double label_of(const OverlayIndex& index, uint32_t patch, uint32_t inner, uint3
     const int16_t* label = labels.codes.data() + labels.begin[patch] +
                            uint64_t{inner} * labels.offset[patch] + labels.offset[labelled];
     if (label[2 + i] == SourceCode::UNREACHED) return double{INFINITE};
-    const double nearest = 65536.0 * label[1] + static_cast<uint16_t>(label[0]);
+    const double nearest{std::bit_cast<float>(uint32_t{static_cast<uint16_t>(label[1])} << 16 |
+                                              static_cast<uint16_t>(label[0]))};
     return (nearest + label[2 + i] + 32768) * double{index.quantum[index.numbering.parent[labelled]]};
 }
 

@@ -235,7 +235,7 @@ class OverlayEngine:
         if not least < INFINITE or not quantum > 0:
             return numpy.where(distances < INFINITE, f(0), INFINITE)
         scale = f(1) / quantum
-        nearest = numpy.trunc(numpy.minimum(least * scale, f(2**30)))
+        nearest = numpy.trunc(numpy.minimum(least * scale, numpy.finfo(f).max))
         steps = numpy.trunc(numpy.clip(distances * scale - nearest + f(0.5), 0, LARGEST))
         return numpy.where(distances < INFINITE, (nearest + steps) * quantum, INFINITE).astype(f)
 

@@ -1,6 +1,7 @@
 #include "src/overlay/sssd/ascent.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace geodesic {
 
@@ -12,7 +13,7 @@ BorderLabel label_of(const OverlayIndex& index, uint32_t vertex, uint32_t patch)
                            index.labels.offset[patch];
     const uint32_t nearest = static_cast<uint32_t>(static_cast<uint16_t>(label[0])) +
                              0x10000u * static_cast<uint32_t>(static_cast<uint16_t>(label[1]));
-    return {nearest, index.quantum[numbering.parent[patch]], label + Labels::HEAD,
+    return {std::bit_cast<float>(nearest), index.quantum[numbering.parent[patch]], label + Labels::HEAD,
             index.is_labelled_whole(patch)};
 }
 

@@ -9,14 +9,14 @@ namespace geodesic {
 
 // The distances from a vertex to the border of a patch around it, as the vertex's label holds them.
 struct BorderLabel {
-    uint32_t nearest; // The distance of the nearest vertex, in steps of the quantum.
+    float nearest; // The distance of the nearest vertex, in whole steps of the quantum.
     float quantum;
     const int16_t* codes;
     bool is_whole; // There is a code for each position in the border; otherwise, one for each sample.
 
     float distance(uint32_t i) const {
-        const auto steps = static_cast<uint32_t>(codes[i] - SourceCode::NEAREST);
-        return codes[i] == SourceCode::UNREACHED ? INFINITE : static_cast<float>(nearest + steps) * quantum;
+        const auto steps = static_cast<float>(codes[i] - SourceCode::NEAREST);
+        return codes[i] == SourceCode::UNREACHED ? INFINITE : (nearest + steps) * quantum;
     }
 };
 
