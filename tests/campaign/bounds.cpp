@@ -9,8 +9,11 @@ namespace geodesic::campaign {
 
 namespace {
 
-// Sums of a few floats.
-constexpr double FLOAT_ROUNDING = 3e-6;
+// Of a float, to either side.
+constexpr double FLOAT_ROUNDING = 0x1p-24;
+// Two distances of the metric that are the same can differ by so much where faces have no area
+// (docs/limits.md).
+constexpr double METRIC_DIFFERENCE = 1e-6;
 // Below this a float has fewer digits, or is 0.
 constexpr double SMALLEST = 1e-36;
 // Faces without area are given one (docs/limits.md), and squares of lengths are lost below their rounding.
@@ -26,7 +29,7 @@ bool is_source(const Truth& truth, const Surface& surface, uint32_t target) {
 
 // A way has two hops a level and one across. Each rounds to half a step of its table, and each passes a
 // border at the vertex that stands for a pruned one, within delta of it. 16-bit tables have at least 2^14
-// steps.
+// steps. GEOIDX_ENGINE_GRAPH rounds its tables, and the sum of a way once a hop.
 Bounds::Bounds(const BuildInput& input, const geoidx_info& info, double longest)
     : is_graph_(info.engine == GEOIDX_ENGINE_GRAPH),
       unfolds_(!is_graph_ && (info.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0),
@@ -34,11 +37,12 @@ Bounds::Bounds(const BuildInput& input, const geoidx_info& info, double longest)
     for (double length : input.edge_bounds()) longest_edge_ = std::max(longest_edge_, length);
     const double hops = 2 * info.level_count + 1;
     detour_ = 2 * hops * input.options().delta / 100 * info.bounding_box_diagonal;
+    share_ = (hops + 1) * FLOAT_ROUNDING + METRIC_DIFFERENCE;
     rounding_ = is_graph_ ? 0 : hops * longest / 16384;
 }
 
 double Bounds::least(double exact) const {
-    if (is_graph_) return exact * (1 - FLOAT_ROUNDING) - SMALLEST;
+    if (is_graph_) return exact * (1 - share_) - SMALLEST;
     if (!unfolds_) return exact * 0.98 - rounding_ - SMALLEST;
     // A way straightened over a segment is never shorter than the way over the nearer end by more than the
     // segment is long, which says little where needles are longer than the way.
@@ -46,7 +50,7 @@ double Bounds::least(double exact) const {
 }
 
 double Bounds::most(double along_edges) const {
-    const double factor = is_graph_ ? 1 + FLOAT_ROUNDING : unfolds_ ? OVERLAY_LONG : 1.02;
+    const double factor = is_graph_ ? 1 + share_ : unfolds_ ? OVERLAY_LONG : 1.02;
     return (along_edges + 2 * detour_) * factor + rounding_ + SMALLEST;
 }
 

@@ -24,6 +24,7 @@ private:
     bool unfolds_;
     bool is_along_edges_; // no way but along edges
     double detour_;       // what pruning may add to a way
+    double share_;        // of floats and of the metric itself, over all hops of a way of GEOIDX_ENGINE_GRAPH
     double rounding_;     // of 16-bit tables, over all hops of a way
     double longest_edge_ = 0;
 };
