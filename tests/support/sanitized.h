@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+
+namespace geodesic::test {
+
+// Whether this is a build with a sanitizer: each query then takes ten times as long, or longer.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool SANITIZED = true;
+#else
+inline constexpr bool SANITIZED = false;
+#endif
+
+// The step of a loop that asks the same of many vertices. With a sanitizer it asks every eleventh of them:
+// each branch is still taken hundreds of times.
+constexpr uint32_t sparse(uint32_t step) { return SANITIZED ? 11 * step : step; }
+
+}
