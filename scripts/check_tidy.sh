@@ -11,4 +11,4 @@ if [ $# -eq 0 ]; then
     set -- "${files[@]}"
 fi
 [ $# -gt 0 ] || { echo "no file to look at in $commands" >&2; exit 1; }
-printf '%s\0' "$@" | xargs -0 -n 1 -P 2 clang-tidy-14 --quiet -p build/clang
+printf '%s\0' "$@" | xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 --quiet -p build/clang
