@@ -16,7 +16,7 @@ void add_middles(const uint16_t* row, std::span<const float> segment_length, uin
         float square;
         middle_square(static_cast<float>(row[k]), static_cast<float>(row[k + 1]), segment_length[k], square);
         const bool is_reached = std::max(row[k], row[k + 1]) < TableCode::UNREACHED && square >= 0;
-        middles[k] = is_reached ? static_cast<uint16_t>(std::sqrt(square) + 0.5f) : TableCode::UNREACHED;
+        middles[k] = is_reached ? TableCode::of_steps(std::sqrt(square)) : TableCode::UNREACHED;
     }
 }
 
