@@ -17,7 +17,7 @@ constexpr uint32_t SOURCES = 20;
 void answer(const Index& index, Crossing crossing, uint32_t source, std::span<float> distance) {
     std::pmr::memory_resource* const memory = std::pmr::get_default_resource();
     if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine))
-        OverlaySsad(*overlay, memory, crossing).sweep(source, INFINITE, distance);
+        OverlaySsad(*overlay, memory, 1, crossing).sweep({&source, 1}, INFINITE, distance);
     else
         GraphQuery(std::get<GraphIndex>(index.engine), memory).msad({&source, 1}, INFINITE, distance);
 }

@@ -9,6 +9,19 @@
 
 namespace geodesic {
 
+// The vertices that a hop leads to, each with a row of a table: a border (none if the hop leads down), and
+// then vertices with consecutive numbers, which are the inner vertices of a patch.
+struct HopTargets {
+    Rows rows;
+    float quantum; // of the rows
+    std::span<const uint32_t> border;
+    uint32_t first_inner;
+
+    uint32_t operator[](size_t row) const {
+        return row < border.size() ? border[row] : first_inner + static_cast<uint32_t>(row - border.size());
+    }
+};
+
 // The distances of a source from the places of one ring, prepared for the kernels that hop from it. The
 // object is used for one border after the other.
 class BorderField {

@@ -16,15 +16,17 @@ constexpr size_t BLOCK = SourceCode::BLOCK;
 InnerSweep::InnerSweep(const OverlayIndex& index, size_t sources, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), rings_(index.rings), kernels_(runnable_kernels().back()),
       sources_(sources), distance_(memory), middle_distance_(memory), code_(memory), middle_(memory),
-      field_(index, memory), rows_(memory), inside_(memory) {
+      result_(index.numbering.largest_inner_size() * sources, memory), field_(index, memory), rows_(memory),
+      from_one_(memory) {
     const size_t room = (SourceCode::whole_blocks(rings_.largest_size()) + BLOCK) * sources;
     for (Array<float>* distances : {&distance_, &middle_distance_}) distances->resize(room);
     for (Array<int16_t>* codes : {&code_, &middle_}) codes->resize(room);
     rows_.resize(index.numbering.largest_inner_size());
-    inside_.resize(rows_.size());
+    from_one_.resize(rows_.size());
 }
 
-float InnerSweep::begin(uint32_t patch, const float* distances, const RingSegments& segments) {
+bool InnerSweep::begin(uint32_t patch, const float* distances, const RingSegments& segments, float radius) {
+    if (numbering_.inner_size(patch) == 0) return false;
     patch_ = patch;
     segments_ = segments;
     const uint32_t places = rings_.size(patch);
@@ -40,10 +42,11 @@ float InnerSweep::begin(uint32_t patch, const float* distances, const RingSegmen
     codes_ = {code_.data(), middle_.data(), nearest_.data()};
     (sources_ == 1 ? kernels_.prepare_sweep : kernels_.prepare_sweep_each)(border_, codes_,
                                                                            middle_distance_.data());
-    return *std::min_element(nearest_.begin(), nearest_.begin() + static_cast<std::ptrdiff_t>(sources_));
+    const float nearest = *std::ranges::min_element(std::span(nearest_).first(sources_));
+    return nearest < INFINITE && nearest <= radius + index_.near[patch];
 }
 
-void InnerSweep::cross(float* inside) {
+void InnerSweep::cross_to(float* inside) {
     const uint64_t first_row = index_.inner_row(patch_, 0);
     const SweepRows rows{numbering_.inner_size(patch_), index_.hops.inner.data() + first_row,
                          index_.hops.inner_middles.data() + first_row};
@@ -52,10 +55,24 @@ void InnerSweep::cross(float* inside) {
         if (nearest_[i] <= index_.near[patch_]) cross_near(i, inside);
 }
 
-void InnerSweep::cross(float* inside, uint16_t* winners) {
+std::span<float> InnerSweep::cross() {
+    cross_to(result_.data());
+    return result();
+}
+
+std::span<float> InnerSweep::cross(uint16_t* winners) {
     begin_from(0);
-    field_.cross(inner_rows(), inside, winners);
-    field_.cross_near(inner_rows(), inside);
+    field_.cross(rows(), result_.data(), winners);
+    field_.cross_near(rows(), result_.data());
+    return result();
+}
+
+std::span<float> InnerSweep::result() {
+    return std::span(result_).first(numbering_.inner_size(patch_) * sources_);
+}
+
+HopTargets InnerSweep::targets() {
+    return {rows(), index_.quantum[patch_], {}, numbering_.first_inner(patch_)};
 }
 
 // Prepares the border for one of the sources. Returns whether that source reaches it.
@@ -66,7 +83,7 @@ bool InnerSweep::begin_from(size_t source) {
     return field_.finish();
 }
 
-Rows InnerSweep::inner_rows() {
+Rows InnerSweep::rows() {
     const uint32_t count = numbering_.inner_size(patch_), places = rings_.size(patch_);
     const uint16_t* row = index_.hops.inner.data() + index_.inner_row(patch_, 0);
     for (size_t r = 0; r < count; ++r) rows_[r] = row + r * places;
@@ -75,10 +92,10 @@ Rows InnerSweep::inner_rows() {
 
 void InnerSweep::cross_near(size_t source, float* inside) {
     if (!begin_from(source) || !field_.is_near()) return;
-    const Rows rows = inner_rows();
-    for (size_t r = 0; r < rows.size(); ++r) inside_[r] = inside[r * sources_ + source];
-    field_.cross_near(rows, inside_.data());
-    for (size_t r = 0; r < rows.size(); ++r) inside[r * sources_ + source] = inside_[r];
+    const size_t count = numbering_.inner_size(patch_);
+    for (size_t r = 0; r < count; ++r) from_one_[r] = inside[r * sources_ + source];
+    field_.cross_near(rows(), from_one_.data());
+    for (size_t r = 0; r < count; ++r) inside[r * sources_ + source] = from_one_[r];
 }
 
 }

@@ -19,26 +19,32 @@ public:
     InnerSweep(const OverlayIndex& index, size_t sources, std::pmr::memory_resource* memory);
 
     // Chooses the patch and reads the distances of its border, distances[number * sources + i] from the i-th
-    // source. Returns the least distance of any place or middle, which is infinite where no source reaches
-    // the border.
-    float begin(uint32_t patch, const float* distances) {
-        return begin(patch, distances, segments_from(rings_, rings_.begin[patch]));
+    // source. Returns whether there is anything to hop to: not if the patch has no inner vertices, if no
+    // source reaches its border, or if its whole border lies beyond the radius of every source.
+    bool begin(uint32_t patch, const float* distances) {
+        return begin(patch, distances, segments_from(rings_, rings_.begin[patch]), INFINITE);
     }
     // Does the same with other segments, which must stay valid until the hop is done.
-    float begin(uint32_t patch, const float* distances, const RingSegments& segments);
+    bool begin(uint32_t patch, const float* distances, const RingSegments& segments, float radius);
 
-    // Hops to the inner vertices of that patch; call it only if begin() returned less than infinity. Writes
-    // inside[i * sources + source].
-    void cross(float* inside);
+    // Hops to the inner vertices of that patch; call it only if begin() returned true. Writes inside[i *
+    // sources + source].
+    void cross_to(float* inside);
+
+    // Does the same, but returns the distances, which stay valid until the next hop.
+    std::span<float> cross();
 
     // Does the same for one source, straightened instead of over middles, which is slower, and tells over
     // which place of the ring each way leads (see the winners of Kernels).
-    void cross(float* inside, uint16_t* winners);
+    std::span<float> cross(uint16_t* winners);
 
-    // The rows of the inner table of that patch. They stay valid until the next begin().
-    Rows inner_rows();
+    // The inner vertices of that patch, with the rows of its inner table. They stay valid until the next
+    // begin().
+    HopTargets targets();
 
 private:
+    Rows rows();
+    std::span<float> result();
     bool begin_from(size_t source);
     void cross_near(size_t source, float* inside);
 
@@ -54,9 +60,10 @@ private:
     Array<float> distance_, middle_distance_; // [place * sources + source], as are the codes
     Array<int16_t> code_, middle_;
     std::array<float, MOST_SOURCES> nearest_{};
-    BorderField field_; // this and what follows are for one source at a time
+    Array<float> result_; // [inner vertex * sources + source]
+    BorderField field_;   // this and what follows are for one source at a time
     Array<const uint16_t*> rows_;
-    Array<float> inside_;
+    Array<float> from_one_; // per row
 };
 
 }

@@ -6,7 +6,9 @@
 #include <numeric>
 #include <span>
 
+#include "src/overlay/ascend.h"
 #include "src/overlay/codes.h"
+#include "src/overlay/descend.h"
 #include "src/overlay/inner_sweep.h"
 
 namespace geodesic {
@@ -37,83 +39,61 @@ public:
     explicit LabelSweep(OverlayIndex& index)
         : index_(index), numbering_(index.numbering),
           sweep_(index, SOURCES, std::pmr::get_default_resource()),
-          distances_(SOURCES * index.numbering.vertex_count()) {}
+          distances_(SOURCES * index.numbering.vertex_count()), begin_(index.numbering.patch_count()) {}
 
     void label(uint32_t patch) {
-        descendants_.clear();
-        add_descendants(patch);
         positions_.resize(index_.label_size(patch));
         if (index_.is_labelled_whole(patch))
             std::iota(positions_.begin(), positions_.end(), 0u);
         else
             std::ranges::copy(index_.samples.of(patch), positions_.begin());
-        lay_out_distances();
+        lay_out_distances(patch);
         for (size_t first = 0; first < positions_.size(); first += SOURCES) {
-            start(patch, std::span(positions_).subspan(first, std::min(SOURCES, positions_.size() - first)));
-            for (uint32_t p : descendants_) descend(p, first);
+            start(patch, first);
+            descend_into(numbering_, patch, [&](uint32_t p) { hop_down(p, first); });
         }
-        for (uint32_t p : descendants_) encode(p, patch);
+        descend_into(numbering_, patch, [&](uint32_t p) { encode(p, patch); });
     }
 
 private:
-    void add_descendants(uint32_t patch) {
-        if (patch >= numbering_.first_leaf()) return;
-        for (uint32_t child = numbering_.child_begin[patch]; child < numbering_.child_begin[patch + 1];
-             ++child) {
-            descendants_.push_back(child);
-            add_descendants(child);
-        }
-    }
-
-    void lay_out_distances() {
+    void lay_out_distances(uint32_t patch) {
         size_t inside = 0;
-        begin_.resize(numbering_.patch_count());
-        for (uint32_t p : descendants_) {
+        descend_into(numbering_, patch, [&](uint32_t p) {
             begin_[p] = inside * positions_.size();
             inside += numbering_.inner_size(p);
-        }
+        });
         of_border_.resize(inside * positions_.size());
     }
 
-    // Fills the distances in the patch's overlay, with the border vertices at these positions as sources. If
-    // there are fewer than SOURCES, the last one is repeated.
-    void start(uint32_t patch, std::span<const uint32_t> positions) {
-        count_ = positions.size();
-        for (uint32_t i = 0; i < numbering_.overlay_size(patch); ++i) {
-            float* distance = distances_.data() + size_t{numbering_.overlay_number(patch, i)} * SOURCES;
-            for (size_t s = 0; s < SOURCES; ++s) {
-                const uint32_t position = positions[std::min(s, count_ - 1)];
-                distance[s] =
-                    i == position ? 0 : index_.distance(index_.overlay_code(patch, i, position), patch);
-            }
-        }
+    // Fills the distances in the patch's overlay from SOURCES labelled vertices, the `first` one and those
+    // after it. Behind the last one, it is repeated.
+    void start(uint32_t patch, size_t first) {
+        for (size_t s = 0; s < SOURCES; ++s)
+            for_each_in_overlay(index_, patch, positions_[std::min(first + s, positions_.size() - 1)],
+                                [&](uint32_t number, float distance) {
+                                    distances_[size_t{number} * SOURCES + s] = distance;
+                                });
     }
 
-    void descend(uint32_t patch, size_t first) {
+    void hop_down(uint32_t patch, size_t first) {
         const uint32_t count = numbering_.inner_size(patch);
-        if (count == 0) return;
         float* const inside = distances_.data() + size_t{numbering_.first_inner(patch)} * SOURCES;
-        if (sweep_.begin(patch, distances_.data()) < INFINITE)
-            sweep_.cross(inside);
+        if (sweep_.begin(patch, distances_.data()))
+            sweep_.cross_to(inside);
         else
             std::fill_n(inside, count * SOURCES, INFINITE);
         float* to_border = of_border_.data() + begin_[patch] + first;
         for (uint32_t i = 0; i < count; ++i, to_border += positions_.size())
-            std::copy_n(inside + i * SOURCES, count_, to_border);
+            std::copy_n(inside + i * SOURCES, std::min(SOURCES, positions_.size() - first), to_border);
     }
 
     void encode(uint32_t patch, uint32_t labelled) {
-        const uint32_t count = numbering_.inner_size(patch);
-        if (count == 0) return;
         const float quantum = index_.quantum[numbering_.parent[labelled]];
+        const size_t size = positions_.size(), step = index_.labels.offset[patch];
         const float* distance = of_border_.data() + begin_[patch];
-        int16_t* label =
-            index_.labels.codes.data() + index_.labels.begin[patch] + index_.labels.offset[labelled];
-        for (uint32_t i = 0; i < count; ++i) {
-            write_label({distance, positions_.size()}, quantum, label);
-            distance += positions_.size();
-            label += index_.labels.offset[patch];
-        }
+        const uint64_t first = index_.labels.begin[patch] + index_.labels.offset[labelled];
+        for (size_t i = 0; i < numbering_.inner_size(patch); ++i)
+            write_label({distance + i * size, size}, quantum, &index_.labels.codes[first + i * step]);
     }
 
     static void write_label(std::span<const float> distances, float quantum, int16_t* label) {
@@ -132,12 +112,10 @@ private:
     OverlayIndex& index_;
     const Numbering& numbering_;
     InnerSweep sweep_;
-    size_t count_ = 0;
     std::vector<float> distances_; // [number * SOURCES + source], from the current sources
     // From all labelled vertices: a row for each inner vertex of each descendant.
     std::vector<float> of_border_;
-    std::vector<size_t> begin_; // per patch: where its rows begin in of_border_
-    std::vector<uint32_t> descendants_;
+    std::vector<size_t> begin_;       // per patch: where its rows begin in of_border_
     std::vector<uint32_t> positions_; // positions of the labelled vertices in the border
 };
 

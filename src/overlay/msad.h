@@ -29,32 +29,30 @@ private:
     struct Scratch {
         Scratch(const OverlayIndex& index, std::pmr::memory_resource* memory);
         void begin();
+        void find_sources(size_t rows, bool of_each);
 
         InnerSweep sweep;
         SeenSources seen;
         NearCrossing near;
         NearSources near_sources; // border vertices close to a source that this thread found
         Array<NearVertex> near_vertices;
-        Array<float> inside; // these three have one element for each row
-        Array<uint32_t> source;
+        Array<uint32_t> source; // per row of a hop: the source of the way
         Array<uint16_t> winners;
     };
 
     void start_from(uint32_t source, std::span<float> distance);
     void look_around(uint32_t source, std::span<const float> distance);
-    void ascend(uint32_t child, std::span<float> distance);
-    void descend(uint32_t patch, float radius, std::span<float> distance, Scratch& scratch);
-    template <class VertexOf>
-    void cross_near(uint32_t patch, bool from_inside, const NearCrossing::Targets& targets,
-                    const VertexOf& vertex_of, Scratch& scratch) const;
+    void hop_up(uint32_t child, std::span<float> distance);
+    void hop_down(uint32_t patch, float radius, std::span<float> distance, Scratch& scratch);
+    void cross_near(uint32_t patch, bool from_inside, const NearCrossing::Ways& ways, Scratch& scratch) const;
+    void take_lesser(const NearCrossing::Ways& ways, std::span<float> distance);
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
-    OuterCrossing ascent_;
+    OuterCrossing up_;
     Scratch top_; // for the sweep up, and for the patches that are not shared out to threads
     Array<Scratch> of_thread_;
-    uint32_t source_count_ = 0;
-    Array<uint32_t> sources_below_;  // per patch: how many sources it contains
+    Array<uint32_t> sources_inside_; // per patch: how many
     Array<uint32_t> nearest_source_; // by number, of the border vertices that a source reaches
 };
 

@@ -33,22 +33,21 @@ NearCrossing::NearCrossing(const OverlayIndex& index, size_t most_rows, std::pmr
     : index_(index), numbering_(index.numbering), field_(index, memory), own_(memory),
       way_(most_rows, memory) {}
 
-void NearCrossing::cross_from_one(uint32_t patch, std::span<const NearVertex> vertices,
-                                  const Targets& targets) {
+void NearCrossing::cross_from_one(uint32_t patch, std::span<const NearVertex> vertices, const Ways& ways) {
     const Rings& rings = index_.rings;
     const uint32_t first = rings.begin[patch], places = rings.size(patch);
-    const auto border = field_.begin(rings, first, places, targets.quantum);
+    const auto border = field_.begin(rings, first, places, ways.targets.quantum);
     for (const NearVertex& v : vertices) own_[v.border_vertex] = std::min(own_[v.border_vertex], v.distance);
     for (uint32_t k = 0; k < places; ++k) border[k] = own_[rings.vertex[first + k]];
     for (const NearVertex& v : vertices) own_[v.border_vertex] = INFINITE;
-    const size_t count = targets.rows.size();
+    const size_t count = ways.distance.size();
     std::fill_n(way_.data(), count, INFINITE);
     if (!field_.finish() || !field_.is_near()) return;
     constexpr float UNKNOWN = -1;
     const float reach = field_.reach();
     for (size_t r = 0; r < count; ++r)
-        if (targets.distance[r] <= reach) way_[r] = UNKNOWN;
-    field_.cross_near(targets.rows, way_.data());
+        if (ways.distance[r] <= reach) way_[r] = UNKNOWN;
+    field_.cross_near(ways.targets.rows, way_.data());
     for (size_t r = 0; r < count; ++r)
         if (way_[r] == UNKNOWN) way_[r] = INFINITE;
 }

@@ -55,21 +55,20 @@ public:
 
     void reserve() { own_.resize(numbering_.border_vertex_count(), INFINITE); }
 
-    // Rows of a table with their quantum, and for each row the least distance so far and the source that it
+    // The vertices that a hop leads to, and for each of them the least distance so far and the source that it
     // is from.
-    struct Targets {
-        Rows rows;
-        float quantum;
-        float* distance;
+    struct Ways {
+        HopTargets targets;
+        std::span<float> distance;
         uint32_t* source;
     };
 
-    // Lowers the distances of the targets by ways from each of these vertices' sources over near segments of
-    // the patch's border, on which the vertices lie. Calls found(source, row, distance) for every way that is
-    // near, whether it is shorter or not. Call reserve() before.
+    // Lowers the distances by ways from each of these vertices' sources over near segments of the patch's
+    // border, on which the vertices lie. Calls found(source, row, distance) for every way that is near,
+    // whether it is shorter or not. Call reserve() before.
     template <class Found>
-    void cross(uint32_t patch, Array<NearVertex>& vertices, const Targets& targets,
-               const uint32_t* nearest_source, const Found& found) {
+    void cross(uint32_t patch, Array<NearVertex>& vertices, const Ways& ways, const uint32_t* nearest_source,
+               const Found& found) {
         std::ranges::sort(vertices, {}, &NearVertex::source);
         for (std::span<const NearVertex> left = vertices; !left.empty();) {
             const uint32_t source = left.front().source;
@@ -81,19 +80,19 @@ public:
                     return nearest_source[v.border_vertex] == source;
                 }))
                 continue;
-            cross_from_one(patch, of_source, targets);
-            for (size_t r = 0; r < targets.rows.size(); ++r) {
+            cross_from_one(patch, of_source, ways);
+            for (size_t r = 0; r < ways.distance.size(); ++r) {
                 if (!(way_[r] < INFINITE)) continue;
                 found(source, r, way_[r]);
-                if (way_[r] >= targets.distance[r]) continue;
-                targets.distance[r] = way_[r];
-                targets.source[r] = source;
+                if (way_[r] >= ways.distance[r]) continue;
+                ways.distance[r] = way_[r];
+                ways.source[r] = source;
             }
         }
     }
 
 private:
-    void cross_from_one(uint32_t patch, std::span<const NearVertex> vertices, const Targets& targets);
+    void cross_from_one(uint32_t patch, std::span<const NearVertex> vertices, const Ways& ways);
 
     const OverlayIndex& index_;
     const Numbering& numbering_;

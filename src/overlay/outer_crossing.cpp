@@ -27,4 +27,9 @@ std::span<float> OuterCrossing::cross(uint16_t* winners) {
     return std::span(outside_).first(rows().size());
 }
 
+HopTargets OuterCrossing::targets() const {
+    const uint32_t parent = numbering_.parent[child_];
+    return {rows(), index_.quantum[parent], numbering_.border_of(parent), numbering_.first_inner(parent)};
+}
+
 }

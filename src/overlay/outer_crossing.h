@@ -34,10 +34,12 @@ public:
     // Kernels.
     std::span<float> cross(uint16_t* winners = nullptr);
 
-    // The rows of the outer table, one for each position of the parent's overlay.
-    Rows rows() const { return {rows_.data(), numbering_.overlay_size(numbering_.parent[child_])}; }
+    // The vertices of the parent's overlay, by their positions, with the rows of the outer table.
+    HopTargets targets() const;
 
 private:
+    Rows rows() const { return {rows_.data(), numbering_.overlay_size(numbering_.parent[child_])}; }
+
     const OverlayIndex& index_;
     const Numbering& numbering_;
     const Rings& rings_;

@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "src/overlay/batch.h"
 #include "src/overlay/msad.h"
 #include "src/overlay/ssad.h"
 #include "src/overlay/sssd/sssd.h"
@@ -14,8 +13,9 @@ namespace geodesic {
 class OverlayQuery {
 public:
     OverlayQuery(const OverlayIndex& index, std::pmr::memory_resource* memory)
-        : pairs_(index, memory), field_(index, memory), nearest_(index, memory), batch_(index, memory),
-          vertex_count_(index.numbering.vertex_count()), prepared_distance_(memory) {}
+        : pairs_(index, memory), field_(index, memory), nearest_(index, memory),
+          batch_(index, memory, FIELDS_AT_ONCE), vertex_count_(index.numbering.vertex_count()),
+          prepared_distance_(memory) {}
 
     // The answer is the same bits for both orders of a pair if the caller passes the lower number first.
     float sssd(uint32_t low, uint32_t high) { return pairs_.distance(low, high); }
@@ -39,23 +39,23 @@ public:
     // Fills distance[number] of every vertex. Vertices of patches beyond the radius may be infinite.
     void msad(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
         if (sources.size() == 1)
-            field_.sweep(sources.front(), radius, distance);
+            field_.sweep(sources, radius, distance);
         else
             nearest_.sweep(sources, radius, distance);
     }
 
-    // Fills distances[number * FIELDS_AT_ONCE + i] with the distance from the i-th source, for 1 to
-    // FIELDS_AT_ONCE sources. For fewer than FEWEST_AT_ONCE sources it is faster to call msad() for each.
-    static constexpr size_t FIELDS_AT_ONCE = OverlayBatch::SOURCES, FEWEST_AT_ONCE = 8;
+    // Fills distances[number * FIELDS_AT_ONCE + i] with the distance from the i-th of FIELDS_AT_ONCE sources.
+    // For fewer than FEWEST_AT_ONCE different ones it is faster to call msad() for each.
+    static constexpr size_t FIELDS_AT_ONCE = OverlaySsad::MOST_FIELDS, FEWEST_AT_ONCE = 8;
     void ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
-        batch_.sweep(sources, field_, distances);
+        batch_.sweep(sources, INFINITE, distances);
     }
 
 private:
     OverlaySssd pairs_;
     OverlaySsad field_;
     OverlayMsad nearest_;
-    OverlayBatch batch_;
+    OverlaySsad batch_;
     size_t vertex_count_;
     uint32_t prepared_ = NONE;
     Array<float> prepared_distance_; // by number, as sweep_borders() fills it

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/overlay/ascend.h"
 #include "src/overlay/descend.h"
-#include "src/overlay/ways_from.h"
 
 namespace geodesic {
 
-OverlaySsad::OverlaySsad(const OverlayIndex& index, std::pmr::memory_resource* memory, Crossing crossing)
-    : index_(index), numbering_(index.numbering), gaps_(memory), ascent_(index, memory), descents_(memory),
-      is_around_source_(index.numbering.patch_count(), memory) {
+OverlaySsad::OverlaySsad(const OverlayIndex& index, std::pmr::memory_resource* memory, size_t fields,
+                         Crossing crossing)
+    : index_(index), numbering_(index.numbering), fields_(fields), gaps_(memory), up_(index, memory),
+      down_(memory), sources_inside_(memory) {
     set_threads(1);
     if (crossing == Crossing::AT_VERTICES)
         gaps_.resize(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, Rings::GAP);
@@ -22,53 +23,62 @@ RingSegments OverlaySsad::segments_of(uint32_t patch) const {
 }
 
 void OverlaySsad::set_threads(uint32_t count) {
-    while (descents_.size() > count) descents_.pop_back();
-    while (descents_.size() < count) descents_.push_back({index_, 1, descents_.get_allocator().resource()});
+    while (down_.size() > count) down_.pop_back();
+    while (down_.size() < count) down_.push_back({index_, fields_, down_.get_allocator().resource()});
 }
 
-void OverlaySsad::sweep(uint32_t source, float radius, std::span<float> distance) {
-    std::ranges::fill(distance, INFINITE);
-    climb(source, {distance.data()});
-    const std::span sweeps(descents_);
-    descend_everywhere(index_, sweeps.front(), sweeps,
-                       [&](uint32_t patch, InnerSweep& sweep) { descend(patch, radius, distance, sweep); });
+void OverlaySsad::sweep(std::span<const uint32_t> sources, float radius, std::span<float> distances) {
+    climb(sources, distances);
+    descend_everywhere(numbering_, down_.front(), std::span(down_), [&](uint32_t patch, InnerSweep& sweep) {
+        hop_down(patch, sources, radius, distances, sweep);
+    });
 }
 
 void OverlaySsad::sweep_borders(uint32_t source, uint32_t level, std::span<float> distance) {
-    std::ranges::fill(distance, INFINITE);
-    climb(source, {distance.data()});
+    climb({&source, 1}, distance);
     for (uint32_t p = 1; p < numbering_.level_begin[level]; ++p)
-        descend(p, INFINITE, distance, descents_.front());
+        hop_down(p, {&source, 1}, INFINITE, distance, down_.front());
 }
 
-void OverlaySsad::climb(uint32_t source, DistanceField distance) {
-    std::ranges::fill(is_around_source_, uint8_t{0});
-    for_each_way_from(index_, source, [&](uint32_t number, float way) {
-        distance[number] = std::min(distance[number], way);
+// Fills the distances to the overlays of all patches that contain the source, for each field. All others are
+// infinite.
+void OverlaySsad::climb(std::span<const uint32_t> sources, std::span<float> distances) {
+    std::ranges::fill(distances, INFINITE);
+    const auto field = [&](size_t i) { return DistanceField{distances.data() + i, fields_}; };
+    for (size_t i = 0; i < fields_; ++i)
+        for_each_way_from(index_, sources[i], [&](uint32_t number, float way) { field(i)[number] = way; });
+    count_sources(numbering_, sources, sources_inside_);
+    ascend(numbering_, sources_inside_, [&](uint32_t child) {
+        for (size_t i = 0; i < fields_; ++i)
+            if (numbering_.is_within(numbering_.entry(sources[i]), child)) hop_up(child, field(i));
     });
-    for (uint32_t p = numbering_.entry(source); p != NONE; p = numbering_.parent[p]) {
-        is_around_source_[p] = 1;
-        if (p != 0) ascend(p, distance);
-    }
 }
 
 // Hops to the overlay of the parent. The child's border keeps the distances it has.
-void OverlaySsad::ascend(uint32_t child, DistanceField distance) {
-    if (!ascent_.begin(child, distance, segments_of(child))) return;
-    const std::span<const float> outside = ascent_.cross();
-    for (uint32_t i = 0; i < outside.size(); ++i) {
-        float& known = distance[numbering_.overlay_number(numbering_.parent[child], i)];
-        known = std::min(known, outside[i]);
+void OverlaySsad::hop_up(uint32_t child, DistanceField distance) {
+    if (!up_.begin(child, distance, segments_of(child))) return;
+    const std::span<const float> ways = up_.cross();
+    const HopTargets targets = up_.targets();
+    for (size_t r = 0; r < ways.size(); ++r) {
+        float& known = distance[targets[r]];
+        known = std::min(known, ways[r]);
     }
 }
 
-// Hops to the inner vertices of a patch. A patch that contains the source has these distances already. A
-// patch whose whole border is beyond the radius is skipped.
-void OverlaySsad::descend(uint32_t patch, float radius, std::span<float> distance, InnerSweep& sweep) const {
-    if (is_around_source_[patch] || numbering_.inner_size(patch) == 0) return;
-    const float nearest = sweep.begin(patch, distance.data(), segments_of(patch));
-    if (nearest < INFINITE && nearest <= radius + index_.near[patch])
-        sweep.cross(distance.data() + numbering_.first_inner(patch));
+// Hops to the inner vertices of a patch. Their distances from sources inside of the patch are known already.
+void OverlaySsad::hop_down(uint32_t patch, std::span<const uint32_t> sources, float radius,
+                           std::span<float> distances, InnerSweep& sweep) const {
+    if (sources_inside_[patch] == fields_) return;
+    if (!sweep.begin(patch, distances.data(), segments_of(patch), radius)) return;
+    float* const inside = distances.data() + numbering_.first_inner(patch) * fields_;
+    if (sources_inside_[patch] == 0) {
+        sweep.cross_to(inside);
+        return;
+    }
+    const std::span<const float> ways = sweep.cross();
+    for (size_t i = 0; i < fields_; ++i)
+        if (!numbering_.is_within(numbering_.entry(sources[i]), patch))
+            for (size_t k = i; k < ways.size(); k += fields_) inside[k] = ways[k];
 }
 
 }

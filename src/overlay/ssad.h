@@ -13,38 +13,43 @@ namespace geodesic {
 enum class Crossing { BETWEEN_VERTICES, AT_VERTICES };
 
 // Distances from a single source to all destinations over overlay tables, by one sweep up from the source and
-// one sweep down to all leaves. Vertices are given by their numbers.
+// one sweep down to all leaves. It computes one field or a batch of MOST_FIELDS, each from a source of its
+// own: the fields of a batch lie side by side and share the sweep down, which reads each table once. Vertices
+// are given by their numbers.
 class OverlaySsad {
 public:
-    OverlaySsad(const OverlayIndex& index, std::pmr::memory_resource* memory,
+    static constexpr size_t MOST_FIELDS = InnerSweep::MOST_SOURCES;
+
+    // `fields` is 1 or MOST_FIELDS.
+    OverlaySsad(const OverlayIndex& index, std::pmr::memory_resource* memory, size_t fields = 1,
                 Crossing crossing = Crossing::BETWEEN_VERTICES);
 
     // Sets how many threads sweep() uses, at least 1. It is 1 at first.
     void set_threads(uint32_t count);
 
-    // Fills distance[number] of every vertex. Patches whose whole border is farther than `radius` are
-    // skipped, and their vertices stay at infinity.
-    void sweep(uint32_t source, float radius, std::span<float> distance);
+    // Fills distances[number * fields + i] of every vertex with its distance from the i-th source; there are
+    // as many sources as fields. Patches whose whole border is farther than `radius` are skipped, and their
+    // vertices stay at infinity.
+    void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distances);
 
-    // Fills the distances to the borders of all patches on levels 1 to `level`, and to the inner vertices of
-    // the patches that contain the source. All others are infinite.
+    // For one field. Fills the distances to the borders of all patches on levels 1 to `level`, and to the
+    // inner vertices of the patches that contain the source. All others are infinite.
     void sweep_borders(uint32_t source, uint32_t level, std::span<float> distance);
-
-    // The sweep up. It fills the distances to the overlays of all patches that contain the source, in a field
-    // that the caller has set to infinity.
-    void climb(uint32_t source, DistanceField distance);
 
 private:
     RingSegments segments_of(uint32_t patch) const;
-    void ascend(uint32_t child, DistanceField distance);
-    void descend(uint32_t patch, float radius, std::span<float> distance, InnerSweep& sweep) const;
+    void climb(std::span<const uint32_t> sources, std::span<float> distances);
+    void hop_up(uint32_t child, DistanceField distance);
+    void hop_down(uint32_t patch, std::span<const uint32_t> sources, float radius, std::span<float> distances,
+                  InnerSweep& sweep) const;
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
+    size_t fields_;
     Array<float> gaps_; // gaps that replace all segments with AT_VERTICES; empty otherwise
-    OuterCrossing ascent_;
-    Array<InnerSweep> descents_;      // one for each thread
-    Array<uint8_t> is_around_source_; // per patch
+    OuterCrossing up_;
+    Array<InnerSweep> down_;         // one for each thread
+    Array<uint32_t> sources_inside_; // per patch: how many
 };
 
 }

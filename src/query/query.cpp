@@ -185,10 +185,11 @@ void Query::ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_
         }
     }
     if (!sources_.empty()) {
-        distance_.resize(fields.size() * index_.numbering().vertex_count());
-        engine.ssad_each(sources_, distance_);
         // The last source is repeated.
         std::fill(fields.begin() + sources_.size(), fields.end(), fields[sources_.size() - 1]);
+        sources_.resize(fields.size(), sources_.back());
+        distance_.resize(fields.size() * index_.numbering().vertex_count());
+        engine.ssad_each(sources_, distance_);
         write_by_id(fields);
     }
     for (size_t i = 0; i < source_ids.size(); ++i)

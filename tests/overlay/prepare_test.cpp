@@ -98,8 +98,8 @@ TEST_CASE("prepare: without segments, paths cross borders at their vertices") {
     for (uint32_t source = 0; source < count; source += 41) {
         std::vector<float> between(count), at_vertices(count);
         const auto memory = std::pmr::get_default_resource();
-        OverlaySsad(std::get<OverlayIndex>(with.engine), memory).sweep(source, INFINITE, between);
-        OverlaySsad(overlay, memory).sweep(source, INFINITE, at_vertices);
+        OverlaySsad(std::get<OverlayIndex>(with.engine), memory).sweep({&source, 1}, INFINITE, between);
+        OverlaySsad(overlay, memory).sweep({&source, 1}, INFINITE, at_vertices);
         for (uint32_t v = 0; v < count; ++v) {
             const auto &a = overlay.numbering.positions[source], &b = overlay.numbering.positions[v];
             const double line = std::hypot(double{a[0]} - double{b[0]}, double{a[1]} - double{b[1]});
