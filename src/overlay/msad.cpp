@@ -9,7 +9,7 @@
 namespace geodesic {
 
 OverlayMsad::Scratch::Scratch(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : sweep(index, 1, memory), seen(index, memory),
+    : sweep(index, 1, memory), border_sources(index, memory),
       near(index, std::max(index.numbering.largest_overlay_size(), index.numbering.largest_inner_size()),
            memory),
       near_sources(index, memory), near_vertices(memory),
@@ -25,9 +25,9 @@ void OverlayMsad::Scratch::begin() {
 // nearest to, or if it need not be told for each way, that of any place.
 void OverlayMsad::Scratch::find_sources(size_t rows, bool of_each) {
     for (size_t r = 0; r < rows; ++r)
-        source[r] = !of_each                                   ? seen.any()
+        source[r] = !of_each                                   ? border_sources.any()
                     : winners[r] == BorderFromSource::NO_PLACE ? NONE
-                                                               : seen.at(winners[r]);
+                                                               : border_sources.at(winners[r]);
 }
 
 OverlayMsad::OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory)
@@ -70,8 +70,8 @@ void OverlayMsad::look_around(uint32_t source, std::span<const float> distance) 
 
 // Hops to the overlay of the parent. The child's border keeps the distances it has.
 void OverlayMsad::hop_up(uint32_t child, std::span<float> distance) {
-    top_.seen.see(child, distance.data(), nearest_source_.data());
-    if (!up_.begin(child, {distance.data()}, top_.seen.segments())) return;
+    top_.border_sources.read(child, distance.data(), nearest_source_.data());
+    if (!up_.begin(child, {distance.data()}, top_.border_sources.segments())) return;
     const std::span<float> found = up_.cross(top_.winners.data());
     top_.find_sources(found.size(), true);
     const NearCrossing::Ways ways{up_.targets(), found, top_.source.data()};
@@ -82,10 +82,10 @@ void OverlayMsad::hop_up(uint32_t child, std::span<float> distance) {
 // Hops to the inner vertices of a patch. A patch that contains all sources has their distances already.
 void OverlayMsad::hop_down(uint32_t patch, float radius, std::span<float> distance, Scratch& scratch) {
     if (sources_inside_[patch] == sources_inside_[0]) return;
-    SeenSources& seen = scratch.seen;
-    seen.see(patch, distance.data(), nearest_source_.data());
-    if (!scratch.sweep.begin(patch, distance.data(), seen.segments(), radius)) return;
-    const bool of_each = seen.are_several() && patch < numbering_.first_leaf();
+    BorderSources& border_sources = scratch.border_sources;
+    border_sources.read(patch, distance.data(), nearest_source_.data());
+    if (!scratch.sweep.begin(patch, distance.data(), border_sources.segments(), radius)) return;
+    const bool of_each = border_sources.are_several() && patch < numbering_.first_leaf();
     const std::span<float> found =
         of_each ? scratch.sweep.cross(scratch.winners.data()) : scratch.sweep.cross();
     scratch.find_sources(found.size(), of_each);
@@ -102,7 +102,7 @@ void OverlayMsad::cross_near(uint32_t patch, bool from_inside, const NearCrossin
         if (const uint32_t number = ways.targets[row]; numbering_.is_border(number))
             scratch.near_sources.add({source, number, distance}, ways.distance[row]);
     };
-    if (!scratch.seen.are_several()) {
+    if (!scratch.border_sources.are_several()) {
         if (!from_inside && patch >= numbering_.first_leaf()) return;
         for (size_t r = 0; r < ways.distance.size(); ++r)
             if (ways.distance[r] < INFINITE) learn(ways.source[r], r, ways.distance[r]);

@@ -2,10 +2,10 @@
 
 #include <span>
 
+#include "src/overlay/border_sources.h"
 #include "src/overlay/inner_sweep.h"
 #include "src/overlay/near_sources.h"
 #include "src/overlay/outer_crossing.h"
-#include "src/overlay/seen_sources.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic {
@@ -32,7 +32,7 @@ private:
         void find_sources(size_t rows, bool of_each);
 
         InnerSweep sweep;
-        SeenSources seen;
+        BorderSources border_sources;
         NearCrossing near;
         NearSources near_sources; // border vertices close to a source that this thread found
         Array<NearVertex> near_vertices;

@@ -7,26 +7,25 @@
 namespace geodesic {
 
 NearSources::NearSources(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : index_(index), numbering_(index.numbering), entries_(memory), first_entry_(memory) {}
+    : index_(index), numbering_(index.numbering), links_(memory), first_link_(memory) {}
 
 void NearSources::clear() {
     longest_reach_ = near_radius(*std::ranges::max_element(index_.longest_segment));
-    entries_.clear();
-    first_entry_.assign(numbering_.patch_count(), NONE);
+    links_.clear();
+    first_link_.assign(numbering_.patch_count(), NONE);
 }
 
 void NearSources::add_near(const NearVertex& vertex, float nearest) {
     for (const BorderPlace& place : numbering_.places_of(vertex.border_vertex)) {
         const float segment = index_.longest_segment[place.patch];
         if (vertex.distance > std::min(near_radius(segment), nearest + 2 * segment)) continue;
-        entries_.push_back({vertex, first_entry_[place.patch]});
-        first_entry_[place.patch] = static_cast<uint32_t>(entries_.size() - 1);
+        links_.push_back({vertex, first_link_[place.patch]});
+        first_link_[place.patch] = static_cast<uint32_t>(links_.size() - 1);
     }
 }
 
 void NearSources::collect(uint32_t patch, Array<NearVertex>& vertices) const {
-    for (uint32_t e = first_entry_[patch]; e != NONE; e = entries_[e].next)
-        vertices.push_back(entries_[e].vertex);
+    for (uint32_t l = first_link_[patch]; l != NONE; l = links_[l].next) vertices.push_back(links_[l].vertex);
 }
 
 NearCrossing::NearCrossing(const OverlayIndex& index, size_t most_rows, std::pmr::memory_resource* memory)

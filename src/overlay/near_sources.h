@@ -34,9 +34,9 @@ public:
     void collect(uint32_t patch, Array<NearVertex>& vertices) const;
 
 private:
-    struct Entry {
+    struct Link {
         NearVertex vertex;
-        uint32_t next; // index of the next entry of the same border, or NONE
+        uint32_t next; // index of the next link of the same border, or NONE
     };
 
     void add_near(const NearVertex& vertex, float nearest);
@@ -44,8 +44,8 @@ private:
     const OverlayIndex& index_;
     const Numbering& numbering_;
     float longest_reach_ = 0;
-    Array<Entry> entries_;
-    Array<uint32_t> first_entry_; // per patch: index of the first entry of its border, or NONE
+    Array<Link> links_;
+    Array<uint32_t> first_link_; // per patch: index of the first link of its border, or NONE
 };
 
 // Lets single sources cross a border that they are close to.

@@ -40,9 +40,9 @@ class Border:
 
     def with_gaps(self, sources):
         """Without the segments whose ends are nearest to different sources."""
-        seen = copy.copy(self)
-        seen.length = numpy.where(sources == sources[self.second], self.length, f("nan"))
-        return seen
+        gapped = copy.copy(self)
+        gapped.length = numpy.where(sources == sources[self.second], self.length, f("nan"))
+        return gapped
 
 
 def place(first, second, length):
@@ -132,9 +132,9 @@ class OverlayEngine:
     def hop_up(self, patch, source, rows, quantum):
         return self.cross(self.borders[patch], source, rows, quantum)[0]
 
-    def hop_down(self, patch, source, seen=None):
+    def hop_down(self, patch, source, gapped=None):
         """Over positions and the middles of segments."""
-        border, rows, quantum = seen or self.borders[patch], self.rows_down(patch), self.quantum[patch]
+        border, rows, quantum = gapped or self.borders[patch], self.rows_down(patch), self.quantum[patch]
         if len(source) == 0 or not source.min() < INFINITE:
             return numpy.full(len(rows), INFINITE)
         middle = middles(source, source[border.second], border.length)

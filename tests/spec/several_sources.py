@@ -50,7 +50,7 @@ class SeveralSources:
                     own = self.known[patch].setdefault(source, {})
                     own[position] = min(distance, own.get(position, INFINITE))
 
-    def see(self, patch):
+    def read_border(self, patch):
         border = self.engine.borders[patch]
         source = self.distance[border.vertices]
         nearest = numpy.where(source < INFINITE, self.nearest[border.vertices], NO_SOURCE)
@@ -59,7 +59,7 @@ class SeveralSources:
 
     def climb(self, patch):
         engine, parent = self.engine, self.index.parent[patch]
-        border, source, nearest, several = self.see(patch)
+        border, source, nearest, several = self.read_border(patch)
         if len(source) == 0 or not source.min() < INFINITE:
             return
         rows = engine.rows_up(patch)
@@ -70,7 +70,7 @@ class SeveralSources:
 
     def descend(self, patch):
         engine = self.engine
-        border, source, nearest, several = self.see(patch)
+        border, source, nearest, several = self.read_border(patch)
         if len(source) == 0 or not source.min() < INFINITE:
             return
         rows = engine.rows_down(patch)

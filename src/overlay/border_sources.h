@@ -10,12 +10,12 @@ namespace geodesic {
 // Finds out which of several sources each vertex of a border is nearest to. Where the two ends of a segment
 // are nearest to different sources, their distances do not tell how far either source is from the points
 // between them, so that the segment becomes a gap. The object is used for one border after the other.
-class SeenSources {
+class BorderSources {
 public:
-    SeenSources(const OverlayIndex& index, std::pmr::memory_resource* memory);
+    BorderSources(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
     // Both arrays are by vertex number. nearest_source is read only where the distance is finite.
-    void see(uint32_t patch, const float* distance, const uint32_t* nearest_source);
+    void read(uint32_t patch, const float* distance, const uint32_t* nearest_source);
 
     bool are_several() const { return are_several_; }
     uint32_t at(size_t place) const { return source_[place]; }

@@ -1,4 +1,4 @@
-#include "src/overlay/seen_sources.h"
+#include "src/overlay/border_sources.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@ constexpr float GAP = Rings::GAP;
 
 }
 
-SeenSources::SeenSources(const OverlayIndex& index, std::pmr::memory_resource* memory)
+BorderSources::BorderSources(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : rings_(index.rings), source_(memory), length_(memory), half_inverse_(memory) {
     const size_t room = SourceCode::whole_blocks(rings_.largest_size()) + SourceCode::BLOCK;
     source_.resize(room);
@@ -21,7 +21,7 @@ SeenSources::SeenSources(const OverlayIndex& index, std::pmr::memory_resource* m
     half_inverse_.resize(room, GAP);
 }
 
-void SeenSources::see(uint32_t patch, const float* distance, const uint32_t* nearest_source) {
+void BorderSources::read(uint32_t patch, const float* distance, const uint32_t* nearest_source) {
     const uint32_t first = rings_.begin[patch], places = rings_.size(patch);
     const uint32_t* vertex = rings_.vertex.data() + first;
     all_segments_ = segments_from(rings_, first);
@@ -36,11 +36,11 @@ void SeenSources::see(uint32_t patch, const float* distance, const uint32_t* nea
     if (are_several_) leave_gaps(places);
 }
 
-void SeenSources::leave_gaps(uint32_t places) {
+void BorderSources::leave_gaps(uint32_t places) {
     for (uint32_t k = 0; k < places; ++k) {
-        const bool sees_one = k + 1 < places && source_[k] == source_[k + 1];
-        length_[k] = sees_one ? all_segments_.length[k] : GAP;
-        half_inverse_[k] = sees_one ? all_segments_.half_inverse[k] : GAP;
+        const bool has_one = k + 1 < places && source_[k] == source_[k + 1];
+        length_[k] = has_one ? all_segments_.length[k] : GAP;
+        half_inverse_[k] = has_one ? all_segments_.half_inverse[k] : GAP;
     }
     std::fill_n(length_.begin() + places, SourceCode::BLOCK, GAP);
     std::fill_n(half_inverse_.begin() + places, SourceCode::BLOCK, GAP);
