@@ -9,15 +9,15 @@
 
 namespace geodesic {
 
-// A priority queue of (key, node) for the searches over borders, smallest first, ties by node. Stale entries
+// A priority queue of (key, node) for the searches over borders, smallest first, ties by node. Stale items
 // stay in; the reader tells them by the key.
 class ArcQueue {
 public:
-    struct Entry {
+    struct Item {
         double key;
         uint32_t node;
 
-        friend bool operator>(const Entry& a, const Entry& b) {
+        friend bool operator>(const Item& a, const Item& b) {
             return a.key > b.key || (a.key == b.key && a.node > b.node);
         }
     };
@@ -32,15 +32,15 @@ public:
         std::push_heap(heap_.begin(), heap_.end(), std::greater<>{});
     }
 
-    Entry pop() {
+    Item pop() {
         std::pop_heap(heap_.begin(), heap_.end(), std::greater<>{});
-        const Entry entry = heap_.back();
+        const Item item = heap_.back();
         heap_.pop_back();
-        return entry;
+        return item;
     }
 
 private:
-    Array<Entry> heap_;
+    Array<Item> heap_;
 };
 
 }

@@ -21,10 +21,10 @@ uint32_t level_of(const GraphIndex& index, uint32_t patch) {
 
 float crossing_distance(const GraphIndex& index, uint32_t border_vertex, uint32_t internal_vertex) {
     const uint32_t leaf = index.numbering.leaf_of(internal_vertex);
-    for (const BorderPlace& place : index.numbering.places_of(border_vertex))
-        if (place.patch == leaf)
+    for (const PatchPosition& at : index.numbering.borders_of(border_vertex))
+        if (at.patch == leaf)
             return index.border_internal_row(
-                leaf, place.position)[internal_vertex - index.numbering.first_internal(leaf)];
+                leaf, at.position)[internal_vertex - index.numbering.first_internal(leaf)];
     return INFINITE;
 }
 
@@ -43,8 +43,8 @@ float GraphQuery::sssd(uint32_t low, uint32_t high) {
 // The table's distance of two vertices that a leaf or a border has in common; infinity if there is none.
 float GraphQuery::same_leaf_distance(uint32_t low, uint32_t high) const {
     if (numbering_.is_border(high)) {
-        for (const BorderPlace& a : numbering_.places_of(low))
-            for (const BorderPlace& b : numbering_.places_of(high))
+        for (const PatchPosition& a : numbering_.borders_of(low))
+            for (const PatchPosition& b : numbering_.borders_of(high))
                 if (a.patch == b.patch) return index_.border_row(a.patch, a.position)[b.position];
         return INFINITE;
     }
@@ -86,10 +86,10 @@ void GraphQuery::open(uint32_t node, double distance, uint32_t target) {
 }
 
 void GraphQuery::relax_border_vertex(uint32_t node, double distance, uint32_t target) {
-    for (const BorderPlace& place : numbering_.places_of(node)) {
-        if (place.patch != top_ && allowed_epoch_[numbering_.parent[place.patch]] != epoch_) continue;
-        const auto border = numbering_.border_of(place.patch);
-        const float* row = index_.border_row(place.patch, place.position);
+    for (const PatchPosition& at : numbering_.borders_of(node)) {
+        if (at.patch != top_ && allowed_epoch_[numbering_.parent[at.patch]] != epoch_) continue;
+        const auto border = numbering_.border_of(at.patch);
+        const float* row = index_.border_row(at.patch, at.position);
         for (size_t i = 0; i < border.size(); ++i) open(border[i], distance + double{row[i]}, target);
     }
 }

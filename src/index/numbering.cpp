@@ -13,7 +13,7 @@ Numbering::Numbering(std::pmr::memory_resource* memory)
     : level_begin(memory), parent(memory), child_begin(memory), positions(memory), owned_begin(memory),
       internal_begin(memory), border_begin(memory), border(memory), leaf_of_internal(memory), owner(memory),
       overlay_position(memory), patch_of_slot(memory), overlay_begin(memory), slot_begin(memory),
-      slots(memory), place_begin(memory), places(memory), border_internal_begin(memory),
+      slots(memory), vertex_borders_begin(memory), vertex_borders(memory), border_internal_begin(memory),
       internal_table_begin(memory) {}
 
 namespace {
@@ -120,16 +120,17 @@ void derive_slots(Numbering& numbering) {
                                 " is on the border of no child of patch " + std::to_string(p));
 }
 
-void derive_places(Numbering& numbering) {
-    numbering.place_begin.assign(size_t{numbering.border_vertex_count()} + 1, 0);
-    for (uint32_t v : numbering.border) ++numbering.place_begin[v + 1];
-    for (size_t v = 1; v < numbering.place_begin.size(); ++v)
-        numbering.place_begin[v] += numbering.place_begin[v - 1];
-    numbering.places.resize(numbering.border.size());
-    std::vector<uint32_t> next(numbering.place_begin.begin(), numbering.place_begin.end() - 1);
+void derive_vertex_borders(Numbering& numbering) {
+    numbering.vertex_borders_begin.assign(size_t{numbering.border_vertex_count()} + 1, 0);
+    for (uint32_t v : numbering.border) ++numbering.vertex_borders_begin[v + 1];
+    for (size_t v = 1; v < numbering.vertex_borders_begin.size(); ++v)
+        numbering.vertex_borders_begin[v] += numbering.vertex_borders_begin[v - 1];
+    numbering.vertex_borders.resize(numbering.border.size());
+    std::vector<uint32_t> next(numbering.vertex_borders_begin.begin(),
+                               numbering.vertex_borders_begin.end() - 1);
     for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
         const auto border = numbering.border_of(p);
-        for (uint32_t i = 0; i < border.size(); ++i) numbering.places[next[border[i]]++] = {p, i};
+        for (uint32_t i = 0; i < border.size(); ++i) numbering.vertex_borders[next[border[i]]++] = {p, i};
     }
 }
 
@@ -141,7 +142,7 @@ void derive_leaves(Numbering& numbering) {
                     numbering.internal_size(leaf), leaf);
 }
 
-void place_tables(Numbering& numbering) {
+void lay_out_leaf_tables(Numbering& numbering) {
     numbering.border_internal_begin.assign(1, 0);
     numbering.internal_table_begin.assign(1, 0);
     for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf) {
@@ -170,9 +171,9 @@ void number_vertices(const StoredIndex& stored, Numbering& numbering) {
     derive_owners(numbering);
     derive_overlay_positions(numbering);
     derive_slots(numbering);
-    derive_places(numbering);
+    derive_vertex_borders(numbering);
     derive_leaves(numbering);
-    place_tables(numbering);
+    lay_out_leaf_tables(numbering);
 }
 
 void restore_numbering(const Numbering& numbering, StoredIndex& stored) {

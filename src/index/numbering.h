@@ -18,8 +18,8 @@ struct StoredIndex;
 constexpr uint64_t triangle_size(uint64_t size) { return size < 2 ? 0 : size * (size - 1) / 2; }
 constexpr uint64_t below_diagonal(uint64_t i, uint64_t j) { return i * (i - 1) / 2 + j; }
 
-// A border vertex as it appears on the border of one patch.
-struct BorderPlace {
+// A position in the border of a patch, or in its overlay, which begins with the border.
+struct PatchPosition {
     uint32_t patch;
     uint32_t position;
 };
@@ -49,15 +49,15 @@ struct Numbering {
     Array<uint32_t> leaf_of_internal; // [number - border_vertex_count()]
     Array<uint32_t> owner;            // per border vertex
 
-    // A slot is an index in `border`: it stands for one vertex on the border of one patch.
+    // A *slot* is an index in `border`: it stands for one vertex on the border of one patch.
     Array<uint32_t> overlay_position; // per slot: position in the overlay of the patch's parent
     Array<uint32_t> patch_of_slot;
     Array<uint32_t> overlay_begin; // per inner patch: where its overlay positions begin in slot_begin
     // The slots of overlay position i of patch p begin at slots[slot_begin[overlay_begin[p] + i]].
     Array<uint32_t> slot_begin;
     Array<uint32_t> slots;
-    Array<uint32_t> place_begin; // per border vertex: where its entries in `places` begin, by ascending patch
-    Array<BorderPlace> places;
+    Array<uint32_t> vertex_borders_begin; // per border vertex: where its borders begin, by ascending patch
+    Array<PatchPosition> vertex_borders;  // the borders that a vertex is on, and where
 
     // Where the tables of each leaf begin, and at the end, where those of the last one end.
     Array<uint64_t> border_internal_begin, internal_table_begin;
@@ -89,8 +89,9 @@ struct Numbering {
         const uint32_t* begin = slot_begin.data() + overlay_begin[patch] + overlay_position;
         return {slots.data() + begin[0], slots.data() + begin[1]};
     }
-    std::span<const BorderPlace> places_of(uint32_t border_vertex) const {
-        return {places.data() + place_begin[border_vertex], places.data() + place_begin[border_vertex + 1]};
+    std::span<const PatchPosition> borders_of(uint32_t border_vertex) const {
+        return {vertex_borders.data() + vertex_borders_begin[border_vertex],
+                vertex_borders.data() + vertex_borders_begin[border_vertex + 1]};
     }
 
     // The number of the vertex at a position in a patch's overlay, and the position of a border vertex in its
@@ -114,7 +115,9 @@ struct Numbering {
         return patch < first_leaf() ? owned_begin[patch] : first_internal(patch);
     }
     // The patch that a vertex is an inner vertex of, which is its owner or its leaf.
-    uint32_t entry(uint32_t number) const { return is_border(number) ? owner[number] : leaf_of(number); }
+    uint32_t innermost_patch(uint32_t number) const {
+        return is_border(number) ? owner[number] : leaf_of(number);
+    }
 
     // The number of distances that the overlay engine stores for an inner patch: from each vertex that it
     // owns to its border, and among the vertices that it owns.

@@ -41,8 +41,8 @@ struct StoredIndex {
 
     // Overlay engine: codes of distances (src/overlay/codes.h), in steps of the quantum of the patch.
     std::vector<float> quantum;                  // QUAN: per patch
-    std::vector<uint32_t> segment_end;           // SEGM: per entry of `border`, a position there, or NONE
-    std::vector<float> segment_length;           // SEGM: per entry of `border`
+    std::vector<uint32_t> segment_end;           // SEGM: per element of `border`, a position there, or NONE
+    std::vector<float> segment_length;           // SEGM: per element of `border`
     std::vector<uint16_t> overlay_codes;         // OVOV: of every inner patch, owned x border, then owned x
                                                  // owned below the diagonal
     std::vector<uint16_t> border_internal_codes; // BVIV: of every leaf, a row for each border vertex

@@ -41,7 +41,8 @@ inline void count_sources(const Numbering& numbering, std::span<const uint32_t> 
                           Array<uint32_t>& sources_inside) {
     sources_inside.assign(numbering.patch_count(), 0);
     for (const uint32_t source : sources)
-        for (uint32_t p = numbering.entry(source); p != NONE; p = numbering.parent[p]) ++sources_inside[p];
+        for (uint32_t p = numbering.innermost_patch(source); p != NONE; p = numbering.parent[p])
+            ++sources_inside[p];
 }
 
 // The way up: calls hop(patch) for all patches with sources inside but the whole mesh, children before

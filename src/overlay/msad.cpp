@@ -113,7 +113,7 @@ void OverlayMsad::cross_near(uint32_t patch, bool from_inside, const NearCrossin
     top_.near_sources.collect(patch, vertices);
     if (&scratch != &top_) scratch.near_sources.collect(patch, vertices);
     std::erase_if(vertices, [&](const NearVertex& v) {
-        return numbering_.is_within(numbering_.entry(v.source), patch) != from_inside;
+        return numbering_.is_within(numbering_.innermost_patch(v.source), patch) != from_inside;
     });
     scratch.near.cross(patch, vertices, ways, nearest_source_.data(), learn);
 }

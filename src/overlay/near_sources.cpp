@@ -16,11 +16,11 @@ void NearSources::clear() {
 }
 
 void NearSources::add_near(const NearVertex& vertex, float nearest) {
-    for (const BorderPlace& place : numbering_.places_of(vertex.border_vertex)) {
-        const float segment = index_.longest_segment[place.patch];
+    for (const PatchPosition& at : numbering_.borders_of(vertex.border_vertex)) {
+        const float segment = index_.longest_segment[at.patch];
         if (vertex.distance > std::min(near_radius(segment), nearest + 2 * segment)) continue;
-        links_.push_back({vertex, first_link_[place.patch]});
-        first_link_[place.patch] = static_cast<uint32_t>(links_.size() - 1);
+        links_.push_back({vertex, first_link_[at.patch]});
+        first_link_[at.patch] = static_cast<uint32_t>(links_.size() - 1);
     }
 }
 

@@ -20,7 +20,7 @@ void measure_segments(OverlayIndex& index) {
             index.longest_segment[p] = std::fmax(index.longest_segment[p], rings.segment_length[k]);
 }
 
-void place_hop_tables(OverlayIndex& index) {
+void lay_out_hop_tables(OverlayIndex& index) {
     const Numbering& numbering = index.numbering;
     HopTables& hops = index.hops;
     hops.outer_begin.assign(2, 0);
@@ -113,9 +113,9 @@ void write_leaf_tables(const StoredIndex& stored, OverlayIndex& index) {
 // patch's own quantum.
 uint16_t code_by_parent(const OverlayIndex& index, uint32_t patch, uint32_t i, uint32_t j) {
     const Numbering& numbering = index.numbering;
-    const uint32_t slot = numbering.border_begin[patch];
-    const uint64_t row = index.outer_row(patch, numbering.overlay_position[slot + i]);
-    return TableCode::converted(index.hops.outer[row + index.rings.place_of_slot[slot + j]],
+    const uint32_t first_slot = numbering.border_begin[patch];
+    const uint64_t row = index.outer_row(patch, numbering.overlay_position[first_slot + i]);
+    return TableCode::converted(index.hops.outer[row + index.rings.place_of_slot[first_slot + j]],
                                 index.quantum[numbering.parent[patch]], index.quantum[patch]);
 }
 
@@ -143,7 +143,7 @@ void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
     lay_out_rings(stored.segment_end, stored.segment_length, index.numbering, index.rings);
     require_proportion(index);
     measure_segments(index);
-    place_hop_tables(index);
+    lay_out_hop_tables(index);
     write_overlay_tables(stored, index);
     write_leaf_tables(stored, index);
     take_border_codes_from_parents(index);

@@ -93,7 +93,7 @@ float longest_gap(const OverlayIndex& index, uint32_t patch) {
     return longest;
 }
 
-void place_samples(OverlayIndex& index, uint32_t patch) {
+void lay_out_samples(OverlayIndex& index, uint32_t patch) {
     const Rings& rings = index.samples.rings;
     std::vector<uint32_t> sample(index.numbering.border_size(patch), 0); // per position
     uint32_t count = 0;
@@ -173,7 +173,7 @@ void make_samples(OverlayIndex& index) {
     writer.begin();
     for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) sample_ring(index, p, writer);
     samples.begin.assign(1, 0);
-    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) place_samples(index, p);
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) lay_out_samples(index, p);
     writer.end();
     samples.first_row.assign(index.numbering.patch_count(), 0);
     samples.table_begin.assign(index.numbering.patch_count(), 0);

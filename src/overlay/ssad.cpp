@@ -50,7 +50,7 @@ void OverlaySsad::climb(std::span<const uint32_t> sources, std::span<float> dist
     count_sources(numbering_, sources, sources_inside_);
     ascend(numbering_, sources_inside_, [&](uint32_t child) {
         for (size_t i = 0; i < fields_; ++i)
-            if (numbering_.is_within(numbering_.entry(sources[i]), child)) hop_up(child, field(i));
+            if (numbering_.is_within(numbering_.innermost_patch(sources[i]), child)) hop_up(child, field(i));
     });
 }
 
@@ -77,7 +77,7 @@ void OverlaySsad::hop_down(uint32_t patch, std::span<const uint32_t> sources, fl
     }
     const std::span<const float> ways = sweep.cross();
     for (size_t i = 0; i < fields_; ++i)
-        if (!numbering_.is_within(numbering_.entry(sources[i]), patch))
+        if (!numbering_.is_within(numbering_.innermost_patch(sources[i]), patch))
             for (size_t k = i; k < ways.size(); k += fields_) inside[k] = ways[k];
 }
 

@@ -58,11 +58,12 @@ struct Samples {
 };
 
 // The labels of all vertices. The label of a vertex holds its distances to the borders of all patches that
-// contain it, but for the whole mesh and for the patch that it is an inner vertex of (Numbering::entry());
-// the outermost patch comes first. For each border, in steps of the quantum of the patch's parent, it has
-// HEAD numbers, which are the low and the high half of the distance of the nearest vertex, a float, and then
-// a code for each labelled vertex that says by how many steps it is farther (see StepsOf). All vertices of a
-// border are labelled, in its order, if it has at most WHOLE of them; otherwise its samples are.
+// contain it, but for the whole mesh and for the patch that it is an inner vertex of
+// (Numbering::innermost_patch()); the outermost patch comes first. For each border, in steps of the quantum
+// of the patch's parent, it has HEAD numbers, which are the low and the high half of the distance of the
+// nearest vertex, a float, and then a code for each labelled vertex that says by how many steps it is farther
+// (see StepsOf). All vertices of a border are labelled, in its order, if it has at most WHOLE of them;
+// otherwise its samples are.
 struct Labels {
     explicit Labels(std::pmr::memory_resource* memory) : offset(memory), begin(memory), codes(memory) {}
 

@@ -22,20 +22,19 @@ uint32_t cell_of_face(const FieldSolver& solver, const std::array<uint32_t, 3>& 
 // border of a cell or of the patch.
 std::unordered_map<uint32_t, uint32_t> only_cells(const Mesh& mesh, std::span<const uint32_t> faces,
                                                   std::span<const uint32_t> cell) {
-    struct Seen {
+    struct Around {
         uint32_t cell;
         uint32_t faces;
     };
-    std::unordered_map<uint32_t, Seen> seen;
+    std::unordered_map<uint32_t, Around> around;
     for (size_t i = 0; i < faces.size(); ++i)
         for (uint32_t v : mesh.faces[faces[i]]) {
-            Seen& entry = seen.try_emplace(v, Seen{cell[i], 0}).first->second;
-            if (entry.cell != cell[i]) entry.cell = NONE;
-            ++entry.faces;
+            Around& at = around.try_emplace(v, Around{cell[i], 0}).first->second;
+            if (at.cell != cell[i]) at.cell = NONE;
+            ++at.faces;
         }
     std::unordered_map<uint32_t, uint32_t> only;
-    for (const auto& [v, entry] : seen)
-        only[v] = entry.faces == mesh.vertex_faces[v].size() ? entry.cell : NONE;
+    for (const auto& [v, at] : around) only[v] = at.faces == mesh.vertex_faces[v].size() ? at.cell : NONE;
     return only;
 }
 

@@ -55,12 +55,12 @@ public:
 private:
     void fill_border(FieldSolver& solver, uint32_t number) {
         std::vector<uint32_t> targets;
-        for (const BorderPlace& place : numbering_.places_of(number))
-            for (uint32_t other : numbering_.border_of(place.patch))
+        for (const PatchPosition& at : numbering_.borders_of(number))
+            for (uint32_t other : numbering_.border_of(at.patch))
                 if (other > number) targets.push_back(vertex_of_number_[other]);
         if (targets.empty()) return;
         solver.solve({&vertex_of_number_[number], 1}, targets);
-        for (const auto& [patch, own] : numbering_.places_of(number)) {
+        for (const auto& [patch, own] : numbering_.borders_of(number)) {
             const auto border = numbering_.border_of(patch);
             float* table = stored_.border_tables.data() + border_table_begin_[patch];
             for (uint32_t i = 0; i < border.size(); ++i)

@@ -11,7 +11,7 @@ namespace {
 
 // Sorting these gives the order of the numbers: first the border vertices by owner, then the internal ones by
 // leaf and by distance to the border.
-struct Slot {
+struct VertexInOrder {
     bool internal;
     uint32_t group; // the owner, or the leaf
     double distance_to_border;
@@ -31,30 +31,32 @@ std::vector<double> distances_to_border(const std::vector<uint32_t>& border, uin
     return result;
 }
 
-std::vector<Slot> sorted_slots(const Hierarchy& hierarchy, const ListOfLists<uint32_t>& leaves_at_vertex,
-                               const std::vector<uint8_t>& is_border, Workers& workers) {
+std::vector<VertexInOrder> vertices_in_order(const Hierarchy& hierarchy,
+                                             const ListOfLists<uint32_t>& leaves_at_vertex,
+                                             const std::vector<uint8_t>& is_border, Workers& workers) {
     const auto vertex_count = static_cast<uint32_t>(leaves_at_vertex.size());
     std::vector<uint32_t> border;
     for (uint32_t v = 0; v < vertex_count; ++v)
         if (leaves_at_vertex[v].size() > 1 && is_border[v]) border.push_back(v);
     const auto distance = distances_to_border(border, vertex_count, workers);
 
-    std::vector<Slot> slots;
+    std::vector<VertexInOrder> order;
     for (uint32_t v = 0; v < vertex_count; ++v) {
         const auto leaves = leaves_at_vertex[v];
         const bool internal = leaves.size() == 1 || !is_border[v];
-        slots.push_back({internal, internal ? leaves[0] : common_ancestor(hierarchy, leaves),
+        order.push_back({internal, internal ? leaves[0] : common_ancestor(hierarchy, leaves),
                          internal ? distance[v] : 0, v});
     }
-    std::sort(slots.begin(), slots.end(), [](const Slot& a, const Slot& b) { return a.key() < b.key(); });
-    return slots;
+    std::sort(order.begin(), order.end(),
+              [](const VertexInOrder& a, const VertexInOrder& b) { return a.key() < b.key(); });
+    return order;
 }
 
 // How many of the vertices `from` .. `to` - 1 belong to each of the `count` groups that begin with `first`.
-std::vector<uint32_t> group_sizes(const std::vector<Slot>& slots, size_t from, size_t to, uint32_t first,
-                                  uint32_t count) {
+std::vector<uint32_t> group_sizes(const std::vector<VertexInOrder>& order, size_t from, size_t to,
+                                  uint32_t first, uint32_t count) {
     std::vector<uint32_t> sizes(count, 0);
-    for (size_t i = from; i < to; ++i) ++sizes[slots[i].group - first];
+    for (size_t i = from; i < to; ++i) ++sizes[order[i].group - first];
     return sizes;
 }
 
@@ -150,18 +152,18 @@ std::vector<uint32_t> lay_out(const Intake& intake, const Hierarchy& hierarchy,
     for (uint32_t p = 0; p < inner_count; ++p)
         stored.child_count.push_back(hierarchy.child_begin[p + 1] - hierarchy.child_begin[p]);
 
-    const auto slots = sorted_slots(hierarchy, leaves_at_vertex, is_border, workers);
+    const auto order = vertices_in_order(hierarchy, leaves_at_vertex, is_border, workers);
     const auto border_count = static_cast<size_t>(
-        std::count_if(slots.begin(), slots.end(), [](const Slot& slot) { return !slot.internal; }));
-    stored.owned_count = group_sizes(slots, 0, border_count, 0, inner_count);
-    stored.internal_count = group_sizes(slots, border_count, slots.size(), inner_count, leaf_count);
+        std::count_if(order.begin(), order.end(), [](const VertexInOrder& at) { return !at.internal; }));
+    stored.owned_count = group_sizes(order, 0, border_count, 0, inner_count);
+    stored.internal_count = group_sizes(order, border_count, order.size(), inner_count, leaf_count);
 
-    std::vector<uint32_t> vertex_of_number, owner, number(slots.size());
-    for (const Slot& slot : slots) {
-        number[slot.vertex] = static_cast<uint32_t>(vertex_of_number.size());
-        vertex_of_number.push_back(slot.vertex);
-        if (!slot.internal) owner.push_back(slot.group);
-        stored.positions.push_back(rounded(intake.mesh.positions[slot.vertex]));
+    std::vector<uint32_t> vertex_of_number, owner, number(order.size());
+    for (const VertexInOrder& at : order) {
+        number[at.vertex] = static_cast<uint32_t>(vertex_of_number.size());
+        vertex_of_number.push_back(at.vertex);
+        if (!at.internal) owner.push_back(at.group);
+        stored.positions.push_back(rounded(intake.mesh.positions[at.vertex]));
     }
     for (uint32_t vertex : intake.vertex_of_id)
         stored.number_of_id.push_back(vertex == NONE ? NONE : number[vertex]);

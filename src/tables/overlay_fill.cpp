@@ -54,13 +54,13 @@ public:
 
 private:
     // The measured overlays that have a border vertex, with its position in each.
-    std::vector<BorderPlace> overlays_of(uint32_t number) const {
-        std::vector<BorderPlace> places;
+    std::vector<PatchPosition> overlays_of(uint32_t number) const {
+        std::vector<PatchPosition> positions;
         const uint32_t owner = numbering_.owner[number];
-        if (exact_[owner]) places.push_back({owner, numbering_.position_at_owner(number)});
-        for (const BorderPlace& place : numbering_.places_of(number))
-            if (place.patch < numbering_.first_leaf() && exact_[place.patch]) places.push_back(place);
-        return places;
+        if (exact_[owner]) positions.push_back({owner, numbering_.position_at_owner(number)});
+        for (const PatchPosition& at : numbering_.borders_of(number))
+            if (at.patch < numbering_.first_leaf() && exact_[at.patch]) positions.push_back(at);
+        return positions;
     }
 
     void fill_border(FieldSolver& solver, uint32_t number) {

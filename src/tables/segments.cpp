@@ -65,8 +65,8 @@ private:
     // The length of an edge. Both of its ends lie on the border of a leaf beside it, so that the table of
     // that leaf's parent has their distance.
     float length_of(uint32_t a, uint32_t b) const {
-        for (const BorderPlace& at : numbering_.places_of(a))
-            for (const BorderPlace& bt : numbering_.places_of(b)) {
+        for (const PatchPosition& at : numbering_.borders_of(a))
+            for (const PatchPosition& bt : numbering_.borders_of(b)) {
                 if (at.patch != bt.patch || at.patch < numbering_.first_leaf()) continue;
                 const uint32_t parent = numbering_.parent[at.patch],
                                first = numbering_.border_begin[at.patch];

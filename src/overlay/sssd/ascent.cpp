@@ -7,10 +7,11 @@ namespace geodesic {
 
 BorderLabel label_of(const OverlayIndex& index, uint32_t vertex, uint32_t patch) {
     const Numbering& numbering = index.numbering;
-    const uint32_t entry = numbering.entry(vertex);
-    const int16_t* label = index.labels.codes.data() + index.labels.begin[entry] +
-                           uint64_t{vertex - numbering.first_inner(entry)} * index.labels.offset[entry] +
-                           index.labels.offset[patch];
+    const uint32_t innermost = numbering.innermost_patch(vertex);
+    const int16_t* label =
+        index.labels.codes.data() + index.labels.begin[innermost] +
+        uint64_t{vertex - numbering.first_inner(innermost)} * index.labels.offset[innermost] +
+        index.labels.offset[patch];
     const uint32_t nearest = static_cast<uint32_t>(static_cast<uint16_t>(label[0])) +
                              0x10000u * static_cast<uint32_t>(static_cast<uint16_t>(label[1]));
     return {std::bit_cast<float>(nearest), index.quantum[numbering.parent[patch]], label + Labels::HEAD,
@@ -19,7 +20,7 @@ BorderLabel label_of(const OverlayIndex& index, uint32_t vertex, uint32_t patch)
 
 RingRow inner_row_of(const OverlayIndex& index, uint32_t vertex) {
     const Numbering& numbering = index.numbering;
-    const uint32_t patch = numbering.entry(vertex);
+    const uint32_t patch = numbering.innermost_patch(vertex);
     return {index.hops.inner.data() + index.inner_row(patch, vertex - numbering.first_inner(patch)),
             index.rings.begin[patch], index.quantum[patch]};
 }
@@ -38,17 +39,17 @@ Ascent::Ascent(const OverlayIndex& index, std::pmr::memory_resource* memory)
 }
 
 void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Ascent& ascent) {
-    const uint32_t entry = index.numbering.entry(vertex);
+    const uint32_t innermost = index.numbering.innermost_patch(vertex);
     ascent.vertex = vertex;
     ascent.patches.clear();
-    for (uint32_t patch = entry; patch != top; patch = index.numbering.parent[patch]) {
-        if (patch != entry && index.is_labelled_whole(patch)) ascent.patches.clear();
+    for (uint32_t patch = innermost; patch != top; patch = index.numbering.parent[patch]) {
+        if (patch != innermost && index.is_labelled_whole(patch)) ascent.patches.clear();
         ascent.patches.push_back(patch);
     }
 }
 
 void read_samples(const OverlayIndex& index, uint32_t vertex, uint32_t patch, std::span<float> out) {
-    if (patch == index.numbering.entry(vertex)) {
+    if (patch == index.numbering.innermost_patch(vertex)) {
         read_samples(index, patch, inner_row_of(index, vertex), out);
         return;
     }

@@ -47,7 +47,7 @@ RingRow inner_row_of(const OverlayIndex& index, uint32_t vertex);
 // ring. The patch must be the innermost one around the vertex, or one whose border is labelled whole.
 template <class Use>
 auto with_ring_distances(const OverlayIndex& index, uint32_t vertex, uint32_t patch, const Use& use) {
-    if (patch == index.numbering.entry(vertex)) return use(inner_row_of(index, vertex));
+    if (patch == index.numbering.innermost_patch(vertex)) return use(inner_row_of(index, vertex));
     return use(RingLabel{label_of(index, vertex, patch), index.rings.position.data()});
 }
 

@@ -88,7 +88,7 @@ void BorderRanges::take_whole(const Ascent& ascent) {
 void BorderRanges::read_codes(const Ascent& ascent, uint32_t patch, std::span<int16_t> out) {
     const Rings& rings = index_.samples.rings;
     const uint32_t* sample_of_place = index_.samples.sample_of_place.data();
-    if (patch != index_.numbering.entry(ascent.vertex)) {
+    if (patch != index_.numbering.innermost_patch(ascent.vertex)) {
         const BorderLabel label = label_of(index_, ascent.vertex, patch);
         spread_codes(rings, patch, label.codes, label.is_whole ? rings.position.data() : sample_of_place,
                      out);
@@ -111,11 +111,11 @@ SampleRange BorderRanges::samples_before(const Ascent& ascent, size_t border, Sa
     rows_.clear();
     for (uint32_t k = samples.first - 1; k <= samples.last + 1; ++k)
         rows_.push_back(coarse_row(index_, before, sample[k]));
-    BorderFromSource seen{};
-    seen.places = rings.size(before);
-    seen.code = border > 1 ? codes_.data() : first_codes_.data();
+    BorderFromSource crossed{};
+    crossed.places = rings.size(before);
+    crossed.code = border > 1 ? codes_.data() : first_codes_.data();
     winners_.resize(rows_.size());
-    runnable_kernels().back().choose(seen, rows_, winners_.data());
+    runnable_kernels().back().choose(crossed, rows_, winners_.data());
     return range_of_winners(winners_);
 }
 

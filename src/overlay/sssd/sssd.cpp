@@ -123,12 +123,12 @@ struct OverlaySssd::KnownVertex {
 };
 
 float OverlaySssd::distance(uint32_t low, uint32_t high) {
-    const uint32_t low_entry = numbering_.entry(low), high_entry = numbering_.entry(high);
-    const uint32_t top = lowest_common_patch(numbering_, low_entry, high_entry);
-    const bool low_climbs = low_entry != top, high_climbs = high_entry != top;
+    const uint32_t low_patch = numbering_.innermost_patch(low), high_patch = numbering_.innermost_patch(high);
+    const uint32_t top = lowest_common_patch(numbering_, low_patch, high_patch);
+    const bool low_climbs = low_patch != top, high_climbs = high_patch != top;
     if (!low_climbs && !high_climbs) return distance_inside(top, low, high);
     const uint32_t climber = high_climbs ? high : low, other = high_climbs ? low : high;
-    const uint32_t patch = child_around(numbering_, top, numbering_.entry(climber));
+    const uint32_t patch = child_around(numbering_, top, numbering_.innermost_patch(climber));
     if (low_climbs && high_climbs) {
         to_.climb(index_, climber, top);
         from_.climb(index_, other, top);
@@ -156,8 +156,8 @@ float OverlaySssd::distance_inside(uint32_t patch, uint32_t low, uint32_t high) 
 // Returns the distance between a vertex on the border of a patch and one inside of the patch if the index
 // holds it, and infinity otherwise.
 float OverlaySssd::distance_to_border(uint32_t patch, uint32_t border_vertex, uint32_t vertex) const {
-    if (patch != numbering_.entry(vertex) && !index_.is_labelled_whole(patch)) return INFINITE;
-    for (const BorderPlace& at : numbering_.places_of(border_vertex)) {
+    if (patch != numbering_.innermost_patch(vertex) && !index_.is_labelled_whole(patch)) return INFINITE;
+    for (const PatchPosition& at : numbering_.borders_of(border_vertex)) {
         if (at.patch != patch) continue;
         const uint32_t own = index_.rings.place_of_slot[numbering_.border_begin[patch] + at.position];
         return with_ring_distances(index_, vertex, patch, [&](const auto& distance_to) {
@@ -168,15 +168,16 @@ float OverlaySssd::distance_to_border(uint32_t patch, uint32_t border_vertex, ui
 }
 
 float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, uint32_t target) {
-    const uint32_t entry = numbering_.entry(target), source_entry = numbering_.entry(source);
-    if (entry < numbering_.level_begin[prepared_level_]) return known[target];
-    uint32_t patch = entry;
+    const uint32_t target_patch = numbering_.innermost_patch(target),
+                   source_patch = numbering_.innermost_patch(source);
+    if (target_patch < numbering_.level_begin[prepared_level_]) return known[target];
+    uint32_t patch = target_patch;
     while (patch >= numbering_.level_begin[prepared_level_ + 1]) patch = numbering_.parent[patch];
-    if (numbering_.is_within(source_entry, patch)) {
-        const uint32_t top = lowest_common_patch(numbering_, source_entry, entry);
-        if (entry == top) return known[target];
-        patch = child_around(numbering_, top, entry);
-        if (source_entry == top)
+    if (numbering_.is_within(source_patch, patch)) {
+        const uint32_t top = lowest_common_patch(numbering_, source_patch, target_patch);
+        if (target_patch == top) return known[target];
+        patch = child_around(numbering_, top, target_patch);
+        if (source_patch == top)
             if (const float d = distance_to_border(patch, source, target); d < INFINITE) return d;
     }
     to_.climb(index_, target, numbering_.parent[patch]);
