@@ -26,7 +26,7 @@ public:
     const geoidx_mesh& mesh() const { return mesh_; }
     const geoidx_build_options& options() const { return options_; }
     const Surface& surface() const { return surface_; }
-    // No way along edges is shorter than its costs, and the metric knows each of these ways; by
+    // The metric knows the ways along edges, and finds none of them longer than the sum of these; by
     // Surface::edges().
     const std::vector<double>& edge_bounds() const { return edge_bounds_; }
     // No metric of this kind is shorter.
@@ -37,6 +37,7 @@ public:
 private:
     static geoidx_status answer(void* user, uint32_t source, const uint32_t* targets, uint32_t count,
                                 double* distances);
+    void allow_for_faces_without_area();
     void give_lengths();
     void give_edge_costs();
     void give_face_costs();
