@@ -47,8 +47,7 @@ void check_mesh_matches(const geoidx_mesh* expected, const Description& about) {
 
 // Everything in the file is looked at before the index answers.
 void prepare_from(std::span<const std::byte> file, Index& index) {
-    prepare(read_index(file), index);
-    prepare_pairs(index, [] {});
+    prepare(read_index(file), index, [] {});
 }
 
 void open_bytes(std::span<const std::byte> file, const geoidx_open_options* given, geoidx** out) {

@@ -12,8 +12,8 @@
 namespace geodesic {
 
 // In the overlay engine a stored distance is a code: a whole number of steps of a quantum. This file has all
-// kinds of codes and all rounding of distances to them. (kernels/rounding.h rounds many distances at a
-// time, in the same way as StepsOf.)
+// kinds of codes and all rounding of distances to them. (kernels/rounding.h rounds as StepsOf does, many
+// distances at a time; a test holds one against the other.)
 
 // An entry of a table: the distance of two vertices, in steps of the quantum of the table's patch.
 struct TableCode {
@@ -90,6 +90,12 @@ public:
         if (distance == INFINITE) return SourceCode::UNREACHED;
         const float steps = std::clamp(distance * scale_ - nearest_ + 0.5f, 0.f, MOST);
         return static_cast<int16_t>(SourceCode::NEAREST + static_cast<int32_t>(steps));
+    }
+
+    // The code where only a distance of 0 is 0 steps, so that different vertices stay apart.
+    int16_t code_apart(float distance) const {
+        const bool is_together = nearest_ > 0 || distance == 0;
+        return std::max(code(distance), static_cast<int16_t>(SourceCode::NEAREST + (is_together ? 0 : 1)));
     }
 
 private:

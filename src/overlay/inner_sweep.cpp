@@ -1,9 +1,9 @@
 #include "src/overlay/inner_sweep.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "src/base/four_at_a_time.h"
+#include "src/overlay/near.h"
 
 namespace geodesic {
 
@@ -43,7 +43,7 @@ bool InnerSweep::begin(uint32_t patch, const float* distances, const RingSegment
     (sources_ == 1 ? kernels_.prepare_sweep : kernels_.prepare_sweep_each)(border_, codes_,
                                                                            middle_distance_.data());
     const float nearest = *std::ranges::min_element(std::span(nearest_).first(sources_));
-    return nearest < INFINITE && nearest <= radius + index_.near[patch];
+    return nearest < INFINITE && nearest <= radius + near_radius(index_.longest_segment[patch]);
 }
 
 void InnerSweep::cross_to(float* inside) {
@@ -51,8 +51,9 @@ void InnerSweep::cross_to(float* inside) {
     const SweepRows rows{numbering_.inner_size(patch_), index_.hops.inner.data() + first_row,
                          index_.hops.inner_middles.data() + first_row};
     (sources_ == 1 ? kernels_.sweep : kernels_.sweep_each)(border_, codes_, rows, inside);
+    const float near = near_radius(index_.longest_segment[patch_]);
     for (size_t i = 0; i < sources_; ++i)
-        if (nearest_[i] <= index_.near[patch_]) cross_near(i, inside);
+        if (nearest_[i] <= near) cross_near(i, inside);
 }
 
 std::span<float> InnerSweep::cross() {

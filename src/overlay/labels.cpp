@@ -101,12 +101,7 @@ private:
         const auto nearest = std::bit_cast<uint32_t>(steps.nearest());
         *label++ = static_cast<int16_t>(nearest & 0xffff);
         *label++ = static_cast<int16_t>(nearest >> 16);
-        // Only a distance of 0 is 0 steps, so that different vertices stay apart.
-        const bool is_apart = steps.nearest() > 0;
-        for (const float distance : distances)
-            *label++ =
-                std::max(steps.code(distance),
-                         static_cast<int16_t>(SourceCode::NEAREST + (is_apart || distance == 0 ? 0 : 1)));
+        for (const float distance : distances) *label++ = steps.code_apart(distance);
     }
 
     OverlayIndex& index_;

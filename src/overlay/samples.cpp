@@ -111,7 +111,8 @@ void lay_out_samples(OverlayIndex& index, uint32_t patch) {
     const float spacing = average_segment(rings, patch);
     index.samples.spacing.push_back(spacing);
     index.samples.longest_gap.push_back(longest_gap(index, patch));
-    index.near.push_back(std::max(NEAR_SAMPLES * spacing, near_radius(index.longest_segment[patch])));
+    index.samples.shortest_told.push_back(
+        std::max(NEAR_SAMPLES * spacing, near_radius(index.longest_segment[patch])));
     index.samples.begin.push_back(static_cast<uint32_t>(index.samples.positions.size()));
 }
 

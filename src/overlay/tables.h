@@ -35,8 +35,8 @@ struct HopTables {
 struct Samples {
     explicit Samples(std::pmr::memory_resource* memory)
         : rings(memory), full_place(memory), sample_of_place(memory), begin(memory), positions(memory),
-          spacing(memory), longest_gap(memory), first_row(memory), row_begin(memory), row_position(memory),
-          table_begin(memory), tables(memory) {}
+          spacing(memory), shortest_told(memory), longest_gap(memory), first_row(memory), row_begin(memory),
+          row_position(memory), table_begin(memory), tables(memory) {}
 
     Rings rings;
     // Per place: the own place of its vertex in OverlayIndex::rings, counted over all rings.
@@ -45,6 +45,8 @@ struct Samples {
     Array<uint32_t> begin;           // per patch: where its samples begin in `positions`
     Array<uint32_t> positions;       // per sample: its position in the border
     Array<float> spacing;            // per patch: the mean distance between neighbouring samples
+    // Per patch: where shorter ways cross the border, samples do not tell.
+    Array<float> shortest_told;
     Array<float> longest_gap;  // per patch: the longest way along the border between neighbouring samples
     Array<uint32_t> first_row; // per patch: the first row of its samples in its own and its siblings' tables
     Array<uint32_t> row_begin; // per inner patch: where its children's rows begin in `row_position`
@@ -80,15 +82,13 @@ struct Labels {
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
         : numbering(memory), quantum(memory), rings(memory), longest_segment(memory), hops(memory),
-          near(memory), samples(memory), labels(memory) {}
+          samples(memory), labels(memory) {}
 
     Numbering numbering;
     Array<float> quantum; // per patch: the distance of one step of its codes
     BorderRings rings;
     Array<float> longest_segment; // per patch: length of the longest segment of its border, or 0
     HopTables hops;
-    // Per patch: up to this distance, a pair is answered over every segment of its border.
-    Array<float> near;
     Samples samples;
     Labels labels; // empty until make_labels() has run
 

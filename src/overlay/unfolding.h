@@ -75,32 +75,32 @@ struct SegmentsFromSource {
     }
 };
 
-// One float for each segment near a border vertex: REACH on each side, in the order of the border.
-using NearFloats = Floats<2 * Rings::REACH * sizeof(float)>;
+// One float for each segment beside a border vertex: REACH on each side, in the order of the border.
+using BesideFloats = Floats<2 * Rings::REACH * sizeof(float)>;
 
-inline NearFloats near_floats(const float* first) {
-    NearFloats floats;
+inline BesideFloats beside_floats(const float* first) {
+    BesideFloats floats;
     std::memcpy(&floats, first, sizeof floats);
     return floats;
 }
 
 // The length of the way from a source over a place of a ring, counted over all rings, to a target. Where it
-// is shorter, the way straightened over one of the segments near that place counts. from(k) and to(k) are the
-// distances of the source and of the target from place k.
+// is shorter, the way straightened over one of the segments beside that place counts. from(k) and to(k) are
+// the distances of the source and of the target from place k.
 template <class From, class To>
 float straightened(const Rings& rings, size_t place, const From& from, const To& to) {
-    const size_t near = place - Rings::REACH;
-    const auto ends = [&](const auto& distance, NearFloats& first, NearFloats& second) {
+    const size_t first_segment = place - Rings::REACH;
+    const auto ends = [&](const auto& distance, BesideFloats& first, BesideFloats& second) {
         for (size_t k = 0; k < 4; ++k) {
-            first[k] = distance(near + k);
-            second[k] = distance(near + k + 1);
+            first[k] = distance(first_segment + k);
+            second[k] = distance(first_segment + k + 1);
         }
     };
-    SegmentsFromSource<NearFloats> from_source{
-        {near_floats(rings.segment_length.data() + near), near_floats(rings.half_inverse.data() + near)},
-        {},
-        {}};
-    NearFloats first, second, squares;
+    SegmentsFromSource<BesideFloats> from_source{{beside_floats(rings.segment_length.data() + first_segment),
+                                                  beside_floats(rings.half_inverse.data() + first_segment)},
+                                                 {},
+                                                 {}};
+    BesideFloats first, second, squares;
     ends(from, first, second);
     from_source.segments.place_point(first, second, from_source.foot, from_source.height);
     ends(to, first, second);

@@ -7,7 +7,7 @@
 
 namespace geodesic {
 
-void prepare(const StoredIndex& stored, Index& index) {
+void prepare_without_pairs(const StoredIndex& stored, Index& index) {
     index.description = stored.description;
     index.number_of_id.assign(stored.number_of_id.begin(), stored.number_of_id.end());
     if (stored.description.engine == GEOIDX_ENGINE_OVERLAY)
@@ -16,7 +16,8 @@ void prepare(const StoredIndex& stored, Index& index) {
         prepare_graph(stored, index.engine.emplace<GraphIndex>(index.memory));
 }
 
-void prepare_pairs(Index& index, const std::function<void()>& look_up) {
+void prepare(const StoredIndex& stored, Index& index, const std::function<void()>& look_up) {
+    prepare_without_pairs(stored, index);
     if (auto* const overlay = std::get_if<OverlayIndex>(&index.engine)) make_labels(*overlay, look_up);
 }
 

@@ -102,7 +102,8 @@ void Query::write_by_id(std::span<float> field) const {
 void Query::write_by_id(const SideBySide& fields) const {
     const uint32_t* const number_of_id = index_.number_of_id.data();
     const float* const by_number = distance_.data();
-    NearFloats unreached{};
+    using FourFloats = Floats<16>;
+    FourFloats unreached{};
     unreached += INFINITE;
     size_t id = 0;
     constexpr size_t AHEAD = 32;
@@ -112,11 +113,11 @@ void Query::write_by_id(const SideBySide& fields) const {
                 if (const uint32_t number = number_of_id[id + AHEAD + j]; number != NONE)
                     __builtin_prefetch(by_number + size_t{number} * fields.size());
         for (size_t i = 0; i < fields.size(); i += 4) {
-            NearFloats four[4];
+            FourFloats four[4];
             for (size_t j = 0; j < 4; ++j) {
                 const uint32_t number = number_of_id[id + j];
-                four[j] =
-                    number == NONE ? unreached : near_floats(by_number + size_t{number} * fields.size() + i);
+                four[j] = unreached;
+                if (number != NONE) load(by_number + size_t{number} * fields.size() + i, four[j]);
             }
             transpose(four);
             for (size_t j = 0; j < 4; ++j) std::memcpy(fields[i + j] + id, &four[j], sizeof four[j]);

@@ -10,7 +10,7 @@ namespace geodesic {
 namespace {
 
 // The border vertices that belong to one set of leaves, the edges between them, and all distances among them.
-struct Chain {
+struct SharedBorder {
     std::vector<uint32_t> vertices;
     std::vector<std::array<uint32_t, 2>> adjacent; // positions in vertices
     std::vector<double> distance;                  // a square table
@@ -18,36 +18,37 @@ struct Chain {
     double at(uint32_t i, uint32_t j) const { return distance[size_t{i} * vertices.size() + j]; }
 };
 
-std::vector<Chain> find_chains(const Mesh& mesh, const ListOfLists<uint32_t>& leaves_at_vertex) {
+std::vector<SharedBorder> find_shared_borders(const Mesh& mesh,
+                                              const ListOfLists<uint32_t>& leaves_at_vertex) {
     std::map<std::vector<uint32_t>, uint32_t> number;
-    std::vector<Chain> chains;
-    std::vector<uint32_t> chain_of(mesh.vertex_count(), NONE), position(mesh.vertex_count(), 0);
+    std::vector<SharedBorder> borders;
+    std::vector<uint32_t> border_of(mesh.vertex_count(), NONE), position(mesh.vertex_count(), 0);
     for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         const auto leaves = leaves_at_vertex[v];
         if (leaves.size() < 2) continue;
         const auto [entry, added] =
-            number.try_emplace({leaves.begin(), leaves.end()}, static_cast<uint32_t>(chains.size()));
-        if (added) chains.emplace_back();
-        chain_of[v] = entry->second;
-        position[v] = static_cast<uint32_t>(chains[entry->second].vertices.size());
-        chains[entry->second].vertices.push_back(v);
+            number.try_emplace({leaves.begin(), leaves.end()}, static_cast<uint32_t>(borders.size()));
+        if (added) borders.emplace_back();
+        border_of[v] = entry->second;
+        position[v] = static_cast<uint32_t>(borders[entry->second].vertices.size());
+        borders[entry->second].vertices.push_back(v);
     }
     for (const auto& [a, b] : mesh.edges)
-        if (chain_of[a] != NONE && chain_of[a] == chain_of[b])
-            chains[chain_of[a]].adjacent.push_back({position[a], position[b]});
-    return chains;
+        if (border_of[a] != NONE && border_of[a] == border_of[b])
+            borders[border_of[a]].adjacent.push_back({position[a], position[b]});
+    return borders;
 }
 
-void measure(Chain& chain, FieldSolver& solver) {
-    if (chain.adjacent.empty()) return;
-    for (uint32_t source : chain.vertices) {
-        solver.solve({&source, 1}, chain.vertices);
-        for (uint32_t target : chain.vertices) chain.distance.push_back(solver.distance(target));
+void measure(SharedBorder& border, FieldSolver& solver) {
+    if (border.adjacent.empty()) return;
+    for (uint32_t source : border.vertices) {
+        solver.solve({&source, 1}, border.vertices);
+        for (uint32_t target : border.vertices) border.distance.push_back(solver.distance(target));
     }
 }
 
 struct Group {
-    std::vector<uint32_t> members; // positions in the chain
+    std::vector<uint32_t> members; // positions in the border
     uint32_t representative = 0;
 };
 
@@ -57,28 +58,28 @@ struct Merge {
 };
 
 // The merged group keeps the representative that is nearer to its farthest member.
-Merge merge_of(const Chain& chain, const Group& a, const Group& b) {
+Merge merge_of(const SharedBorder& border, const Group& a, const Group& b) {
     Merge best;
     for (uint32_t candidate : {a.representative, b.representative}) {
         double error = 0;
         for (const Group* group : {&a, &b})
-            for (uint32_t member : group->members) error = std::max(error, chain.at(candidate, member));
+            for (uint32_t member : group->members) error = std::max(error, border.at(candidate, member));
         if (error < best.error) best = {error, candidate};
     }
     return best;
 }
 
-void merge_chain(const Chain& chain, double largest_error, std::vector<uint8_t>& stands) {
-    std::vector<Group> groups(chain.vertices.size());
-    std::vector<uint32_t> group_of(chain.vertices.size());
+void merge_shared_border(const SharedBorder& border, double largest_error, std::vector<uint8_t>& stands) {
+    std::vector<Group> groups(border.vertices.size());
+    std::vector<uint32_t> group_of(border.vertices.size());
     for (uint32_t i = 0; i < groups.size(); ++i) groups[i] = {{i}, i};
     std::iota(group_of.begin(), group_of.end(), 0u);
     for (;;) {
         Merge best;
         uint32_t into = NONE, from = NONE;
-        for (const auto& [i, j] : chain.adjacent) {
+        for (const auto& [i, j] : border.adjacent) {
             if (group_of[i] == group_of[j]) continue;
-            const Merge merge = merge_of(chain, groups[group_of[i]], groups[group_of[j]]);
+            const Merge merge = merge_of(border, groups[group_of[i]], groups[group_of[j]]);
             if (!(merge.error < best.error)) continue;
             best = merge;
             into = group_of[i];
@@ -93,7 +94,7 @@ void merge_chain(const Chain& chain, double largest_error, std::vector<uint8_t>&
         groups[from].members.clear();
     }
     for (uint32_t i = 0; i < groups.size(); ++i)
-        stands[chain.vertices[i]] = groups[group_of[i]].representative == i;
+        stands[border.vertices[i]] = groups[group_of[i]].representative == i;
 }
 
 }
@@ -102,10 +103,10 @@ std::vector<uint8_t> merge_border_vertices(const Mesh& mesh, const ListOfLists<u
                                            double largest_error, Workers& workers) {
     std::vector<uint8_t> stands(mesh.vertex_count(), 1);
     if (!(largest_error > 0)) return stands;
-    auto chains = find_chains(mesh, leaves_at_vertex);
-    workers.run(chains.size(), [&](FieldSolver& solver, size_t i) {
-        measure(chains[i], solver);
-        if (!chains[i].adjacent.empty()) merge_chain(chains[i], largest_error, stands);
+    auto borders = find_shared_borders(mesh, leaves_at_vertex);
+    workers.run(borders.size(), [&](FieldSolver& solver, size_t i) {
+        measure(borders[i], solver);
+        if (!borders[i].adjacent.empty()) merge_shared_border(borders[i], largest_error, stands);
     });
     return stands;
 }

@@ -21,7 +21,7 @@ Index built(const TestMesh& mesh, const geoidx_build_options& options) {
 
 Index prepared(const StoredIndex& stored) {
     Index index(std::pmr::get_default_resource());
-    prepare(stored, index);
+    prepare_without_pairs(stored, index);
     return index;
 }
 

@@ -96,23 +96,23 @@ struct Ways {
     const int32_t* places;
     const uint16_t* const* rows;
 
-    [[gnu::always_inline]] const uint16_t* codes_near(size_t way) const {
+    [[gnu::always_inline]] const uint16_t* codes_beside(size_t way) const {
         return rows[way] + places[way] - Rings::REACH;
     }
-    [[gnu::always_inline]] NearFloats near(const float* values, size_t way) const {
-        return near_floats(values + places[way] - Rings::REACH);
+    [[gnu::always_inline]] BesideFloats beside(const float* values, size_t way) const {
+        return beside_floats(values + places[way] - Rings::REACH);
     }
 };
 
-// The codes of the ways from `first` on, side by side, four each: those of the places that segments near the
-// place begin at, and those of the next ones.
+// The codes of the ways from `first` on, side by side, four each: those of the places that segments beside
+// the place begin at, and those of the next ones.
 template <size_t BYTES>
-[[gnu::always_inline]] inline void codes_near(const Ways& ways, size_t first, Floats<BYTES>& of_first,
-                                              Floats<BYTES>& of_second) {
+[[gnu::always_inline]] inline void codes_beside(const Ways& ways, size_t first, Floats<BYTES>& of_first,
+                                                Floats<BYTES>& of_second) {
     constexpr std::make_index_sequence<BYTES / sizeof(uint16_t)> ALL;
     typename VectorOf<uint16_t, BYTES>::Type codes;
     typename Lanes<BYTES>::Keys numbers;
-    join([&](size_t i) { return load_eight(ways.codes_near(first + i)); }, codes);
+    join([&](size_t i) { return load_eight(ways.codes_beside(first + i)); }, codes);
     widen_four<0>(codes, numbers, ALL);
     of_first = __builtin_convertvector(numbers, Floats<BYTES>);
     widen_four<1>(codes, numbers, ALL);
@@ -122,29 +122,29 @@ template <size_t BYTES>
 // Four ways, as many side by side as fit into a vector.
 template <size_t BYTES>
 [[gnu::always_inline]] inline void measure_four(const BorderFromSource& border, const Ways& ways,
-                                                NearFloats& distances) {
-    constexpr size_t SIDE_BY_SIDE = BYTES / sizeof(NearFloats);
-    NearFloats squares[4], sums[4];
+                                                BesideFloats& distances) {
+    constexpr size_t SIDE_BY_SIDE = BYTES / sizeof(BesideFloats);
+    BesideFloats squares[4], sums[4];
     for (size_t r = 0; r < 4; r += SIDE_BY_SIDE) {
-        const auto near = [&](const float* values, Floats<BYTES>& out) {
-            join([&](size_t i) { return ways.near(values, r + i); }, out);
+        const auto beside = [&](const float* values, Floats<BYTES>& out) {
+            join([&](size_t i) { return ways.beside(values, r + i); }, out);
         };
         SegmentsFromSource<Floats<BYTES>> from_source;
-        near(border.length, from_source.segments.length);
-        near(border.half_inverse, from_source.segments.half_inverse);
-        near(border.foot, from_source.foot);
-        near(border.height, from_source.height);
+        beside(border.length, from_source.segments.length);
+        beside(border.half_inverse, from_source.segments.half_inverse);
+        beside(border.foot, from_source.foot);
+        beside(border.height, from_source.height);
         Floats<BYTES> first, second, sum, square;
-        codes_near<BYTES>(ways, r, first, second);
+        codes_beside<BYTES>(ways, r, first, second);
         first *= border.quantum;
         second *= border.quantum;
-        near(border.distance, sum);
+        beside(border.distance, sum);
         sum += first;
         from_source.square_across(first, second, square);
         split(sum, sums + r);
         split(square, squares + r);
     }
-    NearFloats over;
+    BesideFloats over;
     least_lanes(squares, distances);
     take_square_root(distances);
     pick_lanes<Rings::REACH>(sums, over);
@@ -157,7 +157,7 @@ template <size_t BYTES>
                                            Rows rows, float* distances) {
     const BorderFromSource border = shared_border; // which nothing that is written can change
     const size_t count = rows.size();
-    NearFloats measured;
+    BesideFloats measured;
     size_t r = 0;
     for (; r + 4 <= count; r += 4) {
         measure_four<BYTES>(border, {places + r, rows.data() + r}, measured);

@@ -148,7 +148,7 @@ template <class Wide, class Part>
 
 template <size_t BYTES>
 [[gnu::always_inline]] inline float least_of(const Floats<BYTES>& floats) {
-    NearFloats four;
+    BesideFloats four;
     fold(floats, four);
     return std::min(std::min(four[0], four[1]), std::min(four[2], four[3]));
 }

@@ -202,7 +202,7 @@ float OverlaySssd::meet(const From& from) {
          find_candidates(index_, patch, samples_.distance, to_.ascent.sample_distances))
         if (from.find_ranges(place) && to_.ranges.find(to_.ascent, {place, place}))
             shortest = std::min(shortest, measure(from));
-    if (!(shortest <= index_.near[patch])) return shortest;
+    if (!(shortest <= index_.samples.shortest_told[patch])) return shortest;
     const float reach = shortest + 2 * index_.samples.longest_gap[patch];
     if (from.find_ranges_within(reach) &&
         to_.ranges.find(to_.ascent, samples_within(index_, to_.ascent, reach)))
