@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <experimental/simd>
-#include <limits>
 
 #include "src/graph/query.h"
 

@@ -1,8 +1,5 @@
 #include "src/graph/query.h"
 
-#include <algorithm>
-#include <limits>
-
 namespace geodesic {
 
 GraphQuery::GraphQuery(const GraphIndex& index, std::pmr::memory_resource* memory)

@@ -1,7 +1,6 @@
 #include "src/metric/weighted_surface.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "format/error.h"
 #include "src/metric/event_queue.h"

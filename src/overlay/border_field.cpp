@@ -1,7 +1,6 @@
 #include "src/overlay/border_field.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace geodesic {
 

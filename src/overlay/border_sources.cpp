@@ -1,7 +1,6 @@
 #include "src/overlay/border_sources.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "src/overlay/codes.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <memory_resource>
 
 #include "src/overlay/ring_segments.h"
 #include "src/overlay/tables.h"

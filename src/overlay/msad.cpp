@@ -1,7 +1,6 @@
 #include "src/overlay/msad.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "src/overlay/ascend.h"
 #include "src/overlay/descend.h"

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <limits>
+#include <algorithm>
+#include <memory_resource>
 #include <span>
 
 #include "src/overlay/border_field.h"

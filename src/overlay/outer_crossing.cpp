@@ -1,7 +1,5 @@
 #include "src/overlay/outer_crossing.h"
 
-#include <limits>
-
 namespace geodesic {
 
 OuterCrossing::OuterCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory)

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <limits>
+#include <memory_resource>
+#include <span>
 
 #include "src/overlay/msad.h"
 #include "src/overlay/ssad.h"

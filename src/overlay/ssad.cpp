@@ -1,7 +1,6 @@
 #include "src/overlay/ssad.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "src/overlay/ascend.h"
 #include "src/overlay/descend.h"

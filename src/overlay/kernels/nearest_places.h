@@ -1,7 +1,6 @@
 #pragma once
 
 #include <bit>
-#include <limits>
 
 #include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/kernels/lanes.h"

@@ -1,6 +1,7 @@
 #include "src/overlay/sssd/border_range.h"
 
-#include "src/overlay/kernels/crossing.h"
+#include "src/overlay/codes.h"
+#include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/sssd/border_crossing.h"
 
 namespace geodesic {
