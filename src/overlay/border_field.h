@@ -44,7 +44,8 @@ public:
     // Prepares the distances that were written. Returns whether the source reaches any of the places.
     bool finish();
 
-    // These may be called once finish() has returned true; Kernels describes them.
+    // These may be called once finish() has returned true; Kernels describes them. cross_near() reads and
+    // writes distances, and does nothing if no place is near.
     bool is_near() const { return range_.is_near(); }
     float reach() const { return range_.reach; }
     void cross(Rows rows, float* distances, uint16_t* winners = nullptr) const {

@@ -26,6 +26,9 @@ void descend_into(const Numbering& numbering, uint32_t patch, const Hop& hop) {
 // has enough of them are shared out to the threads, each patch with all of its descendants. The levels above
 // are done before, with `top` as their scratch. The calling thread takes part, and works alone if no other
 // thread can be started. Throws what a hop throws on any thread.
+// Of what the threads share, hop(p) may write only what belongs to the inner vertices of p, and read only
+// that and what belongs to the border of p. The vertices of this border are inner vertices of patches around
+// p, which the same thread has done before, or the levels above: that is why threads can share.
 template <class Scratch, class Hop>
 void descend_everywhere(const Numbering& numbering, Scratch& top, std::span<Scratch> scratch,
                         const Hop& hop) {

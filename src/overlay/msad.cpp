@@ -20,8 +20,9 @@ void OverlayMsad::Scratch::begin() {
     near_sources.clear();
 }
 
-// The source of each way of a hop. It is the source that the place of the border that the way leads over is
-// nearest to, or if it need not be told for each way, that of any place.
+// Finds the source of each way of a hop. With of_each, the source of each way is that of its winner.
+// Otherwise all ways have any one source: the border has only one, or the targets are internal vertices,
+// whose sources nobody reads.
 void OverlayMsad::Scratch::find_sources(size_t rows, bool of_each) {
     for (size_t r = 0; r < rows; ++r)
         source[r] = !of_each                                   ? border_sources.any()

@@ -22,9 +22,10 @@ class NearSources {
 public:
     NearSources(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
+    // Forgets all vertices. Call it before the first add(), too.
     void clear();
-    // Adds a vertex to those borders on which it lies within the near radius of its source. `nearest` is the
-    // vertex's least distance from any source that is known so far. A source that is more than two segment
+    // Adds a vertex to those borders on which it lies within the near radius of its source. `nearest` is an
+    // upper bound of the vertex's least distance from any source. A source that is more than two segment
     // lengths farther from the vertex than that is skipped: the nearest source is nearer to both ends of any
     // segment that the skipped one's path could cross there.
     void add(const NearVertex& vertex, float nearest) {
@@ -54,6 +55,7 @@ class NearCrossing {
 public:
     NearCrossing(const OverlayIndex& index, size_t most_rows, std::pmr::memory_resource* memory);
 
+    // Takes the memory that cross() needs. Call it before the first one.
     void reserve() { own_.resize(numbering_.border_vertex_count(), INFINITE); }
 
     // The vertices that a hop leads to, and for each of them the least distance so far and the source that it
@@ -65,8 +67,9 @@ public:
     };
 
     // Lowers the distances by ways from each of these vertices' sources over near segments of the patch's
-    // border, on which the vertices lie. Calls found(source, row, distance) for every way that is near,
-    // whether it is shorter or not. Call reserve() before.
+    // border, on which the vertices lie. Sorts `vertices` by their sources, and skips a source which is
+    // nearest to none of them; nearest_source is by number. Calls found(source, row, distance) for every way
+    // that is near, whether it is shorter or not.
     template <class Found>
     void cross(uint32_t patch, Array<NearVertex>& vertices, const Ways& ways, const uint32_t* nearest_source,
                const Found& found) {

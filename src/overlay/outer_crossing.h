@@ -30,8 +30,7 @@ public:
     bool begin(uint32_t child, DistanceField distance, const RingSegments& segments);
 
     // Hops to each position of the parent's overlay; call it only if begin() returned true. The result is
-    // infinite on the child's own border, whose distances are known. `winners` is described at
-    // Kernels.
+    // infinite on the child's own border, whose distances are known. Kernels describes `winners`.
     std::span<float> cross(uint16_t* winners = nullptr);
 
     // The vertices of the parent's overlay, by their positions, with the rows of the outer table.

@@ -18,7 +18,7 @@ public:
           batch_(index, memory, FIELDS_AT_ONCE), vertex_count_(index.numbering.vertex_count()),
           prepared_distance_(memory) {}
 
-    // The answer is the same bits for both orders of a pair if the caller passes the lower number first.
+    // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
     float sssd(uint32_t low, uint32_t high) { return pairs_.distance(low, high); }
 
     // Prepares a source: prepared_sssd() then answers distances from it.

@@ -74,8 +74,9 @@ struct Kernels {
 
     const char* name;
 
-    // Fills code, foot and height, which are the border's own, from the rest of it; codes only where is_own
-    // is -1, not 0. If the nearest place is at infinity, it fills nothing.
+    // Fills code, foot and height, which must be the arrays that `border` points to, from the rest of the
+    // border. Where is_own is 0 and not -1, the code is that of a place that is not reached. If the nearest
+    // place is at infinity, it fills nothing.
     NearRange (*prepare_crossing)(const BorderFromSource& border, const int32_t* is_own, int16_t* code,
                                   float* foot, float* height);
 
@@ -83,22 +84,24 @@ struct Kernels {
     // that is shorter, or infinity; winners[r], if not NULL: that place, or NO_PLACE.
     void (*cross)(const BorderFromSource& border, Rows rows, float* distances, uint16_t* winners);
 
-    // distances[r], where it is near: the least way over row r and a near place, or straightened over any
-    // segment that is near. Where a border is jagged, the straight way does not always pass near the place
-    // with the least sum.
+    // Call after cross(): distances[r] is read and written. If it is at most range.reach, it is replaced by
+    // the least way over row r and a near place, or straightened over any segment that is near, if there is
+    // one; any number below the reach asks for a row without cross(). Where a border is jagged, the straight
+    // way does not always pass near the place with the least sum.
     void (*cross_near)(const BorderFromSource& border, const NearRange& range, Rows rows, float* distances);
 
-    // winners[r]: the place with the least sum of codes, or NO_PLACE; reads no more of the border than these.
+    // winners[r]: the place with the least sum of codes, or NO_PLACE. Of the border, it reads only places and
+    // code.
     void (*choose)(const BorderFromSource& border, Rows rows, uint16_t* winners);
 
     // The least way over any place, or straightened over any segment, or infinity.
     float (*meet)(const BorderBetween& border);
 
-    // A sweep is the innermost loop of MSAD: from a border to all that lies one hop inside of it, over places
-    // and middles. Each kernel of it comes for one source, and for SOURCES at once, which gives the same
-    // bits.
+    // A hop down, from a border to all that lies one hop inside of it, over places and middles. It is called
+    // sweep because a sweep of MSAD spends nearly all of its time there. Each kernel of it comes for one
+    // source, and for SOURCES at once, which gives the same bits.
 
-    // Fills codes, with room for whole blocks; middle_distance: as much room, for what it computes.
+    // Fills codes, with room for whole blocks; middle_distance: scratch of the same size.
     void (*prepare_sweep)(const BorderDistances& border, const BorderCodes& codes, float* middle_distance);
     void (*prepare_sweep_each)(const BorderDistances& border, const BorderCodes& codes,
                                float* middle_distance);

@@ -70,7 +70,10 @@ struct Ascent {
     uint32_t last_patch() const { return patches.back(); }
 
     uint32_t vertex = 0;
-    Array<uint32_t> patches;       // Each patch is the parent of the one before it.
+    // The patches whose borders the path crosses. front() is the first border, the outermost one of which the
+    // index holds all distances from the vertex; back() is the last one, of a child of the patch where the
+    // ends meet. Each is the parent of the one before it.
+    Array<uint32_t> patches;
     Array<float> sample_distances; // From the vertex to the samples of the last patch's border, once read.
 };
 

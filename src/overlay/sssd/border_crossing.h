@@ -18,8 +18,10 @@ struct BorderCrossing {
     Array<const uint16_t*> rows;
 };
 
-// Returns a row of the coarse table of a patch: one code for each place of the patch's coarse ring. Where the
-// ring has all vertices of the border, the row lies in the outer table.
+// Returns a row of the coarse table of a patch: one code for each place of the patch's coarse ring. `row`
+// counts the samples of the parent's border and then those of the borders of all its children, in the order
+// of their numbers; those of a patch begin at Samples::first_row. Where the ring has all vertices of the
+// border, the row lies in the outer table.
 inline const uint16_t* coarse_row(const OverlayIndex& index, uint32_t patch, uint32_t row) {
     const Samples& samples = index.samples;
     const uint32_t places = samples.rings.size(patch);

@@ -103,7 +103,8 @@ void BorderRanges::read_codes(const Ascent& ascent, uint32_t patch, std::span<in
 }
 
 // Returns the samples of the border before that the shortest ways to the given samples and to their two
-// neighbours come over.
+// neighbours come over. The number of a sample is its row, too: coarse tables begin with the samples of the
+// parent's own border.
 SampleRange BorderRanges::samples_before(const Ascent& ascent, size_t border, SampleRange samples) {
     const uint32_t patch = ascent.patches[border], before = ascent.patches[border - 1];
     const Rings& rings = index_.samples.rings;
@@ -121,6 +122,7 @@ SampleRange BorderRanges::samples_before(const Ascent& ascent, size_t border, Sa
 }
 
 // Asks for the segments of a border's range and for the codes from there to the range of the next border.
+// A position in the next border is the overlay position, too: the overlay of a patch begins with its border.
 void BorderRanges::prefetch_tables(const Ascent& ascent, size_t border) const {
     const uint32_t patch = ascent.patches[border];
     const BorderRange range = ranges_[border];

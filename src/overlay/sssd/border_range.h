@@ -33,7 +33,8 @@ struct SampleRange {
 // Returns the range from the least to the greatest winner of a crossing; those without a way do not count.
 SampleRange range_of_winners(std::span<const uint16_t> winners);
 
-// Returns the range of all samples of the last border that are no farther from the end than `reach`.
+// Returns the range of all samples of the last border that are no farther from the end than `reach`. The
+// ascent's sample_distances must have been read.
 SampleRange samples_within(const OverlayIndex& index, const Ascent& ascent, float reach);
 
 // The ranges of all borders that paths from one end to some samples of its last border may cross. They are
@@ -61,13 +62,13 @@ private:
     void prefetch_tables(const Ascent& ascent, size_t border) const;
 
     const OverlayIndex& index_;
-    Array<BorderRange> ranges_;
+    Array<BorderRange> ranges_;     // One for each patch of the ascent.
     Array<int16_t> first_codes_;    // From the end to the places of the first border's coarse ring.
-    Array<int16_t> codes_;          // Scratch: likewise, of another border.
-    Array<float> sample_distances_; // Scratch of read_codes(), as are the codes of these.
-    Array<int16_t> sample_codes_;
-    Array<const uint16_t*> rows_; // Scratch of samples_before(), as are the winners of these rows.
-    Array<uint16_t> winners_;
+    Array<int16_t> codes_;          // From the end to the places of another border's coarse ring.
+    Array<float> sample_distances_; // Scratch of read_codes(): from the end to the samples of a border.
+    Array<int16_t> sample_codes_;   // Scratch of read_codes(): the codes of these distances.
+    Array<const uint16_t*> rows_;   // Scratch of samples_before(): the rows of the samples.
+    Array<uint16_t> winners_;       // Scratch of samples_before(): over which place each row is reached.
 };
 
 }

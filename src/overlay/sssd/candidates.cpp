@@ -17,7 +17,7 @@ constexpr float BESIDE = 1;
 struct SamplesBetween {
     const int32_t* is_own;
     const uint32_t* sample_of_place;
-    uint32_t first, last; // The places of the ring, the last one excluded.
+    uint32_t first, end; // The places of the ring, without `end`.
     std::span<const float> from, to;
 
     float sum(uint32_t place) const { return from[sample_of_place[place]] + to[sample_of_place[place]]; }
@@ -39,7 +39,7 @@ struct Way {
 // ascending order.
 std::array<Way, Candidates::MOST_BY_LENGTH> shortest_ways(SamplesBetween samples) {
     std::array<Way, Candidates::MOST_BY_LENGTH> shortest;
-    for (uint32_t k = samples.first; k < samples.last; ++k) {
+    for (uint32_t k = samples.first; k < samples.end; ++k) {
         if (!samples.is_own[k]) continue;
         Way way{samples.sum(k), k};
         if (!(way.length < INFINITE) || way.length > samples.sum(k - 1) || way.length > samples.sum(k + 1))
@@ -56,7 +56,7 @@ std::array<Way, Candidates::MOST_BY_LENGTH> shortest_ways(SamplesBetween samples
 uint32_t place_beside_an_end(SamplesBetween samples, float spacing) {
     float least = BESIDE * spacing;
     uint32_t beside = NONE;
-    for (uint32_t k = samples.first; k < samples.last; ++k) {
+    for (uint32_t k = samples.first; k < samples.end; ++k) {
         const float nearer = samples.nearer(k);
         if (!samples.is_own[k] || !(samples.sum(k) < INFINITE) || nearer >= least) continue;
         least = nearer;

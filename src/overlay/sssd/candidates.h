@@ -21,7 +21,7 @@ struct SamplesAcross {
 };
 
 // Crosses from the samples of the last border of an end to those of a sibling's border. Fills distances and
-// winners.
+// winners. The ascent's sample_distances must have been read.
 void cross_samples(const OverlayIndex& index, const Ascent& ascent, uint32_t sibling,
                    BorderCrossing& crossing, SamplesAcross& out);
 

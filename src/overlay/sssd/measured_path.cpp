@@ -15,9 +15,9 @@ void read_first_range(const OverlayIndex& index, const Ascent& ascent, BorderRan
     });
 }
 
-// Lets the crossing begin with the distances from a range of a patch's border. Segments at its ends are
-// included by REACH more places before and after the range, at infinity. Returns the first of all these
-// places.
+// Lets the crossing begin with the distances from a range of a patch's border. The kernel reads REACH places
+// on each side of a winner. Those outside of the range are at infinity, so that no way leads over them.
+// Returns the first of all these places.
 uint32_t begin_crossing(const OverlayIndex& index, uint32_t patch, BorderRange range, const float* distances,
                         BorderField& field) {
     const Rings& rings = index.rings;
@@ -69,6 +69,7 @@ void MeasuredEnd::measure(const Ascent& ascent, std::span<const BorderRange> ran
         ranges_.push_back(ranges.front());
         read_first_range(index_, ascent, ranges.front(), distances_of(0));
     }
+    // A position in the border is the overlay position, too: the overlay of a patch begins with its border.
     const auto position = [this](uint32_t place) { return index_.rings.position[place]; };
     for (size_t b = ranges_.size(); b < ranges.size(); ++b) {
         cross(index_, ascent.patches[b - 1], ranges_.back(), distances_of(b - 1), ranges[b], position,

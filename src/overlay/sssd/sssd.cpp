@@ -14,7 +14,8 @@ namespace {
 // finding the part of them that a path may cross.
 constexpr size_t FEW_PAIRS = size_t{1} << 14;
 
-// Returns the first level whose borders have few places on average and are all labelled whole.
+// Returns the first level whose borders have few places on average and are all labelled whole, or the level
+// of the leaves if there is none.
 uint32_t first_level_of_short_borders(const OverlayIndex& index) {
     constexpr uint32_t FEW = 128;
     const auto& begin = index.rings.begin;
@@ -40,7 +41,7 @@ uint32_t child_around(const Numbering& numbering, uint32_t top, uint32_t patch) 
     return patch;
 }
 
-// Distances that are known of vertices, for each place of all rings.
+// Distances by vertex number, read by place.
 struct KnownDistances {
     std::span<const float> of_vertex;
     const uint32_t* vertex;
@@ -187,6 +188,13 @@ float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, 
 // Measures the path over the whole border where `to_` ends its climb if that takes little time, and over the
 // ranges around each candidate otherwise. If the shortest path is so short that the straight way may pass
 // anywhere near the ends, measures once more, over all that lies within its length.
+//
+// to_.climb() comes before. `From` is a Climber or a KnownVertex and is asked in this order:
+// - crosses_whole(): whether all of the border may be taken;
+// - if so, take_whole(); otherwise read_samples(), and then, any number of times, find_ranges() or
+//   find_ranges_within(), which return whether a path leads over the ranges;
+// - after each of these, measure(range, out), once `to_` has been measured, which gives the range: the
+//   distances to its places on the border where `to_` ends its climb.
 template <class From>
 float OverlaySssd::meet(const From& from) {
     if (to_.ascent.patches.size() == 1 && from.crosses_whole()) {
@@ -210,8 +218,8 @@ float OverlaySssd::meet(const From& from) {
     return shortest;
 }
 
-// Measures the path over the ranges that both ends have found. The kernel reads whole blocks, behind which
-// the paths must not be shorter.
+// Measures the path over the ranges that both ends have found. The kernel reads past the range up to whole
+// blocks; infinity there gives no way.
 template <class From>
 float OverlaySssd::measure(const From& from) {
     to_.measured.measure(to_.ascent, to_.ranges.ranges(), crossing_);

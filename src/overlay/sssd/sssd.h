@@ -14,13 +14,12 @@ namespace geodesic {
 // Single source, single destination on overlay tables. Both ends climb to the children of the lowest patch
 // that has them both and meet on the border of one of these children. Short borders are crossed as a whole.
 // Of longer ones, samples give a few candidates; each is then measured over all vertices of the border ranges
-// around it. Vertices are given by
-// their numbers. An object is the scratch of one thread.
+// around it. Vertices are given by their numbers. An object is the scratch of one thread.
 class OverlaySssd {
 public:
     OverlaySssd(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
-    // Returns the same bits in both directions if low < high.
+    // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
     float distance(uint32_t low, uint32_t high);
 
     // Returns the distance from a source that was prepared: known[number] are its distances to the borders of
@@ -59,7 +58,7 @@ private:
     const uint32_t prepared_level_;
     BorderCrossing crossing_;
     End from_, to_;
-    // On the border where the ends meet, from the other end than `to_`.
+    // The other end's distances to the samples of the meeting border.
     SamplesAcross samples_;
     Array<float> from_distances_;
 };
