@@ -272,7 +272,7 @@ TEST_CASE(
     "crossing: two ends meet on a straight line or over an end of the border, by every instruction set") {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> along(-30, 90), off(0.1, 40);
-    for (size_t places : {1u, 2u, 5u, 15u, 16u, 17u, 31u, 64u, 100u})
+    for (size_t places : {5u, 15u, 16u, 17u, 31u, 64u, 100u})
         for (int repetition = 0; repetition < 50; ++repetition) {
             const std::vector<Point> line = line_of(places, random);
             const Point from{along(random), -off(random)}, to{along(random), off(random)};

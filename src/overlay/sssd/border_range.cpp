@@ -78,10 +78,13 @@ bool BorderRanges::find(const Ascent& ascent, SampleRange samples) {
     return true;
 }
 
-void BorderRanges::take_whole(const Ascent& ascent) {
-    const auto& begin = index_.rings.begin;
-    ranges_.assign(1, {begin[ascent.last_patch()], begin[ascent.last_patch() + 1] - 1});
+bool BorderRanges::take_whole(const Ascent& ascent) {
+    const uint32_t first = index_.rings.begin[ascent.last_patch()];
+    const uint32_t end = index_.rings.begin[ascent.last_patch() + 1];
+    if (first == end) return false;
+    ranges_.assign(1, {first, end - 1});
     prefetch_tables(ascent, 0);
+    return true;
 }
 
 // Writes the codes of the distances from the end to the places of a patch's coarse ring, in steps of the

@@ -95,7 +95,7 @@ struct OverlaySssd::Climber {
         return end.ascent.patches.size() == 1 &&
                size_t{rings.size(patch)} * rings.size(end.ascent.last_patch()) <= FEW_PAIRS;
     }
-    void take_whole() const { end.ranges.take_whole(end.ascent); }
+    bool take_whole() const { return end.ranges.take_whole(end.ascent); }
     void measure(BorderRange range, std::span<float> out) const {
         end.measured.measure(end.ascent, end.ranges.ranges(), search.crossing_);
         end.measured.cross_to(end.ascent, patch, range, search.crossing_, out);
@@ -117,7 +117,7 @@ struct OverlaySssd::KnownVertex {
     bool find_ranges(uint32_t) const { return true; }
     bool find_ranges_within(float) const { return true; }
     bool crosses_whole() const { return true; }
-    void take_whole() const {}
+    bool take_whole() const { return true; }
     void measure(BorderRange range, std::span<float> out) const {
         for (uint32_t i = 0; i < range.size(); ++i) out[i] = distance_to(range.first + i);
     }
@@ -197,11 +197,8 @@ float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, 
 //   distances to its places on the border where `to_` ends its climb.
 template <class From>
 float OverlaySssd::meet(const From& from) {
-    if (to_.ascent.patches.size() == 1 && from.crosses_whole()) {
-        from.take_whole();
-        to_.ranges.take_whole(to_.ascent);
-        return measure(from);
-    }
+    if (to_.ascent.patches.size() == 1 && from.crosses_whole())
+        return from.take_whole() && to_.ranges.take_whole(to_.ascent) ? measure(from) : INFINITE;
     to_.read_samples(index_);
     from.read_samples();
     const uint32_t patch = to_.ascent.last_patch();
