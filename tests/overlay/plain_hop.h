@@ -1,0 +1,163 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "tests/overlay/stored_tables.h"
+
+// A hop in plain loops, written after the text of format/SPEC.md, "Distances of the overlay engine".
+namespace geodesic::test {
+
+inline constexpr double NOWHERE = std::numeric_limits<double>::infinity();
+
+// What happened in a hop to one vertex.
+struct Hop {
+    double distance = NOWHERE;
+    uint32_t over = NONE;         // b of a hop over vertices
+    bool had_sum = true;          // whether any sum counted
+    bool is_near = false;         // whether the near rule replaced the distance,
+    bool is_other = false;        // by another one
+    bool is_straightened = false; // whether a way over a segment beside b was less than that over b
+};
+
+// From one source over one border. What decides between sums of steps is in single precision, as the text has
+// it: the steps themselves, the distances of middles and their codes. All else is in double precision.
+class PlainHop {
+public:
+    PlainHop(const StoredBorder& border, std::vector<float> distances, float quantum)
+        : border_(border), distances_(std::move(distances)), quantum_(quantum) {
+        for (uint32_t k = 0; k < border.size(); ++k)
+            if (border.end[k] != NONE && distances_[k] < INFINITE)
+                near_radius_ = std::max(near_radius_, 5 * double{border.length[k]});
+        for (uint32_t k = 0; k < border.size(); ++k) {
+            middles_.push_back(middle(k));
+            least_ = std::min(least_, distances_[k]);
+        }
+        least_or_middle_ = least_;
+        for (const float m : middles_)
+            if (!std::isnan(m)) least_or_middle_ = std::min(least_or_middle_, m);
+    }
+
+    bool is_reached() const { return least_ < INFINITE; }
+
+    Hop over_vertices(const std::vector<uint16_t>& row) const {
+        Hop hop;
+        if (!is_reached()) return hop;
+        int32_t least_sum = 32767;
+        for (uint32_t b = 0; b < border_.size(); ++b) {
+            const int32_t sum = steps(distances_[b], least_) + row[b];
+            if (sum >= least_sum) continue;
+            least_sum = sum;
+            hop.over = b;
+        }
+        hop.had_sum = least_sum < 32767;
+        double least = NOWHERE;
+        if (!hop.had_sum) hop.over = first_least_way(row);
+        if (hop.over != NONE) {
+            least = way_over(row, hop.over);
+            const double over_vertex = least;
+            for (const uint32_t p : border_.beside(hop.over)) least = std::min(least, way_across(row, p));
+            hop.is_straightened = least < over_vertex;
+        }
+        return follow_near_rule(row, hop, least);
+    }
+
+    Hop over_middles(const std::vector<uint16_t>& row) const {
+        Hop hop;
+        if (!is_reached()) return hop;
+        int32_t least_sum = 32767;
+        for (uint32_t b = 0; b < border_.size(); ++b) {
+            least_sum = std::min(least_sum, steps(distances_[b], least_or_middle_) + row[b]);
+            const float code = middle_code(row, b);
+            if (std::isnan(middles_[b]) || std::isnan(code)) continue;
+            least_sum =
+                std::min(least_sum, steps(middles_[b], least_or_middle_) + static_cast<int32_t>(code));
+        }
+        hop.had_sum = least_sum < 32767;
+        if (hop.had_sum)
+            return follow_near_rule(row, hop, double{least_or_middle_} + least_sum * double{quantum_});
+        const uint32_t b = first_least_way(row);
+        return follow_near_rule(row, hop, b == NONE ? NOWHERE : way_over(row, b));
+    }
+
+private:
+    // More than every sum where there is no distance.
+    int32_t steps(float distance, float least) const {
+        if (!(distance < INFINITE)) return 1 << 20;
+        const float inverse = quantum_ == 0 ? 0 : 1 / quantum_;
+        return static_cast<int32_t>(std::trunc(std::min((distance - least) * inverse + 0.5f, 32766.0f)));
+    }
+
+    // The distance of the source from the middle of the segment that begins at p, NaN if there is none.
+    float middle(uint32_t p) const {
+        if (border_.end[p] == NONE) return NAN;
+        const float at_p = distances_[p], at_q = distances_[border_.end[p]], length = border_.length[p];
+        return std::sqrt(0.5f * (at_p * at_p + at_q * at_q) - 0.25f * (length * length));
+    }
+    // The same for x, as a code.
+    float middle_code(const std::vector<uint16_t>& row, uint32_t p) const {
+        if (border_.end[p] == NONE || row[p] == NO_PATH || row[border_.end[p]] == NO_PATH) return NAN;
+        const float at_p = row[p], at_q = row[border_.end[p]], length = border_.length[p] / quantum_;
+        return std::trunc(std::sqrt(0.5f * (at_p * at_p + at_q * at_q) - 0.25f * (length * length)) + 0.5f);
+    }
+
+    double to_vertex(const std::vector<uint16_t>& row, uint32_t b) const {
+        return row[b] == NO_PATH ? NOWHERE : row[b] * double{quantum_};
+    }
+    double way_over(const std::vector<uint16_t>& row, uint32_t b) const {
+        return double{distances_[b]} + to_vertex(row, b);
+    }
+    uint32_t first_least_way(const std::vector<uint16_t>& row) const {
+        double least = NOWHERE;
+        uint32_t first = NONE;
+        for (uint32_t b = 0; b < border_.size(); ++b)
+            if (const double way = way_over(row, b); way < least) {
+                least = way;
+                first = b;
+            }
+        return first;
+    }
+
+    // The way over the segment that begins at p, straightened; infinite if there is none.
+    double way_across(const std::vector<uint16_t>& row, uint32_t p) const {
+        const uint32_t q = border_.end[p];
+        if (q == NONE) return NOWHERE;
+        const double length{border_.length[p]};
+        const auto along = [&](double from_p, double from_q) {
+            return (from_p - from_q) * (from_p + from_q) * (0.5 / length) + 0.5 * length;
+        };
+        const auto off = [](double from_p, double x) { return std::sqrt((from_p - x) * (from_p + x)); };
+        const double source_p{distances_[p]}, source_q{distances_[q]};
+        const double target_p = to_vertex(row, p), target_q = to_vertex(row, q);
+        const double xs = along(source_p, source_q), ys = off(source_p, xs);
+        const double xt = along(target_p, target_q), yt = off(target_p, xt);
+        if (std::isnan(xs) || std::isnan(ys) || std::isnan(xt) || std::isnan(yt)) return NOWHERE;
+        const double crossing = xs * yt + xt * ys;
+        if (!(0 < crossing && crossing < length * (ys + yt))) return NOWHERE;
+        return std::sqrt((xs - xt) * (xs - xt) + (ys + yt) * (ys + yt));
+    }
+
+    Hop follow_near_rule(const std::vector<uint16_t>& row, Hop hop, double found) const {
+        hop.distance = found;
+        if (double{least_} > near_radius_ || found > near_radius_) return hop;
+        double least = NOWHERE;
+        for (uint32_t b = 0; b < border_.size(); ++b)
+            least = std::min({least, way_over(row, b), way_across(row, b)});
+        hop.is_near = true;
+        hop.is_other = std::abs(least - found) > 1e-3 * found;
+        hop.distance = least;
+        return hop;
+    }
+
+    const StoredBorder& border_;
+    std::vector<float> distances_; // per position
+    float quantum_;
+    double near_radius_ = 0;
+    std::vector<float> middles_; // per position: NaN if no middle is there
+    float least_ = INFINITE, least_or_middle_ = INFINITE;
+};
+
+}
