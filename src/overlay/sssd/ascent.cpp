@@ -48,14 +48,17 @@ void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Ascent& asc
     }
 }
 
-void read_samples(const OverlayIndex& index, uint32_t vertex, uint32_t patch, std::span<float> out) {
+void read_samples(const OverlayIndex& index, Ascent& ascent) {
+    const uint32_t vertex = ascent.vertex, patch = ascent.last_patch();
+    const auto samples = index.samples.of(patch);
+    ascent.sample_distances.resize(samples.size());
     if (patch == index.numbering.innermost_patch(vertex)) {
-        read_samples(index, patch, inner_row_of(index, vertex), out);
+        read_samples(index, patch, inner_row_of(index, vertex), ascent.sample_distances);
         return;
     }
-    const auto samples = index.samples.of(patch);
     const BorderLabel label = label_of(index, vertex, patch);
-    for (uint32_t i = 0; i < samples.size(); ++i) out[i] = label.distance(label.is_whole ? samples[i] : i);
+    for (uint32_t i = 0; i < samples.size(); ++i)
+        ascent.sample_distances[i] = label.distance(label.is_whole ? samples[i] : i);
 }
 
 }

@@ -81,7 +81,7 @@ struct Ascent {
 // holds the distances to all vertices: those inside of it need not be crossed.
 void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Ascent& ascent);
 
-// Writes the distances of a vertex from the samples of the border of a patch around it.
-void read_samples(const OverlayIndex& index, uint32_t vertex, uint32_t patch, std::span<float> out);
+// Reads the distances of the vertex from the samples of the last border.
+void read_samples(const OverlayIndex& index, Ascent& ascent);
 
 }

@@ -62,25 +62,23 @@ void OverlaySssd::End::climb(const OverlayIndex& index, uint32_t vertex, uint32_
 }
 
 void OverlaySssd::End::read_samples(const OverlayIndex& index) {
-    ascent.sample_distances.resize(index.samples.of(ascent.last_patch()).size());
-    geodesic::read_samples(index, ascent.vertex, ascent.last_patch(), ascent.sample_distances);
+    geodesic::read_samples(index, ascent);
     ranges.begin(ascent);
 }
 
 struct OverlaySssd::Climber {
     OverlaySssd& search;
     End& end;
-    uint32_t patch; // Where the ends meet: its border is crossed to from that of a sibling.
 
     void read_samples() const {
         end.read_samples(search.index_);
-        cross_samples(search.index_, end.ascent, patch, search.crossing_, search.samples_);
+        cross_samples(search.index_, end.ascent, search.meeting_patch(), search.crossing_, search.samples_);
     }
 
     // Finds the ranges of paths to a sample and to its two neighbours.
     bool find_ranges(uint32_t place) const {
         const Samples& samples = search.index_.samples;
-        const uint32_t* sample = samples.sample_of_place.data() + samples.rings.begin[patch];
+        const uint32_t* sample = samples.sample_of_place.data() + samples.rings.begin[search.meeting_patch()];
         const auto& winner = search.samples_.winner;
         const std::array<uint16_t, 3> winners{winner[sample[place - 1]], winner[sample[place]],
                                               winner[sample[place + 1]]};
@@ -93,24 +91,24 @@ struct OverlaySssd::Climber {
     bool crosses_whole() const {
         const Rings& rings = search.index_.rings;
         return end.ascent.patches.size() == 1 &&
-               size_t{rings.size(patch)} * rings.size(end.ascent.last_patch()) <= FEW_PAIRS;
+               size_t{rings.size(search.meeting_patch())} * rings.size(end.ascent.last_patch()) <= FEW_PAIRS;
     }
     bool take_whole() const { return end.ranges.take_whole(end.ascent); }
     void measure(BorderRange range, std::span<float> out) const {
         end.measured.measure(end.ascent, end.ranges.ranges(), search.crossing_);
-        end.measured.cross_to(end.ascent, patch, range, search.crossing_, out);
+        end.measured.cross_to(end.ascent, search.meeting_patch(), range, search.crossing_, out);
     }
 };
 
-// distance_to(place) is the distance to a place of the patch's ring. No border lies before this one, so that
-// there are no ranges to find.
+// distance_to(place) is the distance to a place of the ring where the ends meet. No border lies before this
+// one, so that there are no ranges to find.
 template <class DistanceTo>
 struct OverlaySssd::KnownVertex {
     OverlaySssd& search;
-    uint32_t patch;
     DistanceTo distance_to;
 
     void read_samples() const {
+        const uint32_t patch = search.meeting_patch();
         search.samples_.distance.resize(search.index_.samples.of(patch).size());
         geodesic::read_samples(search.index_, patch, distance_to, search.samples_.distance);
     }
@@ -129,17 +127,15 @@ float OverlaySssd::distance(uint32_t low, uint32_t high) {
     const bool low_climbs = low_patch != top, high_climbs = high_patch != top;
     if (!low_climbs && !high_climbs) return distance_inside(top, low, high);
     const uint32_t climber = high_climbs ? high : low, other = high_climbs ? low : high;
-    const uint32_t patch = child_around(numbering_, top, numbering_.innermost_patch(climber));
-    if (low_climbs && high_climbs) {
-        to_.climb(index_, climber, top);
-        from_.climb(index_, other, top);
-        return meet(Climber{*this, from_, patch});
-    }
-    if (const float d = distance_to_border(patch, other, climber); d < INFINITE) return d;
     to_.climb(index_, climber, top);
+    if (low_climbs && high_climbs) {
+        from_.climb(index_, other, top);
+        return meet(Climber{*this, from_});
+    }
+    const uint32_t patch = meeting_patch();
+    if (const float d = distance_to_border(patch, other, climber); d < INFINITE) return d;
     const uint32_t position = numbering_.position_at_owner(other);
     return meet(KnownVertex<RingRow>{*this,
-                                     patch,
                                      {index_.hops.outer.data() + index_.outer_row(patch, position),
                                       index_.rings.begin[patch], index_.quantum[top]}});
 }
@@ -182,7 +178,7 @@ float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, 
             if (const float d = distance_to_border(patch, source, target); d < INFINITE) return d;
     }
     to_.climb(index_, target, numbering_.parent[patch]);
-    return meet(KnownVertex<KnownDistances>{*this, patch, {known, index_.rings.vertex.data()}});
+    return meet(KnownVertex<KnownDistances>{*this, {known, index_.rings.vertex.data()}});
 }
 
 // Measures the path over the whole border where `to_` ends its climb if that takes little time, and over the
@@ -201,7 +197,7 @@ float OverlaySssd::meet(const From& from) {
         return from.take_whole() && to_.ranges.take_whole(to_.ascent) ? measure(from) : INFINITE;
     to_.read_samples(index_);
     from.read_samples();
-    const uint32_t patch = to_.ascent.last_patch();
+    const uint32_t patch = meeting_patch();
     float shortest = INFINITE;
     for (const uint32_t place :
          find_candidates(index_, patch, samples_.distance, to_.ascent.sample_distances))

@@ -45,6 +45,9 @@ private:
     template <class DistanceTo>
     struct KnownVertex;
 
+    // Where `to_` has climbed to: the ends meet on the border of this patch.
+    uint32_t meeting_patch() const { return to_.ascent.last_patch(); }
+
     float distance_inside(uint32_t patch, uint32_t low, uint32_t high) const;
     float distance_to_border(uint32_t patch, uint32_t border_vertex, uint32_t vertex) const;
 
