@@ -94,8 +94,8 @@ public:
 
     // The code where only a distance of 0 is 0 steps, so that different vertices stay apart.
     int16_t code_apart(float distance) const {
-        const bool is_together = nearest_ > 0 || distance == 0;
-        return std::max(code(distance), static_cast<int16_t>(SourceCode::NEAREST + (is_together ? 0 : 1)));
+        const int least = nearest_ > 0 || distance == 0 ? 0 : 1; // steps beyond nearest()
+        return std::max(code(distance), static_cast<int16_t>(SourceCode::NEAREST + least));
     }
 
 private:
