@@ -1,7 +1,6 @@
 #include "src/tables/closure.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "src/overlay/unfolding.h"
 
