@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "src/overlay/codes.h"
 
@@ -21,34 +22,54 @@ std::span<const float> of_leaf(const std::vector<float>& all, const Array<uint64
     return std::span(all).subspan(begin[leaf], begin[leaf + 1] - begin[leaf]);
 }
 
-std::vector<float> smallest_quanta(const DistanceTables& tables, const Numbering& numbering) {
-    std::vector<float> quantum;
-    for (const auto& table : tables.overlay) quantum.push_back(longest(table) / TableCode::LARGEST);
-    for (size_t leaf = 0; leaf + 1 < numbering.internal_begin.size(); ++leaf)
-        quantum.push_back(
-            std::max(longest(of_leaf(tables.border_internal, numbering.border_internal_begin, leaf)),
-                     longest(of_leaf(tables.internal, numbering.internal_table_begin, leaf))) /
-            TableCode::LARGEST);
-    // The labels of deeper vertices count in steps of this quantum, so that it must not be 0 where a table
-    // has no distance but 0, as it is if all its borders meet in one vertex.
-    for (uint32_t p = numbering.patch_count() - 1; p > 0; --p) {
-        const uint32_t parent = numbering.parent[p];
-        if (longest(tables.overlay[parent]) == 0) quantum[parent] = std::max(quantum[parent], quantum[p]);
+float longest_of_leaf(uint32_t leaf, const Numbering& numbering, const DistanceTables& tables) {
+    const uint32_t i = leaf - numbering.first_leaf();
+    return std::max(longest(of_leaf(tables.border_internal, numbering.border_internal_begin, i)),
+                    longest(of_leaf(tables.internal, numbering.internal_table_begin, i)));
+}
+
+// The longest distance in the tables of the leaves inside of a patch.
+float longest_of_leaves_inside(uint32_t patch, const Numbering& numbering, const DistanceTables& tables) {
+    uint32_t first = patch, end = patch + 1;
+    while (first < numbering.first_leaf()) {
+        first = numbering.child_begin[first];
+        end = numbering.child_begin[end];
     }
-    return quantum;
+    float longest = 0;
+    for (uint32_t leaf = first; leaf < end; ++leaf)
+        longest = std::max(longest, longest_of_leaf(leaf, numbering, tables));
+    return longest;
+}
+
+void add_codes(std::span<const float> distances, float quantum, std::vector<uint16_t>& codes) {
+    for (float d : distances) codes.push_back(TableCode::nearest_to(d, quantum));
 }
 
 // Adds the codes of owned x border, then those of owned x owned below the diagonal.
-void hand_over_overlay(std::span<const float> table, uint32_t patch, const Numbering& numbering,
+void hand_over_overlay(uint32_t patch, const Numbering& numbering, DistanceTables& tables,
                        StoredIndex& stored) {
+    const std::vector<float> table = std::exchange(tables.overlay[patch], {});
+    // Labels count in steps of this quantum, so that it must not be 0 where a table has no distance but 0, as
+    // it is if all its borders meet in one vertex.
+    const float own = longest(table);
+    stored.quantum.push_back((own > 0 ? own : longest_of_leaves_inside(patch, numbering, tables)) /
+                             TableCode::LARGEST);
     const size_t border = numbering.border_size(patch), size = numbering.overlay_size(patch);
-    const auto add = [&](size_t i, size_t j) {
-        stored.overlay_codes.push_back(TableCode::nearest_to(table[i * size + j], stored.quantum[patch]));
-    };
     for (size_t i = border; i < size; ++i)
-        for (size_t j = 0; j < border; ++j) add(i, j);
+        add_codes(std::span(table).subspan(i * size, border), stored.quantum[patch], stored.overlay_codes);
     for (size_t i = border; i < size; ++i)
-        for (size_t j = border; j < i; ++j) add(i, j);
+        add_codes(std::span(table).subspan(i * size + border, i - border), stored.quantum[patch],
+                  stored.overlay_codes);
+}
+
+void hand_over_leaf(uint32_t patch, const Numbering& numbering, const DistanceTables& tables,
+                    StoredIndex& stored) {
+    const uint32_t leaf = patch - numbering.first_leaf();
+    const auto border_internal = of_leaf(tables.border_internal, numbering.border_internal_begin, leaf);
+    const auto internal = of_leaf(tables.internal, numbering.internal_table_begin, leaf);
+    stored.quantum.push_back(longest_of_leaf(patch, numbering, tables) / TableCode::LARGEST);
+    add_codes(border_internal, stored.quantum[patch], stored.border_internal_codes);
+    add_codes(internal, stored.quantum[patch], stored.internal_codes);
 }
 
 }
@@ -60,19 +81,11 @@ DistanceTables::DistanceTables(const Numbering& numbering)
         overlay.emplace_back(size_t{numbering.overlay_size(p)} * numbering.overlay_size(p), INFINITE);
 }
 
-void hand_over(DistanceTables tables, const Numbering& numbering, StoredIndex& stored) {
-    stored.quantum = smallest_quanta(tables, numbering);
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
-        hand_over_overlay(tables.overlay[p], p, numbering, stored);
-        tables.overlay[p] = {};
-    }
-    for (size_t leaf = 0; leaf + 1 < numbering.internal_begin.size(); ++leaf) {
-        const float quantum = stored.quantum[numbering.first_leaf() + leaf];
-        for (float d : of_leaf(tables.border_internal, numbering.border_internal_begin, leaf))
-            stored.border_internal_codes.push_back(TableCode::nearest_to(d, quantum));
-        for (float d : of_leaf(tables.internal, numbering.internal_table_begin, leaf))
-            stored.internal_codes.push_back(TableCode::nearest_to(d, quantum));
-    }
+void hand_over(uint32_t patch, const Numbering& numbering, DistanceTables& tables, StoredIndex& stored) {
+    if (patch < numbering.first_leaf())
+        hand_over_overlay(patch, numbering, tables, stored);
+    else
+        hand_over_leaf(patch, numbering, tables, stored);
 }
 
 }

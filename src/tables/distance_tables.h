@@ -18,8 +18,9 @@ struct DistanceTables {
     std::vector<float> border_internal, internal;
 };
 
-// Rounds the distances to the codes of `stored`. Each patch gets the smallest quantum with which its longest
-// distance is a code. Tables are handed over patch by patch, and the memory of each is freed after that.
-void hand_over(DistanceTables tables, const Numbering& numbering, StoredIndex& stored);
+// Rounds the distances of one patch to codes, adds them to `stored` and frees their table. Patches are handed
+// over in the order of their numbers, each as soon as no other table is filled from its own. A patch gets the
+// smallest quantum with which its longest distance is a code.
+void hand_over(uint32_t patch, const Numbering& numbering, DistanceTables& tables, StoredIndex& stored);
 
 }
