@@ -105,9 +105,8 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     fill_tables(intake.mesh, hierarchy, vertex_of_number, options, workers, stored);
     workers.begin_stage("calibration", 0.95);
     calibrate(vertex_of_number, workers, stored);
-    workers.begin_stage("labels", 0.97);
-    workers.run(1, [&](FieldSolver&, size_t) { prepare(stored, index, [&] { workers.check_cancelled(); }); });
     workers.begin_stage("accuracy", 1);
+    workers.run(1, [&](FieldSolver&, size_t) { prepare(stored, index); });
     index.description.error = measure_error(index, vertex_of_number, workers);
 }
 

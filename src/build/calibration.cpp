@@ -27,7 +27,7 @@ void calibrate(std::span<const uint32_t> vertex_of_number, Workers& workers, Sto
     if (!crosses_between_vertices(stored.description)) return;
     const ExactFields exact = exact_fields(stored.description, vertex_of_number, CALIBRATION_SEED, workers);
     Index draft(std::pmr::get_default_resource());
-    prepare_without_pairs(stored, draft);
+    prepare(stored, draft);
     const double share =
         common_share(relative_errors(draft, Crossing::BETWEEN_VERTICES, vertex_of_number, exact, workers));
     for (size_t p = 0; p < stored.child_count.size(); ++p)

@@ -45,15 +45,10 @@ void check_mesh_matches(const geoidx_mesh* expected, const Description& about) {
                     "the index was built from a mesh with other positions or triangles");
 }
 
-// Everything in the file is looked at before the index answers.
-void prepare_from(std::span<const std::byte> file, Index& index) {
-    prepare(read_index(file), index, [] {});
-}
-
 void open_bytes(std::span<const std::byte> file, const geoidx_open_options* given, geoidx** out) {
     const geoidx_open_options options = whole_or_default(given, geoidx_open_options_init);
     OwnedIndex index = make_index(options.allocator);
-    prepare_from(file, index->index);
+    prepare(read_index(file), index->index);
     check_mesh_matches(options.expected_mesh, index->index.description);
     *out = index.release();
 }
@@ -65,7 +60,7 @@ std::vector<format::Issue> issues_of(std::span<const std::byte> file) {
     if (!issues.empty()) return issues;
     try {
         Index index(std::pmr::get_default_resource());
-        prepare_from(file, index);
+        prepare(read_index(file), index);
     } catch (const Error& error) {
         issues.push_back({error.status, 0, error.what()});
     }

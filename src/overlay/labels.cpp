@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <mutex>
 #include <numeric>
 #include <span>
 
@@ -16,18 +17,18 @@ namespace {
 
 constexpr size_t SOURCES = InnerSweep::MOST_SOURCES;
 
-void lay_out_labels(OverlayIndex& index) {
-    index.labels.offset.assign(index.numbering.patch_count(), 0);
-    index.labels.begin.assign(index.numbering.patch_count(), 0);
+void lay_out_labels(const OverlayIndex& index, Labels& labels) {
+    labels.offset.assign(index.numbering.patch_count(), 0);
+    labels.begin.assign(index.numbering.patch_count(), 0);
     uint64_t size = 0;
     for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) {
         const uint32_t parent = index.numbering.parent[p];
         if (parent != 0)
-            index.labels.offset[p] = index.labels.offset[parent] + Labels::HEAD + index.label_size(parent);
-        index.labels.begin[p] = size;
-        size += uint64_t{index.numbering.inner_size(p)} * index.labels.offset[p];
+            labels.offset[p] = labels.offset[parent] + Labels::HEAD + index.label_size(parent);
+        labels.begin[p] = size;
+        size += uint64_t{index.numbering.inner_size(p)} * labels.offset[p];
     }
-    index.labels.codes.assign(size, SourceCode::UNREACHED);
+    labels.codes.assign(size, SourceCode::UNREACHED);
 }
 
 // Sweeps from the labelled vertices of a patch's border down to the inner vertices of all its descendants,
@@ -35,8 +36,8 @@ void lay_out_labels(OverlayIndex& index) {
 // vertices.
 class LabelSweep {
 public:
-    explicit LabelSweep(OverlayIndex& index)
-        : index_(index), numbering_(index.numbering),
+    LabelSweep(const OverlayIndex& index, Labels& labels)
+        : index_(index), labels_(labels), numbering_(index.numbering),
           sweep_(index, SOURCES, std::pmr::get_default_resource()),
           distances_(SOURCES * index.numbering.vertex_count()), begin_(index.numbering.patch_count()) {}
 
@@ -88,11 +89,11 @@ private:
 
     void encode(uint32_t patch, uint32_t labelled) {
         const float quantum = index_.quantum[numbering_.parent[labelled]];
-        const size_t size = positions_.size(), step = index_.labels.offset[patch];
+        const size_t size = positions_.size(), step = labels_.offset[patch];
         const float* distance = of_border_.data() + begin_[patch];
-        const uint64_t first = index_.labels.begin[patch] + index_.labels.offset[labelled];
+        const uint64_t first = labels_.begin[patch] + labels_.offset[labelled];
         for (size_t i = 0; i < numbering_.inner_size(patch); ++i)
-            write_label({distance + i * size, size}, quantum, &index_.labels.codes[first + i * step]);
+            write_label({distance + i * size, size}, quantum, &labels_.codes[first + i * step]);
     }
 
     static void write_label(std::span<const float> distances, float quantum, int16_t* label) {
@@ -103,7 +104,8 @@ private:
         for (const float distance : distances) *label++ = steps.code_apart(distance);
     }
 
-    OverlayIndex& index_;
+    const OverlayIndex& index_;
+    Labels& labels_;
     const Numbering& numbering_;
     InnerSweep sweep_;
     std::vector<float> distances_; // [number * SOURCES + source], from the current sources
@@ -113,15 +115,21 @@ private:
     std::vector<uint32_t> positions_; // positions of the labelled vertices in the border
 };
 
+void make_labels(const OverlayIndex& index, Labels& labels) {
+    lay_out_labels(index, labels);
+    LabelSweep sweep(index, labels);
+    for (uint32_t p = 1; p < index.numbering.first_leaf(); ++p) sweep.label(p);
 }
 
-void make_labels(OverlayIndex& index, const std::function<void()>& look_up) {
-    lay_out_labels(index);
-    LabelSweep sweep(index);
-    for (uint32_t p = 1; p < index.numbering.first_leaf(); ++p) {
-        sweep.label(p);
-        look_up();
-    }
+}
+
+void require_labels(const OverlayIndex& index) {
+    Labels& labels = index.labels;
+    if (labels.are_made.load(std::memory_order_acquire)) return;
+    const std::lock_guard only_one(labels.making);
+    if (labels.are_made.load(std::memory_order_relaxed)) return;
+    make_labels(index, labels);
+    labels.are_made.store(true, std::memory_order_release);
 }
 
 }

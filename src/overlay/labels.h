@@ -1,12 +1,11 @@
 #pragma once
 
-#include <functional>
-
 #include "src/overlay/tables.h"
 
 namespace geodesic {
 
-// Fills the labels of a prepared index. It calls look_up() from time to time, which may throw to cancel.
-void make_labels(OverlayIndex& index, const std::function<void()>& look_up);
+// Makes sure that an index has its labels. The first thread that asks makes them while others wait; when that
+// throws, as where memory is short, the next one to ask begins anew.
+void require_labels(const OverlayIndex& index);
 
 }

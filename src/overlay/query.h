@@ -3,6 +3,7 @@
 #include <memory_resource>
 #include <span>
 
+#include "src/overlay/labels.h"
 #include "src/overlay/msad.h"
 #include "src/overlay/ssad.h"
 #include "src/overlay/sssd/sssd.h"
@@ -14,15 +15,19 @@ namespace geodesic {
 class OverlayQuery {
 public:
     OverlayQuery(const OverlayIndex& index, std::pmr::memory_resource* memory)
-        : pairs_(index, memory), field_(index, memory), nearest_(index, memory),
+        : index_(index), pairs_(index, memory), field_(index, memory), nearest_(index, memory),
           batch_(index, memory, FIELDS_AT_ONCE), vertex_count_(index.numbering.vertex_count()),
           prepared_distance_(memory) {}
 
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
-    float sssd(uint32_t low, uint32_t high) { return pairs_.distance(low, high); }
+    float sssd(uint32_t low, uint32_t high) {
+        need_labels();
+        return pairs_.distance(low, high);
+    }
 
     // Prepares a source: prepared_sssd() then answers distances from it.
     void prepare(uint32_t source) {
+        need_labels();
         prepared_ = source;
         prepared_distance_.resize(vertex_count_);
         field_.sweep_borders(source, pairs_.prepared_level(), prepared_distance_);
@@ -53,6 +58,15 @@ public:
     }
 
 private:
+    // The first pair of all makes the labels; later ones cost a look at a flag of this thread.
+    void need_labels() {
+        if (has_labels_) return;
+        require_labels(index_);
+        has_labels_ = true;
+    }
+
+    const OverlayIndex& index_;
+    bool has_labels_ = false;
     OverlaySssd pairs_;
     OverlaySsad field_;
     OverlayMsad nearest_;

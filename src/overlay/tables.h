@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory_resource>
+#include <mutex>
 #include <span>
 
 #include "src/base/array.h"
@@ -66,6 +68,9 @@ struct Samples {
 // nearest vertex, a float, and then a code for each labelled vertex that says by how many steps it is farther
 // (see StepsOf). All vertices of a border are labelled, in its order, if it has at most WHOLE of them;
 // otherwise its samples are.
+//
+// Only pairs need labels, which take more memory than all tables, so that require_labels() makes them when
+// the first pair is asked for.
 struct Labels {
     explicit Labels(std::pmr::memory_resource* memory) : offset(memory), begin(memory), codes(memory) {}
 
@@ -76,6 +81,8 @@ struct Labels {
                             // also how long the labels of its inner vertices are
     Array<uint64_t> begin;  // per patch: where the labels of its inner vertices begin in `codes`
     Array<int16_t> codes;
+    std::mutex making; // held while one thread fills the arrays
+    std::atomic<bool> are_made = false;
 };
 
 // What the overlay engine answers from.
@@ -90,7 +97,7 @@ struct OverlayIndex {
     Array<float> longest_segment; // per patch: length of the longest segment of its border, or 0
     HopTables hops;
     Samples samples;
-    Labels labels; // empty until make_labels() has run
+    mutable Labels labels; // empty until require_labels() has run
 
     float distance(uint16_t code, uint32_t patch) const { return TableCode::distance(code, quantum[patch]); }
 

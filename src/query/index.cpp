@@ -2,23 +2,17 @@
 
 #include "geoidx.h"
 #include "src/graph/prepare.h"
-#include "src/overlay/labels.h"
 #include "src/overlay/prepare.h"
 
 namespace geodesic {
 
-void prepare_without_pairs(const StoredIndex& stored, Index& index) {
+void prepare(const StoredIndex& stored, Index& index) {
     index.description = stored.description;
     index.number_of_id.assign(stored.number_of_id.begin(), stored.number_of_id.end());
     if (stored.description.engine == GEOIDX_ENGINE_OVERLAY)
         prepare_overlay(stored, index.engine.emplace<OverlayIndex>(index.memory));
     else
         prepare_graph(stored, index.engine.emplace<GraphIndex>(index.memory));
-}
-
-void prepare(const StoredIndex& stored, Index& index, const std::function<void()>& look_up) {
-    prepare_without_pairs(stored, index);
-    if (auto* const overlay = std::get_if<OverlayIndex>(&index.engine)) make_labels(*overlay, look_up);
 }
 
 StoredIndex restore(const Index& index) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory_resource>
 #include <variant>
 
@@ -28,13 +27,8 @@ struct Index {
     }
 };
 
-// Fills an empty index from what is stored. Calls look_up() every now and then, which may throw. Throws Error
-// where what is stored cannot be an index.
-void prepare(const StoredIndex& stored, Index& index, const std::function<void()>& look_up);
-
-// Does the same without the labels of the overlay engine: such an index answers MSAD, but no pairs. It is for
-// the builder, which measures with it.
-void prepare_without_pairs(const StoredIndex& stored, Index& index);
+// Fills an empty index from what is stored. Throws Error where what is stored cannot be an index.
+void prepare(const StoredIndex& stored, Index& index);
 
 // What is stored of an index: the opposite of prepare().
 StoredIndex restore(const Index& index);

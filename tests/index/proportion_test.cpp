@@ -10,10 +10,6 @@ using namespace geodesic::test;
 
 namespace {
 
-OverlayIndex build_overlay(const TestMesh& mesh, const geoidx_build_options& options) {
-    return std::get<OverlayIndex>(std::move(overlay_of(mesh, options).engine));
-}
-
 // As it was made, without padding.
 uint64_t codes_made(const OverlayIndex& index) {
     return index.hops.outer.size() + index.hops.inner.size() + index.hops.inner_middles.size() +
@@ -40,7 +36,8 @@ TEST_CASE("proportion: as many codes are derived as are foreseen, and they are f
         for (uint32_t levels : {1u, 2u, 3u}) {
             CAPTURE(metric);
             CAPTURE(levels);
-            const OverlayIndex index = build_overlay(grid(4, 220), build_options(metric, levels));
+            const OverlayOf built(grid(4, 220), build_options(metric, levels));
+            const OverlayIndex& index = built.overlay();
             CHECK(derived_codes(index) == codes_made(index));
             CHECK(derived_codes(index) < 40 * stored_numbers(index));
         }
@@ -51,7 +48,8 @@ TEST_CASE("proportion: coarse tables and labels to samples are foreseen") {
     const TestMesh mesh = pressed(grid(420, 7), 0.01);
     for (const auto patches : {std::initializer_list<uint32_t>{2}, {2, 3}}) {
         CAPTURE(patches.size());
-        const OverlayIndex index = build_overlay(mesh, options_of_plane(mesh, patches));
+        const OverlayOf built(mesh, options_of_plane(mesh, patches));
+        const OverlayIndex& index = built.overlay();
         CHECK(coarse_codes(index) > 10000);
         CHECK((labels_to_samples(index) > 0) == (patches.size() > 1));
         CHECK(derived_codes(index) == codes_made(index));

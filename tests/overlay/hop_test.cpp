@@ -27,15 +27,23 @@ constexpr size_t AT_ONCE = InnerSweep::MOST_SOURCES;
 
 struct Built {
     TestMesh mesh;
-    Index index;
+    OverlayOf built;
     StoredTables tables;
     std::vector<Field> fields;
 
     Built(const TestMesh& of, const geoidx_build_options& options)
-        : Built(of, options, overlay_of(of, options)) {}
-    Built(const TestMesh& of, const geoidx_build_options& options, Index made)
-        : mesh(of), index(std::move(made)), tables(index, overlay().numbering) {
-        const auto ids = ids_by_number(index);
+        : mesh(of), built(of, options), tables(built.index, overlay().numbering) {
+        solve(options);
+    }
+    Built(const TestMesh& of, const geoidx_build_options& options, const StoredIndex& stored)
+        : mesh(of), built(stored), tables(built.index, overlay().numbering) {
+        solve(options);
+    }
+    Built(const Built&) = delete; // because the tables refer into the index
+    Built& operator=(const Built&) = delete;
+
+    void solve(const geoidx_build_options& options) {
+        const auto ids = ids_by_number(built.index);
         const auto metric = solver(mesh, options);
         const auto vertices = static_cast<uint32_t>(ids.size());
         for (uint32_t i = 0; i < 2 * AT_ONCE; ++i) {
@@ -48,8 +56,6 @@ struct Built {
         for (const float farther : {INFINITE, 1000.f})
             for (uint32_t i = 0; i < AT_ONCE; ++i) add_farther_in_parts(fields[2 * i], farther);
     }
-    Built(const Built&) = delete; // because the tables refer into the index
-    Built& operator=(const Built&) = delete;
 
     // The field once more, with parts of all borders out of reach, or farther than all steps.
     void add_farther_in_parts(Field field, float farther) {
@@ -58,7 +64,7 @@ struct Built {
         fields.push_back(std::move(field));
     }
 
-    const OverlayIndex& overlay() const { return std::get<OverlayIndex>(index.engine); }
+    const OverlayIndex& overlay() const { return built.overlay(); }
     const Numbering& numbering() const { return overlay().numbering; }
     bool is_source_in(const Field& field, uint32_t patch) const {
         return numbering().is_within(numbering().innermost_patch(field.source), patch);
@@ -110,14 +116,12 @@ const Built& along_edges() {
 
 // The same with most of the tables' entries without a path, so that sums of steps often do not count.
 Built with_few_paths(const Built& of, const geoidx_build_options& options) {
-    StoredIndex stored = restore(of.index);
+    StoredIndex stored = restore(of.built.index);
     std::mt19937 random(5);
     for (auto* codes : {&stored.overlay_codes, &stored.border_internal_codes})
         for (uint16_t& code : *codes)
             if (random() % 6 != 0) code = NO_PATH;
-    Index index(std::pmr::get_default_resource());
-    prepare_without_pairs(stored, index);
-    return {of.mesh, options, std::move(index)};
+    return {of.mesh, options, stored};
 }
 
 // ---- The comparison

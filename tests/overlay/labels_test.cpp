@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <list>
 #include <utility>
 
 #include "src/query/query.h"
@@ -17,13 +18,13 @@ namespace {
 struct Labelled {
     TestMesh mesh;
     geoidx_build_options options;
-    Index index;
+    OverlayOf built;
     std::vector<uint32_t> ids; // by number
 
     Labelled(const TestMesh& built_of, const geoidx_build_options& built_with)
-        : mesh(built_of), options(built_with), index(overlay_of(mesh, options)), ids(ids_by_number(index)) {}
+        : mesh(built_of), options(built_with), built(mesh, options), ids(ids_by_number(built.index)) {}
 
-    const OverlayIndex& overlay() const { return std::get<OverlayIndex>(index.engine); }
+    const OverlayIndex& overlay() const { return built.overlay(); }
 };
 
 geoidx_build_options options_of(uint32_t metric, std::vector<uint32_t> patches) {
@@ -33,9 +34,9 @@ geoidx_build_options options_of(uint32_t metric, std::vector<uint32_t> patches) 
 }
 
 // Without segments, so that every border vertex is a sample.
-const std::vector<Labelled>& along_edges() {
-    static const std::vector<Labelled> built = [] {
-        std::vector<Labelled> made;
+const std::list<Labelled>& along_edges() {
+    static const std::list<Labelled> built = [] {
+        std::list<Labelled> made;
         made.emplace_back(hills(24, 22), options_of(GEOIDX_METRIC_EDGES, {3, 3, 3}));
         return made;
     }();
@@ -43,10 +44,10 @@ const std::vector<Labelled>& along_edges() {
 }
 
 // One with a border of more vertices than are labelled whole.
-const std::vector<Labelled>& on_planes() {
-    static const std::vector<Labelled> built = [] {
+const std::list<Labelled>& on_planes() {
+    static const std::list<Labelled> built = [] {
         static const TestMesh square = grid(40, 40, 0.2), strip = pressed(grid(500, 9), 0.008);
-        std::vector<Labelled> made;
+        std::list<Labelled> made;
         made.emplace_back(square, options_of_plane(square, {3, 3, 3}));
         made.emplace_back(strip, options_of_plane(strip, {2, 3, 2}));
         return made;
@@ -123,7 +124,7 @@ TEST_CASE("labels: along edges they are the metric's distances, within the steps
 
 TEST_CASE("labels: along edges they are those of MSAD from the border vertex, within the steps") {
     for (const Labelled& made : along_edges()) {
-        Query query(made.index, std::pmr::get_default_resource());
+        Query query(made.built.index, std::pmr::get_default_resource());
         std::vector<float> distances(made.mesh.vertex_count());
         uint32_t source = NONE;
         uint64_t wrong = 0;

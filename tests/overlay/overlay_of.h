@@ -1,17 +1,27 @@
 #pragma once
 
 #include "src/build/build.h"
+#include "src/index/stored.h"
+#include "src/overlay/labels.h"
 #include "tests/capi/calls.h"
 
 namespace geodesic::test {
 
-// The index of the overlay engine of a mesh, as it is built.
-inline Index overlay_of(const TestMesh& mesh, geoidx_build_options options) {
-    options.engine = GEOIDX_ENGINE_OVERLAY;
-    Index index(std::pmr::get_default_resource());
-    build_index(mesh.view(), options, index);
-    return index;
-}
+// An index of the overlay engine, as it is built or opened, and with its labels.
+struct OverlayOf {
+    OverlayOf(const TestMesh& mesh, geoidx_build_options options) : index(std::pmr::get_default_resource()) {
+        options.engine = GEOIDX_ENGINE_OVERLAY;
+        build_index(mesh.view(), options, index);
+        require_labels(overlay());
+    }
+    explicit OverlayOf(const StoredIndex& stored) : index(std::pmr::get_default_resource()) {
+        prepare(stored, index);
+        require_labels(overlay());
+    }
+    const OverlayIndex& overlay() const { return std::get<OverlayIndex>(index.engine); }
+
+    Index index;
+};
 
 // Vertices close together along x: the borders of its patches have many.
 inline TestMesh pressed(TestMesh mesh, double factor) {

@@ -13,16 +13,17 @@ using namespace geodesic::test;
 
 namespace {
 
-Index built(const TestMesh& mesh, const geoidx_build_options& options) {
+StoredIndex stored_of(const TestMesh& mesh, const geoidx_build_options& options) {
     Index index(std::pmr::get_default_resource());
     build_index(mesh.view(), options, index);
-    return index;
+    return restore(index);
 }
 
-Index prepared(const StoredIndex& stored) {
+// Prepared and restored.
+StoredIndex there_and_back(const StoredIndex& stored) {
     Index index(std::pmr::get_default_resource());
-    prepare_without_pairs(stored, index);
-    return index;
+    prepare(stored, index);
+    return restore(index);
 }
 
 // Other numbers in every table, no two of which are likely to be alike, so that none can stand in for
@@ -73,9 +74,9 @@ TEST_CASE("prepare and restore: every field comes back, of both engines, whateve
                 CAPTURE(levels);
                 auto options = build_options(GEOIDX_METRIC_EXACT, levels);
                 options.engine = engine;
-                StoredIndex stored = restore(built(mesh, options));
+                StoredIndex stored = stored_of(mesh, options);
                 shuffle_tables(stored, ++seed);
-                check_same(restore(prepared(stored)), stored);
+                check_same(there_and_back(stored), stored);
             }
 }
 
@@ -83,13 +84,13 @@ TEST_CASE("prepare: without segments, paths cross borders at their vertices") {
     const TestMesh mesh = grid(24, 22, 0.2);
     auto options = build_options(GEOIDX_METRIC_EXACT, 2);
     options.engine = GEOIDX_ENGINE_OVERLAY;
-    StoredIndex stored = restore(built(mesh, options));
-    const Index with = prepared(stored);
+    StoredIndex stored = stored_of(mesh, options);
+    const OverlayOf with(stored);
     CHECK(std::ranges::count(stored.segment_end, NONE) < std::ssize(stored.segment_end) / 2);
     std::ranges::fill(stored.segment_end, NONE);
     std::ranges::fill(stored.segment_length, 0.f);
-    const Index without = prepared(stored);
-    const auto& overlay = std::get<OverlayIndex>(without.engine);
+    const OverlayOf without(stored);
+    const OverlayIndex& overlay = without.overlay();
     for (const float longest : overlay.longest_segment) CHECK(longest == 0);
     for (const float length : overlay.rings.segment_length) CHECK(std::isnan(length));
 
@@ -98,7 +99,7 @@ TEST_CASE("prepare: without segments, paths cross borders at their vertices") {
     for (uint32_t source = 0; source < count; source += 41) {
         std::vector<float> between(count), at_vertices(count);
         const auto memory = std::pmr::get_default_resource();
-        OverlaySsad(std::get<OverlayIndex>(with.engine), memory).sweep({&source, 1}, INFINITE, between);
+        OverlaySsad(with.overlay(), memory).sweep({&source, 1}, INFINITE, between);
         OverlaySsad(overlay, memory).sweep({&source, 1}, INFINITE, at_vertices);
         for (uint32_t v = 0; v < count; ++v) {
             const auto &a = overlay.numbering.positions[source], &b = overlay.numbering.positions[v];

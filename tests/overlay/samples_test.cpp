@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <list>
 
 #include "tests/overlay/overlay_of.h"
 
@@ -21,17 +22,15 @@ const TestMesh& square() {
     return mesh;
 }
 
-const std::vector<Index>& indexes() {
-    static const std::vector<Index> built = [] {
-        std::vector<Index> made;
-        made.push_back(overlay_of(strip(), options_of_plane(strip(), {2, 4})));
-        made.push_back(overlay_of(square(), options_of_plane(square(), {12})));
+const std::list<OverlayOf>& built() {
+    static const std::list<OverlayOf> all = [] {
+        std::list<OverlayOf> made;
+        made.emplace_back(strip(), options_of_plane(strip(), {2, 4}));
+        made.emplace_back(square(), options_of_plane(square(), {12}));
         return made;
     }();
-    return built;
+    return all;
 }
-
-const OverlayIndex& engine_of(const Index& index) { return std::get<OverlayIndex>(index.engine); }
 
 // From one sample to the next one of the same chain, in vertices.
 void check_spacing(const Chain& chain, std::vector<uint32_t> samples) {
@@ -57,8 +56,8 @@ void check_spacing(const Chain& chain, std::vector<uint32_t> samples) {
 
 TEST_CASE("samples: on the border, evenly spaced along each chain, the ends of open ones among them") {
     uint32_t open_chains = 0, closed_chains = 0;
-    for (const Index& index : indexes()) {
-        const OverlayIndex& overlay = engine_of(index);
+    for (const OverlayOf& of : built()) {
+        const OverlayIndex& overlay = of.overlay();
         for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
             const auto samples = overlay.samples.of(p);
             const uint32_t size = overlay.numbering.border_size(p);
@@ -81,8 +80,8 @@ TEST_CASE("samples: on the border, evenly spaced along each chain, the ends of o
 }
 
 TEST_CASE("samples: as many as are foreseen") {
-    for (const Index& index : indexes()) {
-        const OverlayIndex& overlay = engine_of(index);
+    for (const OverlayOf& of : built()) {
+        const OverlayIndex& overlay = of.overlay();
         for (uint32_t p = 0; p < overlay.numbering.patch_count(); ++p) {
             const SampleCount count = count_samples(overlay, p);
             CHECK(count.samples == overlay.samples.of(p).size());
@@ -92,8 +91,8 @@ TEST_CASE("samples: as many as are foreseen") {
 }
 
 TEST_CASE("samples: a place of a coarse ring names its vertex, its sample and its place among all") {
-    for (const Index& index : indexes()) {
-        const OverlayIndex& overlay = engine_of(index);
+    for (const OverlayOf& of : built()) {
+        const OverlayIndex& overlay = of.overlay();
         const Rings& coarse = overlay.samples.rings;
         for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
             std::vector<uint32_t> own_places(overlay.samples.of(p).size(), 0);
@@ -113,10 +112,10 @@ TEST_CASE("samples: a place of a coarse ring names its vertex, its sample and it
 }
 
 TEST_CASE("samples: a coarse segment is a straight line on a plane, but for steps and calibration") {
-    const Index& index = indexes().front();
-    const OverlayIndex& overlay = engine_of(index);
+    const OverlayOf& of = built().front();
+    const OverlayIndex& overlay = of.overlay();
     const Rings& coarse = overlay.samples.rings;
-    const auto ids = ids_by_number(index);
+    const auto ids = ids_by_number(of.index);
     uint32_t segments = 0;
     for (uint32_t k = coarse.begin[1]; k < coarse.begin[3]; ++k) {
         if (std::isnan(coarse.segment_length[k])) continue;
@@ -130,8 +129,8 @@ TEST_CASE("samples: a coarse segment is a straight line on a plane, but for step
 
 TEST_CASE("samples: their tables are rows of the tables of all, for the samples of parent and children") {
     uint64_t entries = 0, wrong = 0;
-    for (const Index& index : indexes()) {
-        const OverlayIndex& overlay = engine_of(index);
+    for (const OverlayOf& of : built()) {
+        const OverlayIndex& overlay = of.overlay();
         const Numbering& numbering = overlay.numbering;
         const Samples& samples = overlay.samples;
         for (uint32_t p = 1; p < numbering.patch_count(); ++p) {
