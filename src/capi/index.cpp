@@ -47,9 +47,11 @@ void check_mesh_matches(const geoidx_mesh* expected, const Description& about) {
 
 void open_bytes(std::span<const std::byte> file, const geoidx_open_options* given, geoidx** out) {
     const geoidx_open_options options = whole_or_default(given, geoidx_open_options_init);
+    require((options.flags & ~uint32_t{GEOIDX_OPEN_PAIRS}) == 0, "flags has bits that mean nothing");
     OwnedIndex index = make_index(options.allocator);
     prepare(read_index(file), index->index);
     check_mesh_matches(options.expected_mesh, index->index.description);
+    if (options.flags & GEOIDX_OPEN_PAIRS) prepare_pairs(index->index);
     *out = index.release();
 }
 

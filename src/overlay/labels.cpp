@@ -23,8 +23,7 @@ void lay_out_labels(const OverlayIndex& index, Labels& labels) {
     uint64_t size = 0;
     for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) {
         const uint32_t parent = index.numbering.parent[p];
-        if (parent != 0)
-            labels.offset[p] = labels.offset[parent] + Labels::HEAD + index.label_size(parent);
+        if (parent != 0) labels.offset[p] = labels.offset[parent] + Labels::HEAD + index.label_size(parent);
         labels.begin[p] = size;
         size += uint64_t{index.numbering.inner_size(p)} * labels.offset[p];
     }

@@ -2,6 +2,7 @@
 
 #include "geoidx.h"
 #include "src/graph/prepare.h"
+#include "src/overlay/labels.h"
 #include "src/overlay/prepare.h"
 
 namespace geodesic {
@@ -13,6 +14,10 @@ void prepare(const StoredIndex& stored, Index& index) {
         prepare_overlay(stored, index.engine.emplace<OverlayIndex>(index.memory));
     else
         prepare_graph(stored, index.engine.emplace<GraphIndex>(index.memory));
+}
+
+void prepare_pairs(const Index& index) {
+    if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine)) require_labels(*overlay);
 }
 
 StoredIndex restore(const Index& index) {

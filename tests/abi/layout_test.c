@@ -81,7 +81,7 @@ FIELD(geoidx_build_options, reserved, 204);
 SIZE(geoidx_build_options, 208);
 
 FIELD(geoidx_open_options, struct_size, 0);
-FIELD(geoidx_open_options, reserved, 4);
+FIELD(geoidx_open_options, flags, 4);
 FIELD(geoidx_open_options, expected_mesh, 8);
 FIELD(geoidx_open_options, allocator, 16);
 SIZE(geoidx_open_options, 40);

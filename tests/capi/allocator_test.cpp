@@ -4,6 +4,7 @@
 
 #include "tests/capi/calls.h"
 #include "tests/capi/counting_allocator.h"
+#include "tests/capi/refusals.h"
 
 using namespace geodesic::test;
 
@@ -93,6 +94,43 @@ TEST_CASE("the index lives in the caller's memory, which gets everything back") 
         CHECK(allocator.blocks() == 0);
         CHECK(allocator.mistakes() == 0);
     });
+}
+
+namespace {
+
+IndexHandle open_in(CountingAllocator& allocator, const Bytes& file, uint32_t flags) {
+    auto options = opening_with(allocator.get());
+    options.flags = flags;
+    geoidx* index = nullptr;
+    require_success(geoidx_open_memory(file.data(), file.size(), &options, &index));
+    return IndexHandle(index);
+}
+
+}
+
+TEST_CASE("what pairs need takes memory at the first pair, or when opening if that is asked for") {
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    const Bytes file = save(build(hills(40, 40), options).get());
+    CountingAllocator late_memory, early_memory;
+    const IndexHandle late = open_in(late_memory, file, 0),
+                      early = open_in(early_memory, file, GEOIDX_OPEN_PAIRS);
+    CHECK(msad(late.get(), 5, 1600) == msad(early.get(), 5, 1600));
+    CHECK(late_memory.bytes() < early_memory.bytes());
+    for (uint32_t target = 0; target < 1600; target += 7)
+        CHECK(sssd(late.get(), 800, target) == sssd(early.get(), 800, target));
+    CHECK(late_memory.bytes() == early_memory.bytes());
+}
+
+TEST_CASE("flags of opening that mean nothing are refused") {
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    CHECK(options.flags == 0);
+    options.flags = GEOIDX_OPEN_PAIRS | 2;
+    const Bytes file = save(build(small_mesh(), build_options()).get());
+    geoidx* index = not_null();
+    CHECK(geoidx_open_memory(file.data(), file.size(), &options, &index) == GEOIDX_ERROR_INVALID_ARGUMENT);
+    CHECK(index == nullptr);
 }
 
 TEST_CASE("out of memory while opening") {

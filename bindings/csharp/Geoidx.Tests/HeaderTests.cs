@@ -21,6 +21,7 @@ namespace Geoidx.Tests
             ("GEOIDX_METRIC_UNFOLDABLE", typeof(MetricFlags)),
             ("GEOIDX_METRIC_", typeof(MetricKind)),
             ("GEOIDX_ENGINE_", typeof(GeodesicEngine)),
+            ("GEOIDX_OPEN_", typeof(OpenFlags)),
             ("GEOIDX_", typeof(GeodesicStatus)),
         };
 

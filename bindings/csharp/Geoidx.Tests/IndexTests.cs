@@ -214,6 +214,13 @@ namespace Geoidx.Tests
         }
 
         [Fact]
+        public void AnIndexIsOpenedReadyForPairs()
+        {
+            using GeodesicIndex opened = GeodesicIndex.Open(plane.ToBytes(), new OpenOptions { Pairs = true });
+            Assert.Equal(plane.Distance(0, plane.VertexCount - 1), opened.Distance(0, plane.VertexCount - 1));
+        }
+
+        [Fact]
         public void AnIndexVerifies() => Assert.Empty(GeodesicIndex.Verify(plane.ToBytes()));
 
         [Fact]

@@ -9,6 +9,12 @@ namespace Geoidx
         /// </summary>
         public GeodesicMesh? ExpectedMesh { get; set; }
 
+        /// <summary>
+        /// Makes what distances between two vertices need while the index is opened. Otherwise the first one that is
+        /// asked for does; where only fields are asked for, it is never made and takes no memory. Default: false.
+        /// </summary>
+        public bool Pairs { get; set; }
+
         /// <summary>Where the index and its queries get memory. Default: the global heap.</summary>
         public IGeodesicAllocator? Allocator { get; set; }
     }

@@ -24,7 +24,7 @@ namespace Geoidx
         {
             using PinnedMesh? expected = options?.ExpectedMesh?.Pin();
             NativeMesh mesh = expected?.Native ?? default;
-            NativeOpenOptions native = NativeOptions(expected == null ? null : &mesh);
+            NativeOpenOptions native = NativeOptions(options, expected == null ? null : &mesh);
             AllocatorCallback? allocator = UseAllocator(options?.Allocator, ref native.allocator);
             return Own(NativeMethods.geoidx_open(path, &native, out IntPtr index), index, allocator);
         }
@@ -33,7 +33,7 @@ namespace Geoidx
         {
             using PinnedMesh? expected = options?.ExpectedMesh?.Pin();
             NativeMesh mesh = expected?.Native ?? default;
-            NativeOpenOptions native = NativeOptions(expected == null ? null : &mesh);
+            NativeOpenOptions native = NativeOptions(options, expected == null ? null : &mesh);
             AllocatorCallback? allocator = UseAllocator(options?.Allocator, ref native.allocator);
             fixed (byte* bytes = &MemoryMarshal.GetReference(data))
             {
@@ -45,9 +45,10 @@ namespace Geoidx
 
         protected override void CloseNative() => NativeMethods.geoidx_close(handle);
 
-        private static NativeOpenOptions NativeOptions(NativeMesh* expected)
+        private static NativeOpenOptions NativeOptions(OpenOptions? options, NativeMesh* expected)
         {
             NativeOpenOptions native = NativeDefaults.OpenOptions();
+            if (options != null && options.Pairs) native.flags |= (uint)OpenFlags.Pairs;
             native.expected_mesh = expected;
             return native;
         }

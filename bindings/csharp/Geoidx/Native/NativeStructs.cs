@@ -58,11 +58,16 @@ namespace Geoidx
         internal uint reserved;
     }
 
+    internal enum OpenFlags
+    {
+        Pairs = 1,
+    }
+
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct NativeOpenOptions
     {
         internal uint struct_size;
-        internal uint reserved;
+        internal uint flags;
         internal NativeMesh* expected_mesh;
         internal NativeAllocator allocator;
     }

@@ -124,17 +124,20 @@ class Index(Closable):
         *,
         expected_mesh: tuple[ArrayLike, ArrayLike] | None = None,
         allocator: Allocator | None = None,
+        pairs: bool = False,
     ) -> Index:
         """Opens a file: str, bytes or os.PathLike of either. Everything in it is checked before it is believed.
 
         expected_mesh: the vertices and faces that the index must have been built from, else MeshMismatchError: the
             same faces, and vertices that are equal as float32, whichever of the two was given as float64.
+        pairs: makes ready what distances between two vertices need. Otherwise the first one that is asked for does;
+            where only fields are asked for, it is never made and takes no memory.
 
         Raises FileError, which is an OSError (MissingFileError, a FileNotFoundError, where there is no such file),
         and FormatError, which is a ValueError. A path that no file can have is an InvalidArgumentError.
         """
         name = native_path(path)
-        return cls._opened(expected_mesh, allocator, lambda *rest: library.geoidx_open(name, *rest), path)
+        return cls._opened(expected_mesh, allocator, pairs, lambda *rest: library.geoidx_open(name, *rest), path)
 
     @classmethod
     def from_bytes(
@@ -143,6 +146,7 @@ class Index(Closable):
         *,
         expected_mesh: tuple[ArrayLike, ArrayLike] | None = None,
         allocator: Allocator | None = None,
+        pairs: bool = False,
     ) -> Index:
         """Opens an index in memory: bytes, or any other contiguous buffer, which is neither copied nor kept.
 
@@ -152,6 +156,7 @@ class Index(Closable):
         return cls._opened(
             expected_mesh,
             allocator,
+            pairs,
             lambda *rest: library.geoidx_open_memory(address(view), view.size, *rest),
         )
 
@@ -160,10 +165,11 @@ class Index(Closable):
         cls,
         expected_mesh: tuple[ArrayLike, ArrayLike] | None,
         allocator: Allocator | None,
+        pairs: bool,
         call: Callable[..., int],
         path: Path | None = None,
     ) -> Index:
-        options = OpenOptions(None if expected_mesh is None else _mesh_of(expected_mesh), allocator)
+        options = OpenOptions(None if expected_mesh is None else _mesh_of(expected_mesh), allocator, pairs)
         out = c_void_p()
         status = call(byref(options.struct), byref(out))
         handle = Handle(out, library.geoidx_close, kept=allocator)

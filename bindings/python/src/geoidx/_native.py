@@ -28,6 +28,7 @@ MAX_LEVELS = 8
 POSITION_FLOAT = 0
 POSITION_DOUBLE = 1
 METRIC_UNFOLDABLE = 1
+OPEN_PAIRS = 1
 
 AllocateFn = CFUNCTYPE(c_void_p, c_void_p, c_uint64, c_uint64)
 ReleaseFn = CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint64)
@@ -95,7 +96,7 @@ class BuildOptions(Structure):
 class OpenOptions(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
-        ("reserved", c_uint32),
+        ("flags", c_uint32),
         ("expected_mesh", POINTER(Mesh)),
         ("allocator", Allocator),
     ]

@@ -44,9 +44,11 @@ class BuildOptions:
 class OpenOptions:
     """The options of opening an index."""
 
-    def __init__(self, expected_mesh: MeshView | None, allocator: Allocator | None) -> None:
+    def __init__(self, expected_mesh: MeshView | None, allocator: Allocator | None, pairs: bool) -> None:
         self.struct = _native.OpenOptions()
         library.geoidx_open_options_init_sized(byref(self.struct), sizeof(self.struct))
+        if pairs:
+            self.struct.flags = _native.OPEN_PAIRS
         if expected_mesh:
             self._mesh = expected_mesh
             self.struct.expected_mesh = pointer(expected_mesh.struct)
