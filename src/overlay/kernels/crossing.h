@@ -104,19 +104,27 @@ struct Ways {
     }
 };
 
-// The codes of the ways from `first` on, side by side, four each: those of the places that segments beside
-// the place begin at, and those of the next ones.
+// Codes as distances; infinity where there is no path.
 template <size_t BYTES>
-[[gnu::always_inline]] inline void codes_beside(const Ways& ways, size_t first, Floats<BYTES>& of_first,
-                                                Floats<BYTES>& of_second) {
+[[gnu::always_inline]] inline void decode(const typename Lanes<BYTES>::Keys& codes, float quantum,
+                                          Floats<BYTES>& distances) {
+    const Floats<BYTES> none = Floats<BYTES>{} + INFINITE;
+    distances = codes < TableCode::UNREACHED ? __builtin_convertvector(codes, Floats<BYTES>) * quantum : none;
+}
+
+// The distances that the rows of the ways from `first` on hold, side by side, four each: those of the places
+// that segments beside the place begin at, and those of the next ones.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void distances_beside(const Ways& ways, size_t first, float quantum,
+                                                    Floats<BYTES>& of_first, Floats<BYTES>& of_second) {
     constexpr std::make_index_sequence<BYTES / sizeof(uint16_t)> ALL;
     typename VectorOf<uint16_t, BYTES>::Type codes;
     typename Lanes<BYTES>::Keys numbers;
     join([&](size_t i) { return load_eight(ways.codes_beside(first + i)); }, codes);
     widen_four<0>(codes, numbers, ALL);
-    of_first = __builtin_convertvector(numbers, Floats<BYTES>);
+    decode<BYTES>(numbers, quantum, of_first);
     widen_four<1>(codes, numbers, ALL);
-    of_second = __builtin_convertvector(numbers, Floats<BYTES>);
+    decode<BYTES>(numbers, quantum, of_second);
 }
 
 // Four ways, as many side by side as fit into a vector.
@@ -135,9 +143,7 @@ template <size_t BYTES>
         beside(border.foot, from_source.foot);
         beside(border.height, from_source.height);
         Floats<BYTES> first, second, sum, square;
-        codes_beside<BYTES>(ways, r, first, second);
-        first *= border.quantum;
-        second *= border.quantum;
+        distances_beside<BYTES>(ways, r, border.quantum, first, second);
         beside(border.distance, sum);
         sum += first;
         from_source.square_across(first, second, square);
@@ -201,10 +207,7 @@ template <size_t BYTES>
     using Numbers = typename Lanes<BYTES>::Keys;
     typename VectorOf<uint16_t, BYTES / 2>::Type narrow;
     std::memcpy(&narrow, codes, sizeof narrow);
-    const Numbers numbers = __builtin_convertvector(narrow, Numbers);
-    const Floats<BYTES> none = Floats<BYTES>{} + INFINITE;
-    distances =
-        numbers < TableCode::UNREACHED ? __builtin_convertvector(numbers, Floats<BYTES>) * quantum : none;
+    decode<BYTES>(__builtin_convertvector(narrow, Numbers), quantum, distances);
 }
 
 // Over the places from `begin` to `end`, whole parts, and the segments that begin at them.
