@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "format/error.h"
@@ -28,20 +29,14 @@ void add_place(Rings& rings, uint32_t position, uint32_t vertex, float length, b
                                           std::to_string(patch));
 }
 
-// The chain that begins at position `first` of a patch's border. A vertex without segments is a chain by
-// itself.
-Chain chain_at(uint32_t first, std::span<const uint32_t> segment_end, std::span<const float> segment_length,
-               const Numbering& numbering, uint32_t patch) {
-    const uint32_t first_slot = numbering.border_begin[patch], size = numbering.border_size(patch);
-    Chain chain;
-    for (uint32_t i = first;; ++i) {
-        chain.positions.push_back(i);
-        chain.lengths.push_back(segment_length[first_slot + i]);
-        const uint32_t next = segment_end[first_slot + i];
-        if (next == i + 1 && next < size) continue;
-        chain.is_closed = next != NONE;
-        if (chain.is_closed && (next != first || i == first)) refuse_segment(patch, i, next);
-        return chain;
+// The end of the chain that begins at position `first` of a patch's border: one more than its last position.
+// A vertex without segments is a chain by itself.
+uint32_t end_of_chain(uint32_t first, std::span<const uint32_t> segment_end, uint32_t patch) {
+    for (auto i = first;; ++i) {
+        const uint32_t next = segment_end[i];
+        if (next == i + 1 && next < segment_end.size()) continue;
+        if (next != NONE && (next != first || i == first)) refuse_segment(patch, i, next);
+        return i + 1;
     }
 }
 
@@ -80,8 +75,9 @@ std::vector<Chain> chains_of_ring(const Rings& rings, uint32_t patch) {
     std::vector<Chain> chains;
     for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1];) {
         const auto& [first, last, is_closed] = rings.chains[rings.chain[k]];
-        chains.push_back({{rings.position.begin() + first, rings.position.begin() + last + 1},
-                          {rings.segment_length.begin() + first, rings.segment_length.begin() + last + 1},
+        const uint32_t size = last - first + 1;
+        chains.push_back({{rings.position.data() + first, size},
+                          {rings.segment_length.data() + first, size},
                           is_closed != 0});
         k = last + REACH + 1;
     }
@@ -90,13 +86,19 @@ std::vector<Chain> chains_of_ring(const Rings& rings, uint32_t patch) {
 
 void lay_out_rings(std::span<const uint32_t> segment_end, std::span<const float> segment_length,
                    const Numbering& numbering, BorderRings& rings) {
+    std::vector<uint32_t> positions(numbering.largest_border_size());
+    std::iota(positions.begin(), positions.end(), 0u);
     RingWriter writer(rings);
     writer.begin();
     for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
-        for (uint32_t i = 0; i < numbering.border_size(p);) {
-            const Chain chain = chain_at(i, segment_end, segment_length, numbering, p);
-            writer.add_chain(chain, numbering.border_of(p));
-            i += static_cast<uint32_t>(chain.positions.size());
+        const uint32_t slot = numbering.border_begin[p], size = numbering.border_size(p);
+        const auto ends = segment_end.subspan(slot, size);
+        const auto lengths = segment_length.subspan(slot, size);
+        for (uint32_t i = 0, end; i < size; i = end) {
+            end = end_of_chain(i, ends, p);
+            writer.add_chain({std::span(positions).subspan(i, end - i), lengths.subspan(i, end - i),
+                              ends[end - 1] != NONE},
+                             numbering.border_of(p));
         }
         writer.end_ring();
     }

@@ -72,10 +72,10 @@ struct BorderSegments {
 
 // Consecutive vertices of a border, each joined to the next one by a segment.
 struct Chain {
-    std::vector<uint32_t> positions; // of the vertices in the border
+    std::span<const uint32_t> positions; // of the vertices in the border
     // Of the segments to the next vertex; in a closed chain, the last one leads to the first vertex.
-    std::vector<float> lengths;
-    bool is_closed = false;
+    std::span<const float> lengths;
+    bool is_closed;
 };
 
 // Fills rings patch by patch: begin(), then for each patch its chains and end_ring(), then end().
@@ -92,6 +92,7 @@ private:
     Rings& rings_;
 };
 
+// The chains of a patch's border, which are valid as long as the rings are.
 std::vector<Chain> chains_of_ring(const Rings& rings, uint32_t patch);
 
 // Fills empty rings from the stored segments. Throws Error CORRUPT where a segment does not end at the next

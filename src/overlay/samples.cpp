@@ -34,7 +34,7 @@ uint32_t sample_count(uint32_t vertices, bool is_closed, uint32_t step) {
 std::vector<uint32_t> sample(const Chain& chain, uint32_t step) {
     const auto vertices = static_cast<uint32_t>(chain.positions.size());
     const uint32_t count = sample_count(vertices, chain.is_closed, step);
-    if (count == vertices) return chain.positions;
+    if (count == vertices) return {chain.positions.begin(), chain.positions.end()};
     const uint32_t intervals = vertices - !chain.is_closed, pieces = count - !chain.is_closed;
     std::vector<uint32_t> samples;
     for (uint32_t i = 0; i < count; ++i) samples.push_back(chain.positions[uint64_t{i} * intervals / pieces]);
@@ -54,12 +54,11 @@ float segment_between(const OverlayIndex& index, uint32_t patch, uint32_t a, uin
 void sample_ring(OverlayIndex& index, uint32_t patch, RingWriter& writer) {
     const uint32_t step = step_of(index, patch);
     for (const Chain& chain : chains_of_ring(index.rings, patch)) {
-        Chain coarse{sample(chain, step), {}, chain.is_closed};
-        const size_t count = coarse.positions.size();
-        for (size_t i = 0; i < count; ++i)
-            coarse.lengths.push_back(
-                segment_between(index, patch, coarse.positions[i], coarse.positions[(i + 1) % count]));
-        writer.add_chain(coarse, index.numbering.border_of(patch));
+        const std::vector<uint32_t> samples = sample(chain, step);
+        std::vector<float> lengths;
+        for (size_t i = 0; i < samples.size(); ++i)
+            lengths.push_back(segment_between(index, patch, samples[i], samples[(i + 1) % samples.size()]));
+        writer.add_chain({samples, lengths, chain.is_closed}, index.numbering.border_of(patch));
     }
     writer.end_ring();
 }
