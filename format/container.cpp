@@ -94,7 +94,12 @@ std::vector<std::byte> Container::read_bytes(std::uint32_t tag, std::uint64_t ma
     fail_corrupt(tag, "it holds images, expected bytes");
 }
 
-void Container::read_matrices(std::uint32_t tag, std::span<const MatrixTarget> matrices) const {
+void Container::one_after_the_other(std::size_t count, const std::function<void(std::size_t)>& decode) {
+    for (std::size_t i = 0; i < count; ++i) decode(i);
+}
+
+void Container::read_matrices(std::uint32_t tag, std::span<const MatrixTarget> matrices,
+                              const ShareOut& share_out) const {
     const Section& found = section(tag);
     if (found.raw_size != raw_size_of(matrices)) {
         fail_corrupt(tag, std::to_string(found.raw_size) + " raw bytes, expected matrices of " +
@@ -102,7 +107,7 @@ void Container::read_matrices(std::uint32_t tag, std::span<const MatrixTarget> m
     }
     if (found.codec == Codec::Png) {
         const auto streams = png_streams(tag, matrices.size());
-        for (std::size_t i = 0; i < streams.size(); ++i) decode_matrix(tag, i, streams[i], matrices[i]);
+        share_out(streams.size(), [&](std::size_t i) { decode_matrix(tag, i, streams[i], matrices[i]); });
         return;
     }
     const std::vector<std::byte> raw = read_bytes(tag, found.raw_size);

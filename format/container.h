@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -114,9 +115,13 @@ public:
     // missing section and for one that is larger than `max_raw_size`.
     std::vector<std::byte> read_bytes(std::uint32_t tag, std::uint64_t max_raw_size) const;
     // Fills the matrices, which must be those of the section, all of them, in their order, whatever its
-    // codec. Throws GEOIDX_ERROR_CORRUPT otherwise, with unspecified values in the matrices.
-    void read_matrices(std::uint32_t tag, std::span<const MatrixTarget> matrices) const;
-    // The streams of a section that is Png, to decode them in parallel. They must be `count`.
+    // codec. Throws GEOIDX_ERROR_CORRUPT otherwise, with unspecified values in the matrices. `share_out` runs
+    // decode(0) .. decode(count - 1), perhaps on several threads, and throws what these throw.
+    using ShareOut = std::function<void(std::size_t count, const std::function<void(std::size_t)>& decode)>;
+    void read_matrices(std::uint32_t tag, std::span<const MatrixTarget> matrices,
+                       const ShareOut& share_out = one_after_the_other) const;
+    static void one_after_the_other(std::size_t count, const std::function<void(std::size_t)>& decode);
+    // The streams of a section that is Png. They must be `count`.
     std::vector<std::span<const std::byte>> png_streams(std::uint32_t tag, std::uint64_t count) const;
 
 private:

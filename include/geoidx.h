@@ -248,6 +248,8 @@ typedef struct geoidx_open_options {
      * differ by less than a float can tell, which may be much far from the origin, count as one.) */
     const geoidx_mesh* expected_mesh;
     geoidx_allocator allocator;
+    uint32_t threads;  /* that decode tables; 0 (default): one per processor; at most 1024 */
+    uint32_t reserved; /* not read */
 } geoidx_open_options;
 
 GEOIDX_API void geoidx_open_options_init_sized(geoidx_open_options* options, uint32_t struct_size);

@@ -1,5 +1,6 @@
 #include "src/base/shared_tasks.h"
 
+#include <algorithm>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -62,6 +63,13 @@ bool SharedTasks::wait_for(std::chrono::milliseconds longest) {
 void SharedTasks::finish() {
     threads_.clear();
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+}
+
+void share_out(uint32_t threads, size_t count, const std::function<void(size_t task)>& task) {
+    SharedTasks tasks(count, [&](uint32_t, size_t i) { task(i); });
+    tasks.start_threads(1, static_cast<uint32_t>(std::min<size_t>(threads, count)));
+    tasks.work(0);
+    tasks.finish();
 }
 
 }

@@ -52,4 +52,8 @@ private:
     std::vector<std::jthread> threads_; // the last member: it is joined before the others are destroyed
 };
 
+// Runs task(0) .. task(count - 1) on up to so many threads, of which the calling one is the first. Throws
+// what the failed task with the smallest number threw.
+void share_out(uint32_t threads, size_t count, const std::function<void(size_t task)>& task);
+
 }

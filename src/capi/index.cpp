@@ -3,6 +3,7 @@
 
 #include "format/file_io.h"
 #include "geoidx.h"
+#include "src/base/threads.h"
 #include "src/build/build.h"
 #include "src/capi/handles.h"
 #include "src/capi/status.h"
@@ -49,7 +50,7 @@ void open_bytes(std::span<const std::byte> file, const geoidx_open_options* give
     const geoidx_open_options options = whole_or_default(given, geoidx_open_options_init);
     require((options.flags & ~uint32_t{GEOIDX_OPEN_PAIRS}) == 0, "flags has bits that mean nothing");
     OwnedIndex index = make_index(options.allocator);
-    prepare(read_index(file), index->index);
+    prepare(read_index(file, thread_count(options.threads)), index->index);
     check_mesh_matches(options.expected_mesh, index->index.description);
     if (options.flags & GEOIDX_OPEN_PAIRS) prepare_pairs(index->index);
     *out = index.release();
@@ -62,7 +63,7 @@ std::vector<format::Issue> issues_of(std::span<const std::byte> file) {
     if (!issues.empty()) return issues;
     try {
         Index index(std::pmr::get_default_resource());
-        prepare(read_index(file), index);
+        prepare(read_index(file, thread_count(0)), index);
     } catch (const Error& error) {
         issues.push_back({error.status, 0, error.what()});
     }

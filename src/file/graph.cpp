@@ -20,10 +20,10 @@ void write_graph(const StoredIndex& stored, format::ContainerWriter& writer) {
     internal_section(stored).write(stored.internal_tables, writer);
 }
 
-void read_graph(const format::Container& container, StoredIndex& stored) {
-    stored.border_tables = border_section(stored).read(container);
-    stored.border_internal_tables = border_internal_section(stored).read(container);
-    stored.internal_tables = internal_section(stored).read(container);
+void read_graph(const format::Container& container, uint32_t threads, StoredIndex& stored) {
+    stored.border_tables = border_section(stored).read(container, threads);
+    stored.border_internal_tables = border_internal_section(stored).read(container, threads);
+    stored.internal_tables = internal_section(stored).read(container, threads);
 }
 
 }

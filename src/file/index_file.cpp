@@ -26,12 +26,12 @@ std::vector<std::byte> write_index(const StoredIndex& stored) {
     return writer.finish();
 }
 
-StoredIndex read_index(std::span<const std::byte> file) {
+StoredIndex read_index(std::span<const std::byte> file, uint32_t threads) {
     const auto container = format::Container::parse(file, INDEX_TAGS);
     StoredIndex stored;
     read_common(container, stored);
     check_tags(container, stored);
-    is_overlay(stored) ? read_overlay(container, stored) : read_graph(container, stored);
+    is_overlay(stored) ? read_overlay(container, threads, stored) : read_graph(container, threads, stored);
     return stored;
 }
 

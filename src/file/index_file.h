@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace geodesic {
 std::vector<std::byte> write_index(const StoredIndex& stored);
 
 // Throws Error if the bytes are not those of an index. prepare() checks what can be checked only with the
-// numbering at hand.
-StoredIndex read_index(std::span<const std::byte> file);
+// numbering at hand. Tables are decoded on up to so many threads.
+StoredIndex read_index(std::span<const std::byte> file, uint32_t threads);
 
 }

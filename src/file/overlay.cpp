@@ -102,12 +102,12 @@ void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer) {
     internal_section(stored).write(values_of(stored.internal_codes), writer);
 }
 
-void read_overlay(const format::Container& container, StoredIndex& stored) {
+void read_overlay(const format::Container& container, uint32_t threads, StoredIndex& stored) {
     read_quanta(container, stored);
     read_segments(container, stored);
-    stored.overlay_codes = codes_of(overlay_section(stored).read(container));
-    stored.border_internal_codes = codes_of(border_internal_section(stored).read(container));
-    stored.internal_codes = codes_of(internal_section(stored).read(container));
+    stored.overlay_codes = codes_of(overlay_section(stored).read(container, threads));
+    stored.border_internal_codes = codes_of(border_internal_section(stored).read(container, threads));
+    stored.internal_codes = codes_of(internal_section(stored).read(container, threads));
 }
 
 }

@@ -46,10 +46,10 @@ void write_common(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_common(const format::Container& container, StoredIndex& stored);
 
 void write_graph(const StoredIndex& stored, format::ContainerWriter& writer);
-void read_graph(const format::Container& container, StoredIndex& stored);
+void read_graph(const format::Container& container, uint32_t threads, StoredIndex& stored);
 
 void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer);
-void read_overlay(const format::Container& container, StoredIndex& stored);
+void read_overlay(const format::Container& container, uint32_t threads, StoredIndex& stored);
 
 [[noreturn]] void refuse_as_corrupt(const std::string& detail);
 

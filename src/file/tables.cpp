@@ -1,8 +1,11 @@
 #include "src/file/tables.h"
 
+#include <algorithm>
+#include <functional>
 #include <string>
 
 #include "format/matrix_png.h"
+#include "src/base/shared_tasks.h"
 #include "src/file/folded_triangle.h"
 #include "src/file/sections.h"
 #include "src/index/numbering.h"
@@ -39,7 +42,7 @@ void TableSection::write(std::span<const float> values, format::ContainerWriter&
     writer.add_encoded_matrices(tag_, streams, entries_ * sizeof(float));
 }
 
-std::vector<float> TableSection::read(const format::Container& container) const {
+std::vector<float> TableSection::read(const format::Container& container, uint32_t threads) const {
     if (container.section(tag_).raw_size != entries_ * sizeof(float))
         refuse_as_corrupt("section " + format::tag_text(tag_) + " does not hold " + std::to_string(entries_) +
                           " table entries");
@@ -50,7 +53,11 @@ std::vector<float> TableSection::read(const format::Container& container) const 
         targets.push_back({left.first(size_t{rows} * cols), rows, cols});
         left = left.subspan(size_t{rows} * cols);
     }
-    container.read_matrices(tag_, targets);
+    constexpr uint64_t WORTH_A_THREAD = 1 << 16; // entries
+    threads = static_cast<uint32_t>(std::min<uint64_t>(threads, 1 + entries_ / WORTH_A_THREAD));
+    container.read_matrices(tag_, targets, [&](size_t count, const std::function<void(size_t)>& decode) {
+        share_out(threads, count, decode);
+    });
     for (float value : values)
         if (!(value >= 0))
             refuse_as_corrupt("section " + format::tag_text(tag_) +

@@ -23,8 +23,8 @@ public:
     void write(std::span<const float> values, format::ContainerWriter& writer) const;
 
     // Compares the size of the section with the tables before anything is allocated. Throws Error CORRUPT if
-    // it differs, and if an entry is negative or NaN.
-    std::vector<float> read(const format::Container& container) const;
+    // it differs, and if an entry is negative or NaN. Uses up to so many threads, fewer for few entries.
+    std::vector<float> read(const format::Container& container, uint32_t threads) const;
 
 private:
     struct Table {

@@ -84,7 +84,9 @@ FIELD(geoidx_open_options, struct_size, 0);
 FIELD(geoidx_open_options, flags, 4);
 FIELD(geoidx_open_options, expected_mesh, 8);
 FIELD(geoidx_open_options, allocator, 16);
-SIZE(geoidx_open_options, 40);
+FIELD(geoidx_open_options, threads, 40);
+FIELD(geoidx_open_options, reserved, 44);
+SIZE(geoidx_open_options, 48);
 
 FIELD(geoidx_info, struct_size, 0);
 FIELD(geoidx_info, metric, 4);

@@ -216,7 +216,7 @@ namespace Geoidx.Tests
         [Fact]
         public void AnIndexIsOpenedReadyForPairs()
         {
-            using GeodesicIndex opened = GeodesicIndex.Open(plane.ToBytes(), new OpenOptions { Pairs = true });
+            using GeodesicIndex opened = GeodesicIndex.Open(plane.ToBytes(), new OpenOptions { Pairs = true, Threads = 2 });
             Assert.Equal(plane.Distance(0, plane.VertexCount - 1), opened.Distance(0, plane.VertexCount - 1));
         }
 

@@ -15,6 +15,9 @@ namespace Geoidx
         /// </summary>
         public bool Pairs { get; set; }
 
+        /// <summary>Threads that decode tables. Default: 0, one per processor.</summary>
+        public int Threads { get; set; }
+
         /// <summary>Where the index and its queries get memory. Default: the global heap.</summary>
         public IGeodesicAllocator? Allocator { get; set; }
     }

@@ -49,6 +49,7 @@ namespace Geoidx
         {
             NativeOpenOptions native = NativeDefaults.OpenOptions();
             if (options != null && options.Pairs) native.flags |= (uint)OpenFlags.Pairs;
+            if (options != null) native.threads = Arguments.NotNegative(options.Threads, nameof(options.Threads));
             native.expected_mesh = expected;
             return native;
         }

@@ -70,6 +70,8 @@ namespace Geoidx
         internal uint flags;
         internal NativeMesh* expected_mesh;
         internal NativeAllocator allocator;
+        internal uint threads;
+        internal uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -125,6 +125,7 @@ class Index(Closable):
         expected_mesh: tuple[ArrayLike, ArrayLike] | None = None,
         allocator: Allocator | None = None,
         pairs: bool = False,
+        threads: int = 0,
     ) -> Index:
         """Opens a file: str, bytes or os.PathLike of either. Everything in it is checked before it is believed.
 
@@ -132,12 +133,13 @@ class Index(Closable):
             same faces, and vertices that are equal as float32, whichever of the two was given as float64.
         pairs: makes ready what distances between two vertices need. Otherwise the first one that is asked for does;
             where only fields are asked for, it is never made and takes no memory.
+        threads: that decode tables. 0: one per processor.
 
         Raises FileError, which is an OSError (MissingFileError, a FileNotFoundError, where there is no such file),
         and FormatError, which is a ValueError. A path that no file can have is an InvalidArgumentError.
         """
         name = native_path(path)
-        return cls._opened(expected_mesh, allocator, pairs, lambda *rest: library.geoidx_open(name, *rest), path)
+        return cls._opened(expected_mesh, allocator, pairs, threads, lambda *rest: library.geoidx_open(name, *rest), path)
 
     @classmethod
     def from_bytes(
@@ -147,6 +149,7 @@ class Index(Closable):
         expected_mesh: tuple[ArrayLike, ArrayLike] | None = None,
         allocator: Allocator | None = None,
         pairs: bool = False,
+        threads: int = 0,
     ) -> Index:
         """Opens an index in memory: bytes, or any other contiguous buffer, which is neither copied nor kept.
 
@@ -157,6 +160,7 @@ class Index(Closable):
             expected_mesh,
             allocator,
             pairs,
+            threads,
             lambda *rest: library.geoidx_open_memory(address(view), view.size, *rest),
         )
 
@@ -166,10 +170,11 @@ class Index(Closable):
         expected_mesh: tuple[ArrayLike, ArrayLike] | None,
         allocator: Allocator | None,
         pairs: bool,
+        threads: int,
         call: Callable[..., int],
         path: Path | None = None,
     ) -> Index:
-        options = OpenOptions(None if expected_mesh is None else _mesh_of(expected_mesh), allocator, pairs)
+        options = OpenOptions(None if expected_mesh is None else _mesh_of(expected_mesh), allocator, pairs, threads)
         out = c_void_p()
         status = call(byref(options.struct), byref(out))
         handle = Handle(out, library.geoidx_close, kept=allocator)

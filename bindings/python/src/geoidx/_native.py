@@ -99,6 +99,8 @@ class OpenOptions(Structure):
         ("flags", c_uint32),
         ("expected_mesh", POINTER(Mesh)),
         ("allocator", Allocator),
+        ("threads", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 

@@ -44,11 +44,14 @@ class BuildOptions:
 class OpenOptions:
     """The options of opening an index."""
 
-    def __init__(self, expected_mesh: MeshView | None, allocator: Allocator | None, pairs: bool) -> None:
+    def __init__(
+        self, expected_mesh: MeshView | None, allocator: Allocator | None, pairs: bool, threads: int
+    ) -> None:
         self.struct = _native.OpenOptions()
         library.geoidx_open_options_init_sized(byref(self.struct), sizeof(self.struct))
         if pairs:
             self.struct.flags = _native.OPEN_PAIRS
+        self.struct.threads = whole_number(threads, "threads")
         if expected_mesh:
             self._mesh = expected_mesh
             self.struct.expected_mesh = pointer(expected_mesh.struct)
