@@ -1,7 +1,8 @@
 #include "src/tables/layout.h"
 
 #include <algorithm>
-#include <tuple>
+#include <iterator>
+#include <utility>
 
 #include "src/tables/borders.h"
 
@@ -9,55 +10,14 @@ namespace geodesic {
 
 namespace {
 
-// Sorting these gives the order of the numbers: first the border vertices by owner, then the internal ones by
-// leaf and by distance to the border.
-struct VertexInOrder {
-    bool internal;
-    uint32_t group; // the owner, or the leaf
-    double distance_to_border;
-    uint32_t vertex;
-
-    auto key() const { return std::tie(internal, group, distance_to_border, vertex); }
-};
-
-std::vector<double> distances_to_border(const std::vector<uint32_t>& border, uint32_t vertex_count,
-                                        Workers& workers) {
-    std::vector<double> result(vertex_count, 0);
-    if (border.empty()) return result;
-    workers.run(1, [&](FieldSolver& solver, size_t) {
-        solver.solve(border, {});
-        for (uint32_t v = 0; v < vertex_count; ++v) result[v] = solver.distance(v);
-    });
-    return result;
-}
-
-std::vector<VertexInOrder> vertices_in_order(const Hierarchy& hierarchy,
-                                             const ListOfLists<uint32_t>& leaves_at_vertex,
-                                             const std::vector<uint8_t>& is_border, Workers& workers) {
-    const auto vertex_count = static_cast<uint32_t>(leaves_at_vertex.size());
-    std::vector<uint32_t> border;
-    for (uint32_t v = 0; v < vertex_count; ++v)
-        if (leaves_at_vertex[v].size() > 1 && is_border[v]) border.push_back(v);
-    const auto distance = distances_to_border(border, vertex_count, workers);
-
-    std::vector<VertexInOrder> order;
-    for (uint32_t v = 0; v < vertex_count; ++v) {
-        const auto leaves = leaves_at_vertex[v];
-        const bool internal = leaves.size() == 1 || !is_border[v];
-        order.push_back({internal, internal ? leaves[0] : common_ancestor(hierarchy, leaves),
-                         internal ? distance[v] : 0, v});
-    }
-    std::sort(order.begin(), order.end(),
-              [](const VertexInOrder& a, const VertexInOrder& b) { return a.key() < b.key(); });
-    return order;
-}
-
-// How many of the vertices `from` .. `to` - 1 belong to each of the `count` groups that begin with `first`.
-std::vector<uint32_t> group_sizes(const std::vector<VertexInOrder>& order, size_t from, size_t to,
-                                  uint32_t first, uint32_t count) {
-    std::vector<uint32_t> sizes(count, 0);
-    for (size_t i = from; i < to; ++i) ++sizes[order[i].group - first];
-    return sizes;
+// The owner of each border vertex, and NONE for an internal vertex.
+std::vector<uint32_t> owners(const Hierarchy& hierarchy, const ListOfLists<uint32_t>& leaves_at_vertex,
+                             const std::vector<uint8_t>& is_border) {
+    std::vector<uint32_t> owner(leaves_at_vertex.size(), NONE);
+    for (uint32_t v = 0; v < owner.size(); ++v)
+        if (leaves_at_vertex[v].size() > 1 && is_border[v])
+            owner[v] = common_ancestor(hierarchy, leaves_at_vertex[v]);
+    return owner;
 }
 
 std::vector<ListOfLists<uint32_t>> faces_by_level(const Hierarchy& hierarchy) {
@@ -75,13 +35,11 @@ std::vector<ListOfLists<uint32_t>> faces_by_level(const Hierarchy& hierarchy) {
 // Finds the vertices on the border of each patch.
 class BorderFinder {
 public:
-    // `number` is by vertex of the mesh, `owner` by number of a border vertex.
-    BorderFinder(const Mesh& mesh, const Hierarchy& hierarchy, const std::vector<uint32_t>& number,
-                 const std::vector<uint32_t>& owner)
-        : mesh_(mesh), hierarchy_(hierarchy), number_(number), owner_(owner), inside_(mesh.face_count(), 0) {}
+    BorderFinder(const Mesh& mesh, const Hierarchy& hierarchy, const std::vector<uint32_t>& owner)
+        : mesh_(mesh), hierarchy_(hierarchy), owner_(owner), inside_(mesh.face_count(), 0) {}
 
-    // The border of a patch, given by its faces, as numbers in their order along the patch's boundary.
-    // Vertices at which the patch only touches another patch come last.
+    // The border of a patch, given by its faces, in the order along the patch's boundary. Vertices at which
+    // the patch only touches another patch come last.
     std::vector<uint32_t> find(uint32_t patch, std::span<const uint32_t> faces) {
         for (uint32_t f : faces) inside_[f] = 1;
         auto walks = walk_border(mesh_, faces, inside_);
@@ -93,8 +51,7 @@ public:
             // end of the walk and its beginning do not cut a chain in two.
             if (const auto other = std::ranges::find_if_not(walk, on_border); other != walk.end())
                 std::rotate(walk.begin(), other, walk.end());
-            for (uint32_t v : walk)
-                if (on_border(v)) border.push_back(number_[v]);
+            std::ranges::copy_if(walk, std::back_inserter(border), on_border);
         }
         add_touching(patch, faces, border);
         return border;
@@ -103,15 +60,14 @@ public:
 private:
     // A vertex lies on the border of a patch unless all leaves around it lie inside.
     bool is_on_border(uint32_t vertex, uint32_t patch) const {
-        const uint32_t number = number_[vertex];
-        return number < owner_.size() && !is_within(hierarchy_, owner_[number], patch);
+        return owner_[vertex] != NONE && !is_within(hierarchy_, owner_[vertex], patch);
     }
 
     void add_touching(uint32_t patch, std::span<const uint32_t> faces, std::vector<uint32_t>& border) const {
         std::vector<uint32_t> touching, known(border);
         for (uint32_t f : faces)
             for (uint32_t v : mesh_.faces[f])
-                if (is_on_border(v, patch)) touching.push_back(number_[v]);
+                if (is_on_border(v, patch)) touching.push_back(v);
         std::sort(touching.begin(), touching.end());
         touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
         std::sort(known.begin(), known.end());
@@ -121,21 +77,88 @@ private:
 
     const Mesh& mesh_;
     const Hierarchy& hierarchy_;
-    const std::vector<uint32_t>&number_, &owner_;
-    std::vector<uint8_t> inside_; // per face
+    const std::vector<uint32_t>& owner_; // per vertex; NONE: it is internal
+    std::vector<uint8_t> inside_;        // per face
 };
 
-void lay_out_borders(BorderFinder& finder, const Hierarchy& hierarchy, Workers& workers,
-                     StoredIndex& stored) {
+// The border of each patch; that of the whole mesh is empty.
+std::vector<std::vector<uint32_t>> find_borders(BorderFinder& finder, const Hierarchy& hierarchy,
+                                                Workers& workers) {
     const auto faces = faces_by_level(hierarchy);
+    std::vector<std::vector<uint32_t>> borders(1);
     for (uint32_t l = 1; l <= hierarchy.level_count(); ++l)
         workers.run(1, [&](FieldSolver&, size_t) {
-            for (uint32_t i = 0; i < faces[l].size(); ++i) {
-                const auto border = finder.find(hierarchy.level_begin[l] + i, faces[l][i]);
-                stored.border_size.push_back(static_cast<uint32_t>(border.size()));
-                stored.border.insert(stored.border.end(), border.begin(), border.end());
-            }
+            for (uint32_t i = 0; i < faces[l].size(); ++i)
+                borders.push_back(finder.find(hierarchy.level_begin[l] + i, faces[l][i]));
         });
+    return borders;
+}
+
+// Gives vertices their numbers, one after the other.
+class NumberGiver {
+public:
+    explicit NumberGiver(size_t vertex_count) : number_(vertex_count, NONE) {}
+
+    void give(uint32_t vertex) {
+        if (number_[vertex] != NONE) return;
+        number_[vertex] = static_cast<uint32_t>(vertex_of_number_.size());
+        vertex_of_number_.push_back(vertex);
+    }
+    uint32_t count() const { return static_cast<uint32_t>(vertex_of_number_.size()); }
+    const std::vector<uint32_t>& number() const { return number_; }
+    std::vector<uint32_t> take_vertices() { return std::move(vertex_of_number_); }
+
+private:
+    std::vector<uint32_t> number_, vertex_of_number_;
+};
+
+// Numbers what each patch owns in the order in which it lies along the borders of the patch's children, so
+// that neighbours on a border have neighbouring rows and columns in the tables.
+void number_owned(const Hierarchy& hierarchy, std::span<const std::vector<uint32_t>> borders,
+                  const std::vector<uint32_t>& owner, NumberGiver& giver, StoredIndex& stored) {
+    for (uint32_t p = 0; p < hierarchy.first_leaf(); ++p) {
+        const uint32_t first = giver.count();
+        for (uint32_t child = hierarchy.child_begin[p]; child < hierarchy.child_begin[p + 1]; ++child)
+            for (uint32_t v : borders[child])
+                if (owner[v] == p) giver.give(v);
+        stored.owned_count.push_back(giver.count() - first);
+    }
+}
+
+double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return x * x + y * y + z * z;
+}
+
+// Reorders the vertices so that each is the nearest one, in a straight line, to the one before it of all
+// those that are left. The first one is the nearest to `start`.
+void order_by_nearness(const Mesh& mesh, Eigen::Vector3d start, std::span<uint32_t> vertices) {
+    for (size_t i = 0; i < vertices.size(); ++i) {
+        const auto nearest = std::ranges::min_element(vertices.subspan(i), {}, [&](uint32_t v) {
+            return std::pair(squared_distance(mesh.positions[v], start), v);
+        });
+        std::swap(vertices[i], *nearest);
+        start = mesh.positions[vertices[i]];
+    }
+}
+
+// Numbers what is internal to each leaf, so that neighbours mostly have neighbouring rows and columns.
+void number_internal(const Mesh& mesh, const Hierarchy& hierarchy,
+                     std::span<const std::vector<uint32_t>> borders,
+                     const ListOfLists<uint32_t>& leaves_at_vertex, const std::vector<uint32_t>& owner,
+                     NumberGiver& giver, StoredIndex& stored) {
+    std::vector<std::vector<uint32_t>> internal(hierarchy.patch_count());
+    for (uint32_t v = 0; v < owner.size(); ++v)
+        if (owner[v] == NONE) internal[leaves_at_vertex[v][0]].push_back(v);
+    for (uint32_t leaf = hierarchy.first_leaf(); leaf < hierarchy.patch_count(); ++leaf) {
+        std::vector<uint32_t>& vertices = internal[leaf];
+        if (!vertices.empty()) {
+            const uint32_t start = borders[leaf].empty() ? vertices.front() : borders[leaf].front();
+            order_by_nearness(mesh, mesh.positions[start], vertices);
+        }
+        for (uint32_t v : vertices) giver.give(v);
+        stored.internal_count.push_back(static_cast<uint32_t>(vertices.size()));
+    }
 }
 
 std::array<float, 3> rounded(const Eigen::Vector3d& p) {
@@ -147,28 +170,25 @@ std::array<float, 3> rounded(const Eigen::Vector3d& p) {
 std::vector<uint32_t> lay_out(const Intake& intake, const Hierarchy& hierarchy,
                               const ListOfLists<uint32_t>& leaves_at_vertex,
                               const std::vector<uint8_t>& is_border, Workers& workers, StoredIndex& stored) {
-    const uint32_t inner_count = hierarchy.first_leaf(), leaf_count = hierarchy.patch_count() - inner_count;
     stored.level_count = hierarchy.level_count();
-    for (uint32_t p = 0; p < inner_count; ++p)
+    for (uint32_t p = 0; p < hierarchy.first_leaf(); ++p)
         stored.child_count.push_back(hierarchy.child_begin[p + 1] - hierarchy.child_begin[p]);
 
-    const auto order = vertices_in_order(hierarchy, leaves_at_vertex, is_border, workers);
-    const auto border_count = static_cast<size_t>(
-        std::count_if(order.begin(), order.end(), [](const VertexInOrder& at) { return !at.internal; }));
-    stored.owned_count = group_sizes(order, 0, border_count, 0, inner_count);
-    stored.internal_count = group_sizes(order, border_count, order.size(), inner_count, leaf_count);
+    const auto owner = owners(hierarchy, leaves_at_vertex, is_border);
+    BorderFinder finder(intake.mesh, hierarchy, owner);
+    const auto borders = find_borders(finder, hierarchy, workers);
+    NumberGiver giver(owner.size());
+    number_owned(hierarchy, borders, owner, giver, stored);
+    number_internal(intake.mesh, hierarchy, borders, leaves_at_vertex, owner, giver, stored);
 
-    std::vector<uint32_t> vertex_of_number, owner, number(order.size());
-    for (const VertexInOrder& at : order) {
-        number[at.vertex] = static_cast<uint32_t>(vertex_of_number.size());
-        vertex_of_number.push_back(at.vertex);
-        if (!at.internal) owner.push_back(at.group);
-        stored.positions.push_back(rounded(intake.mesh.positions[at.vertex]));
+    for (uint32_t p = 1; p < hierarchy.patch_count(); ++p) {
+        stored.border_size.push_back(static_cast<uint32_t>(borders[p].size()));
+        for (uint32_t v : borders[p]) stored.border.push_back(giver.number()[v]);
     }
     for (uint32_t vertex : intake.vertex_of_id)
-        stored.number_of_id.push_back(vertex == NONE ? NONE : number[vertex]);
-    BorderFinder finder(intake.mesh, hierarchy, number, owner);
-    lay_out_borders(finder, hierarchy, workers, stored);
+        stored.number_of_id.push_back(vertex == NONE ? NONE : giver.number()[vertex]);
+    std::vector<uint32_t> vertex_of_number = giver.take_vertices();
+    for (uint32_t v : vertex_of_number) stored.positions.push_back(rounded(intake.mesh.positions[v]));
     return vertex_of_number;
 }
 

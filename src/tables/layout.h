@@ -11,8 +11,8 @@
 
 namespace geodesic {
 
-// Numbers the vertices as Numbering describes, with the internal vertices of a leaf sorted by their distance
-// to the nearest border vertex, and fills the sections HIER, VERT, POSI and BORD. `is_border[v]` is read for
+// Numbers the vertices as Numbering describes, so that neighbouring rows and columns of tables mostly belong
+// to neighbours on the surface, and fills the sections HIER, VERT, POSI and BORD. `is_border[v]` is read for
 // vertices where several leaves meet, and is false where pruning took the vertex off the border. Returns the
 // mesh vertex of each number.
 std::vector<uint32_t> lay_out(const Intake& intake, const Hierarchy& hierarchy,

@@ -110,11 +110,12 @@ private:
     double way_over(const std::vector<uint16_t>& row, uint32_t b) const {
         return double{distances_[b]} + to_vertex(row, b);
     }
+    // In single precision, as the text has it, in which more ways are of one length.
     uint32_t first_least_way(const std::vector<uint16_t>& row) const {
-        double least = NOWHERE;
+        float least = INFINITE;
         uint32_t first = NONE;
         for (uint32_t b = 0; b < border_.size(); ++b)
-            if (const double way = way_over(row, b); way < least) {
+            if (const float way = distances_[b] + static_cast<float>(to_vertex(row, b)); way < least) {
                 least = way;
                 first = b;
             }
