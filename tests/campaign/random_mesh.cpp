@@ -76,8 +76,10 @@ void add_unused(Dice& dice, Soup& soup) {
 void change_unit_and_place(Dice& dice, Soup& soup) {
     if (dice.chance(0.15))
         for (auto& p : soup.positions) p.z() *= dice.pick({1e-3, 30.0});
-    if (dice.chance(0.2))
-        transform(soup, 1, std::pow(10.0, dice.between(2, 6)) * Vector3d(1, dice.real(-1, 1), 0.3));
+    if (dice.chance(0.2)) {
+        const double far = std::pow(10.0, dice.between(2, 6));
+        transform(soup, 1, far * Vector3d(1, dice.real(-1, 1), 0.3));
+    }
     if (dice.chance(0.2)) transform(soup, dice.pick({1e-3, 1e3, 1e-12, 1e12, 1e-25, 1e25}), Vector3d::Zero());
 }
 

@@ -67,7 +67,8 @@ Soup boxes(Dice& dice, uint32_t vertices) {
     Soup soup;
     for (uint32_t i = 0; i < count; ++i) {
         Soup box = test::cube(cells);
-        const Vector3d place(dice.below(width), dice.below(width), dice.below(width));
+        const uint32_t x = dice.below(width), y = dice.below(width), z = dice.below(width);
+        const Vector3d place(x, y, z);
         for (auto& p : box.positions) p += place;
         soup = test::joined(soup, box);
     }
@@ -94,8 +95,9 @@ Soup bunch(Dice& dice, uint32_t vertices) {
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t side = side_of(vertices / count);
         Soup sheet = test::grid(side, side, 1, 1);
-        const Eigen::AngleAxisd turn(dice.real(0, 6),
-                                     Vector3d(dice.real(-1, 1), dice.real(-1, 1), 1).normalized());
+        const double angle = dice.real(0, 6);
+        const Vector3d axis{dice.real(-1, 1), dice.real(-1, 1), 1};
+        const Eigen::AngleAxisd turn(angle, axis.normalized());
         for (auto& p : sheet.positions) p = turn * p;
         soup = test::joined(soup, sheet);
     }
@@ -107,7 +109,7 @@ Soup tangle(Dice& dice, uint32_t vertices) {
     const bool on_lattice = dice.chance(0.5);
     Soup soup;
     for (uint32_t i = 0; i < vertices; ++i)
-        soup.positions.emplace_back(dice.real(0, 1), dice.real(0, 1), dice.real(0, 1));
+        soup.positions.push_back({dice.real(0, 1), dice.real(0, 1), dice.real(0, 1)});
     if (on_lattice)
         for (auto& p : soup.positions) p = (p * 5).array().floor().matrix();
     const uint32_t triangles =

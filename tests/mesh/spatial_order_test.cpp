@@ -39,7 +39,7 @@ TEST_CASE("spatial order: a permutation of the given points, the same for equal 
     std::mt19937_64 random(1);
     std::vector<Eigen::Vector3d> positions;
     for (int i = 0; i < 1000; ++i)
-        positions.emplace_back(uniform(random, -1, 1), uniform(random, 0, 1e-3), uniform(random, 5, 6));
+        positions.push_back({uniform(random, -1, 1), uniform(random, 0, 1e-3), uniform(random, 5, 6)});
     std::vector<uint32_t> points;
     for (uint32_t i = 0; i < 1000; i += 3) points.push_back(i);
     auto order = spatial_order(positions, points);

@@ -27,8 +27,8 @@ Soup lattice_soup(std::mt19937_64& random, size_t faces, double jitter) {
             {static_cast<int>(random() % 4), static_cast<int>(random() % 4), static_cast<int>(random() % 3)});
     std::vector<Vector3d> positions;
     for (const auto& [x, y, z] : places)
-        positions.push_back(Vector3d(x + uniform(random, 0, jitter), y + uniform(random, 0, jitter),
-                                     z + uniform(random, 0, jitter)));
+        positions.push_back(
+            {x + uniform(random, 0, jitter), y + uniform(random, 0, jitter), z + uniform(random, 0, jitter)});
     std::ranges::shuffle(positions, random);
 
     std::map<std::pair<uint32_t, uint32_t>, size_t> faces_at;

@@ -143,10 +143,11 @@ Soup grid(uint32_t columns, uint32_t rows, double width, double height) {
 Soup jittered_grid(uint32_t cells, uint64_t seed) {
     std::mt19937_64 random(seed);
     Soup soup = grid(cells, cells, 1, 1);
-    const double step = 0.3 / cells;
+    // Too little to turn a triangle over, whichever way its three corners move.
+    const double step = 0.2 / cells;
     for (auto& p : soup.positions)
         if (p.x() > 0 && p.x() < 1 && p.y() > 0 && p.y() < 1)
-            p += Vector3d(uniform(random, -step, step), uniform(random, -step, step), 0);
+            p += Vector3d{uniform(random, -step, step), uniform(random, -step, step), 0};
     for (size_t f = 0; f < soup.triangles.size(); f += 2) {
         if (random() & 1) continue;
         const auto [a, b, c] = soup.triangles[f];

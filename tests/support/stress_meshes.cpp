@@ -8,6 +8,13 @@ namespace geodesic::test {
 
 namespace {
 
+// Random numbers are drawn in statements of their own or between braces: compilers evaluate the arguments
+// of a call in any order, and every compiler shall make the same mesh of a seed.
+
+uint32_t between(std::mt19937_64& random, uint32_t least, uint32_t most) {
+    return static_cast<uint32_t>(least + random() % (most - least + 1));
+}
+
 Soup slivers(std::mt19937_64& random) {
     // Angles down to about 1e-6: a triangulation squeezed in one direction.
     const double squeeze = std::pow(10, uniform(random, -5.5, -1));
@@ -15,8 +22,9 @@ Soup slivers(std::mt19937_64& random) {
 }
 
 Soup needle_fan(std::mt19937_64& random) {
-    const auto count = static_cast<uint32_t>(100 + random() % 200);
-    return cone(cone_rays(count, uniform(random, -1.2, 1.2)), static_cast<uint32_t>(1 + random() % 3));
+    const uint32_t count = between(random, 100, 299);
+    const auto rays = cone_rays(count, uniform(random, -1.2, 1.2));
+    return cone(rays, between(random, 1, 3));
 }
 
 // A band of uneven steps, bent at every one.
@@ -37,26 +45,28 @@ Soup strip(std::mt19937_64& random) {
 }
 
 Soup any_torus(std::mt19937_64& random) {
-    return torus(static_cast<uint32_t>(8 + random() % 20), static_cast<uint32_t>(4 + random() % 12), 2,
-                 uniform(random, 0.05, 1.5));
+    const uint32_t around = between(random, 8, 27), across = between(random, 4, 15);
+    return torus(around, across, 2, uniform(random, 0.05, 1.5));
 }
 
 Soup saddle(std::mt19937_64& random) {
-    return cone(saddle_rays(static_cast<uint32_t>(4 + 2 * (random() % 10)), uniform(random, 0.1, 1.3)),
-                static_cast<uint32_t>(2 + random() % 5));
+    const uint32_t count = 2 * between(random, 2, 11);
+    const auto rays = saddle_rays(count, uniform(random, 0.1, 1.3));
+    return cone(rays, between(random, 2, 6));
 }
 
 // Thousands of equal distances, at rest or bent along one line.
 Soup regular_grid(std::mt19937_64& random) {
-    Soup soup =
-        grid(static_cast<uint32_t>(6 + random() % 14), static_cast<uint32_t>(6 + random() % 14), 1, 1);
+    const uint32_t width = between(random, 6, 19), height = between(random, 6, 19);
+    Soup soup = grid(width, height, 1, 1);
     if (random() % 2 == 0)
         for (auto& p : soup.positions) p.z() = std::abs(p.x() - 0.5);
     return soup;
 }
 
 Soup bumpy(std::mt19937_64& random) {
-    return bumpy_sphere(static_cast<uint32_t>(1 + random() % 2), random());
+    const uint32_t subdivisions = between(random, 1, 2);
+    return bumpy_sphere(subdivisions, random());
 }
 
 Soup mixed_winding(std::mt19937_64& random) {
@@ -64,9 +74,9 @@ Soup mixed_winding(std::mt19937_64& random) {
     return with_mixed_winding(sphere, random());
 }
 
-Soup any_moebius(std::mt19937_64& random) { return moebius(static_cast<uint32_t>(16 + random() % 10), 3); }
-Soup any_pinched(std::mt19937_64& random) { return pinched_sheets(static_cast<uint32_t>(3 + random() % 2)); }
-Soup any_comb(std::mt19937_64& random) { return comb(static_cast<uint32_t>(1 + random() % 2)); }
+Soup any_moebius(std::mt19937_64& random) { return moebius(between(random, 16, 25), 3); }
+Soup any_pinched(std::mt19937_64& random) { return pinched_sheets(between(random, 3, 4)); }
+Soup any_comb(std::mt19937_64& random) { return comb(between(random, 1, 2)); }
 
 constexpr StressFamily MANIFOLD[] = {
     {"slivers", slivers}, {"needle fan", needle_fan},     {"strip", strip}, {"torus", any_torus},
