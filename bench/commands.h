@@ -10,5 +10,6 @@ void add_queries(CLI::App& app);
 void add_metric(CLI::App& app);
 void add_error(CLI::App& app);
 void add_several(CLI::App& app);
+void add_open(CLI::App& app);
 
 }
