@@ -2,6 +2,8 @@
 
 // Numbers as little-endian bytes, field by field, so that every host reads and writes the same file.
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <concepts>
 #include <cstddef>
@@ -56,6 +58,12 @@ public:
             store_little_endian(std::bit_cast<std::uint32_t>(values[i]), to + 4 * i);
         }
     }
+    // All lowest bytes first, then all second ones, and so on: what packs well where neighbours are alike.
+    void u32_planes(std::span<const std::uint32_t> values) {
+        std::byte* to = grow(values.size_bytes());
+        for (unsigned byte = 0; byte < 4; ++byte)
+            for (const std::uint32_t value : values) *to++ = static_cast<std::byte>(value >> (8 * byte));
+    }
 
     std::size_t size() const { return bytes_.size(); }
     // Hands the bytes over and leaves the writer empty.
@@ -69,7 +77,9 @@ private:
     }
     template <std::unsigned_integral T>
     void append(T value) {
-        store_little_endian(value, grow(sizeof(T)));
+        std::array<std::byte, sizeof(T)> little_endian;
+        store_little_endian(value, little_endian.data());
+        bytes(little_endian);
     }
 
     std::vector<std::byte> bytes_;
@@ -109,6 +119,13 @@ public:
         for (std::size_t i = 0; i < values.size(); ++i) {
             values[i] = std::bit_cast<float>(load_little_endian<std::uint32_t>(from.data() + 4 * i));
         }
+    }
+    void u32_planes(std::span<std::uint32_t> values) {
+        const std::byte* from = bytes(values.size_bytes()).data();
+        std::ranges::fill(values, 0u);
+        for (unsigned byte = 0; byte < 4; ++byte)
+            for (std::uint32_t& value : values)
+                value |= std::to_integer<std::uint32_t>(*from++) << (8 * byte);
     }
 
     // A u64 count of elements that follow, each at least `element_size` bytes long. Throws when it is over

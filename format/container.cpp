@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "format/byte_images.h"
 #include "format/bytes.h"
 #include "format/layout.h"
 #include "format/matrix_png.h"
@@ -20,13 +21,14 @@ std::uint64_t raw_size_of(std::span<const MatrixTarget> matrices) {
     return size;
 }
 
-void decode_matrix(std::uint32_t tag, std::size_t index, std::span<const std::byte> png,
-                   const MatrixTarget& matrix) {
+// Runs decode(), and says in its error which image of which section is meant.
+template <class Decode>
+void decode_image(std::uint32_t tag, std::size_t index, const Decode& decode) {
     try {
-        decode_png(png, matrix.rows, matrix.cols, matrix.values);
+        decode();
     } catch (const Error& error) {
         throw Error(error.status,
-                    "section " + tag_text(tag) + ", matrix " + std::to_string(index) + ": " + error.what());
+                    "section " + tag_text(tag) + ", image " + std::to_string(index) + ": " + error.what());
     }
 }
 
@@ -81,7 +83,8 @@ std::span<const std::byte> Container::stored_bytes(const Section& section) const
                          static_cast<std::size_t>(section.stored_size));
 }
 
-std::vector<std::byte> Container::read_bytes(std::uint32_t tag, std::uint64_t max_raw_size) const {
+std::vector<std::byte> Container::read_bytes(std::uint32_t tag, std::uint64_t max_raw_size,
+                                             const ShareOut& share_out) const {
     const Section& found = section(tag);
     if (found.raw_size > max_raw_size) {
         fail_corrupt(tag, std::to_string(found.raw_size) + " raw bytes, the limit here is " +
@@ -91,7 +94,17 @@ std::vector<std::byte> Container::read_bytes(std::uint32_t tag, std::uint64_t ma
     if (found.codec == Codec::Raw) return {stored.begin(), stored.end()};
     if (found.codec == Codec::Zstd)
         return decompress_zstd(stored, found.raw_size, "section " + tag_text(tag));
-    fail_corrupt(tag, "it holds images, expected bytes");
+    if (found.codec == Codec::ByteImages) return read_images(found, share_out);
+    fail_corrupt(tag, "it holds matrices, expected bytes");
+}
+
+std::vector<std::byte> Container::read_images(const Section& section, const ShareOut& share_out) const {
+    const auto streams = png_streams(section.tag, byte_image_count(section.raw_size));
+    std::vector<std::byte> raw(static_cast<std::size_t>(section.raw_size));
+    share_out(streams.size(), [&](std::size_t i) {
+        decode_image(section.tag, i, [&] { decode_byte_image(streams[i], i, raw); });
+    });
+    return raw;
 }
 
 void Container::one_after_the_other(std::size_t count, const std::function<void(std::size_t)>& decode) {
@@ -107,7 +120,10 @@ void Container::read_matrices(std::uint32_t tag, std::span<const MatrixTarget> m
     }
     if (found.codec == Codec::Png) {
         const auto streams = png_streams(tag, matrices.size());
-        share_out(streams.size(), [&](std::size_t i) { decode_matrix(tag, i, streams[i], matrices[i]); });
+        share_out(streams.size(), [&](std::size_t i) {
+            const auto& [values, rows, cols] = matrices[i];
+            decode_image(tag, i, [&] { decode_png(streams[i], rows, cols, values); });
+        });
         return;
     }
     const std::vector<std::byte> raw = read_bytes(tag, found.raw_size);
@@ -117,11 +133,12 @@ void Container::read_matrices(std::uint32_t tag, std::span<const MatrixTarget> m
 
 std::vector<std::span<const std::byte>> Container::png_streams(std::uint32_t tag, std::uint64_t count) const {
     const Section& found = section(tag);
-    if (found.codec != Codec::Png) fail_corrupt(tag, "it does not hold images");
+    if (found.codec != Codec::Png && found.codec != Codec::ByteImages)
+        fail_corrupt(tag, "it does not hold images");
     ByteReader reader(stored_bytes(found), "section " + tag_text(tag));
     const std::uint32_t stored_count = reader.u32();
     if (stored_count != count) {
-        fail_corrupt(tag, std::to_string(stored_count) + " matrices, expected " + std::to_string(count));
+        fail_corrupt(tag, std::to_string(stored_count) + " images, expected " + std::to_string(count));
     }
     ByteReader lengths(reader.bytes(8 * std::uint64_t{stored_count}), "section " + tag_text(tag));
     std::vector<std::span<const std::byte>> streams;

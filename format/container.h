@@ -14,7 +14,7 @@
 
 namespace geodesic::format {
 
-inline constexpr std::uint16_t FORMAT_MAJOR = 1;
+inline constexpr std::uint16_t FORMAT_MAJOR = 2;
 inline constexpr std::uint16_t FORMAT_MINOR = 0;
 inline constexpr std::uint32_t MAX_SECTIONS = 1024;
 
@@ -31,7 +31,9 @@ std::string tag_text(std::uint32_t tag);
 enum class Codec : std::uint32_t {
     Raw = 0,  // the raw bytes themselves
     Zstd = 1, // one zstd frame
-    Png = 2   // u32 count, count u64 byte lengths, as many PNG streams back to back: one matrix each
+    // u32 count, count u64 byte lengths, as many PNG streams back to back:
+    Png = 2,       // one matrix of floats each
+    ByteImages = 3 // the raw bytes, cut into images (byte_images.h)
 };
 
 // Flags of a section. A reader that does not know the tag of an optional section skips it.
@@ -70,10 +72,13 @@ public:
     void add_bytes(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags = 0);
     // As they are, for a reader that maps the file.
     void add_raw(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags = 0);
+    // As gray images, which pack well what has few different bytes next to each other.
+    void add_images(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags = 0);
     void add_matrices(std::uint32_t tag, std::span<const MatrixView> matrices, std::uint32_t flags = 0);
-    // The same with the work done: each matrix as encode_png gave it, `raw_size` the sum of rows x cols x 4.
-    void add_encoded_matrices(std::uint32_t tag, std::span<const std::vector<std::byte>> pngs,
-                              std::uint64_t raw_size, std::uint32_t flags = 0);
+    // The streams of a section that is Png or ByteImages, as encode_png and encode_byte_images gave them.
+    // `raw_size` is that of what they hold; of matrices the sum of rows x cols x 4.
+    void add_encoded_images(std::uint32_t tag, Codec codec, std::span<const std::vector<std::byte>> pngs,
+                            std::uint64_t raw_size, std::uint32_t flags = 0);
 
     // The bytes of the file. Call it once, last.
     std::vector<std::byte> finish();
@@ -111,23 +116,26 @@ public:
     // Throws GEOIDX_ERROR_CORRUPT when there is none.
     const Section& section(std::uint32_t tag) const;
 
-    // The raw bytes of a section that is Raw or Zstd. Throws GEOIDX_ERROR_CORRUPT, before it allocates, for a
-    // missing section and for one that is larger than `max_raw_size`.
-    std::vector<std::byte> read_bytes(std::uint32_t tag, std::uint64_t max_raw_size) const;
-    // Fills the matrices, which must be those of the section, all of them, in their order, whatever its
-    // codec. Throws GEOIDX_ERROR_CORRUPT otherwise, with unspecified values in the matrices. `share_out` runs
-    // decode(0) .. decode(count - 1), perhaps on several threads, and throws what these throw.
+    // Runs decode(0) .. decode(count - 1), perhaps on several threads, and throws what these throw.
     using ShareOut = std::function<void(std::size_t count, const std::function<void(std::size_t)>& decode)>;
+
+    // The raw bytes of a section that is Raw, Zstd or ByteImages. Throws GEOIDX_ERROR_CORRUPT, before it
+    // allocates, for a missing section and for one that is larger than `max_raw_size`.
+    std::vector<std::byte> read_bytes(std::uint32_t tag, std::uint64_t max_raw_size,
+                                      const ShareOut& share_out = one_after_the_other) const;
+    // Fills the matrices, which must be those of the section, all of them, in their order, whatever its
+    // codec. Throws GEOIDX_ERROR_CORRUPT otherwise, with unspecified values in the matrices.
     void read_matrices(std::uint32_t tag, std::span<const MatrixTarget> matrices,
                        const ShareOut& share_out = one_after_the_other) const;
     static void one_after_the_other(std::size_t count, const std::function<void(std::size_t)>& decode);
-    // The streams of a section that is Png. They must be `count`.
+    // The streams of a section that is Png or ByteImages. They must be `count`.
     std::vector<std::span<const std::byte>> png_streams(std::uint32_t tag, std::uint64_t count) const;
 
 private:
     Container() = default;
     const Section* find(std::uint32_t tag) const;
     std::span<const std::byte> stored_bytes(const Section& section) const;
+    std::vector<std::byte> read_images(const Section& section, const ShareOut& share_out) const;
 
     std::span<const std::byte> file_;
     std::uint16_t version_major_ = 0;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "format/byte_images.h"
 #include "format/bytes.h"
 #include "format/checksum.h"
 #include "format/container.h"
@@ -30,20 +31,25 @@ void ContainerWriter::add_matrices(std::uint32_t tag, std::span<const MatrixView
         pngs.push_back(encode_png(matrix.values, matrix.rows, matrix.cols));
         raw_size += matrix.values.size_bytes();
     }
-    add_encoded_matrices(tag, pngs, raw_size, flags);
+    add_encoded_images(tag, Codec::Png, pngs, raw_size, flags);
 }
 
-void ContainerWriter::add_encoded_matrices(std::uint32_t tag, std::span<const std::vector<std::byte>> pngs,
-                                           std::uint64_t raw_size, std::uint32_t flags) {
+void ContainerWriter::add_images(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags) {
+    add_encoded_images(tag, Codec::ByteImages, encode_byte_images(raw), raw.size(), flags);
+}
+
+void ContainerWriter::add_encoded_images(std::uint32_t tag, Codec codec,
+                                         std::span<const std::vector<std::byte>> pngs, std::uint64_t raw_size,
+                                         std::uint32_t flags) {
     if (pngs.size() > std::numeric_limits<std::uint32_t>::max()) {
-        throw Error(GEOIDX_ERROR_LIMIT, "section " + tag_text(tag) + ": " + std::to_string(pngs.size()) +
-                                            " matrices are too many");
+        throw Error(GEOIDX_ERROR_LIMIT,
+                    "section " + tag_text(tag) + ": " + std::to_string(pngs.size()) + " images are too many");
     }
     ByteWriter writer;
     writer.u32(static_cast<std::uint32_t>(pngs.size()));
     for (const auto& png : pngs) writer.u64(png.size());
     for (const auto& png : pngs) writer.bytes(png);
-    add(tag, Codec::Png, flags, writer.take(), raw_size);
+    add(tag, codec, flags, writer.take(), raw_size);
 }
 
 void ContainerWriter::add(std::uint32_t tag, Codec codec, std::uint32_t flags, std::vector<std::byte> stored,

@@ -168,7 +168,7 @@ private:
         if (!is_known(section) && (section.flags & SECTION_OPTIONAL) == 0) {
             fail(GEOIDX_ERROR_UNSUPPORTED_VERSION, at, section_text(section) + " is needed and unknown here");
         }
-        if (is_known(section) && section.codec > Codec::Png) {
+        if (is_known(section) && section.codec > Codec::ByteImages) {
             fail(GEOIDX_ERROR_UNSUPPORTED_VERSION, at,
                  section_text(section) + " has codec " +
                      std::to_string(static_cast<std::uint32_t>(section.codec)) + ", unknown here");

@@ -1,261 +1,66 @@
 #include "format/matrix_png.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
-#include <csetjmp>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <new>
 #include <string>
 
-#include <png.h>
-#include <zlib.h>
-
 #include "format/error.h"
-
-// libpng leaves a function by longjmp when it fails. So no frame between setjmp and libpng, ours and the
-// callbacks', may hold an object with a destructor: the owners live in the frames of encode_png and
-// decode_png, the functions that call setjmp and what they call see only references.
+#include "format/png_stream.h"
 
 namespace geodesic::format {
 namespace {
 
 constexpr std::size_t BYTES_PER_PIXEL = 4;
 
-struct Failure {
-    std::array<char, 160> message{};
-    bool out_of_memory = false;
-};
-
-[[noreturn]] void on_error(png_structp png, png_const_charp message) {
-    auto* failure = static_cast<Failure*>(png_get_error_ptr(png));
-    std::snprintf(failure->message.data(), failure->message.size(), "%s", message);
-    png_longjmp(png, 1);
-}
-
-void on_warning(png_structp, png_const_charp) {}
-
-// libpng and the zlib below it report a lack of memory as one of many errors, and in words only.
-png_voidp on_malloc(png_structp png, png_alloc_size_t size) {
-    void* const memory = std::malloc(size);
-    if (memory == nullptr) static_cast<Failure*>(png_get_mem_ptr(png))->out_of_memory = true;
-    return memory;
-}
-
-void on_free(png_structp, png_voidp memory) { std::free(memory); }
-
 // Written out because std::byteswap is of C++23 and this holds on any host.
-void pack_row(const float* values, std::uint32_t cols, png_bytep row) {
-    for (std::size_t col = 0; col < cols; ++col) {
-        const auto bits = std::bit_cast<std::uint32_t>(values[col]);
-        row[4 * col] = static_cast<png_byte>(bits >> 24);
-        row[4 * col + 1] = static_cast<png_byte>(bits >> 16);
-        row[4 * col + 2] = static_cast<png_byte>(bits >> 8);
-        row[4 * col + 3] = static_cast<png_byte>(bits);
-    }
+void pack(float value, std::byte* pixel) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    for (int i = 0; i < 4; ++i) pixel[i] = static_cast<std::byte>(bits >> (24 - 8 * i));
 }
 
-// In place: the pixels were read into the memory of the floats that they stand for.
-void unpack_row(float* values, std::uint32_t cols) {
-    for (std::size_t col = 0; col < cols; ++col) {
-        std::array<png_byte, BYTES_PER_PIXEL> pixel;
-        std::memcpy(pixel.data(), values + col, pixel.size());
-        const std::uint32_t bits = std::uint32_t{pixel[0]} << 24 | std::uint32_t{pixel[1]} << 16 |
-                                   std::uint32_t{pixel[2]} << 8 | std::uint32_t{pixel[3]};
-        std::memcpy(values + col, &bits, sizeof bits);
-    }
+// In place: the pixel was read into the memory of the float that it stands for.
+void unpack(float& value) {
+    std::array<unsigned char, BYTES_PER_PIXEL> pixel;
+    std::memcpy(pixel.data(), &value, pixel.size());
+    const std::uint32_t bits = std::uint32_t{pixel[0]} << 24 | std::uint32_t{pixel[1]} << 16 |
+                               std::uint32_t{pixel[2]} << 8 | std::uint32_t{pixel[3]};
+    std::memcpy(&value, &bits, sizeof bits);
 }
 
-std::string size_text(std::uint32_t rows, std::uint32_t cols) {
-    return std::to_string(rows) + " rows x " + std::to_string(cols) + " columns";
-}
-
-void check_arguments(std::size_t value_count, std::uint32_t rows, std::uint32_t cols) {
-    if (rows == 0 || cols == 0 || rows > MAX_MATRIX_SIDE || cols > MAX_MATRIX_SIDE) {
-        throw Error(GEOIDX_ERROR_LIMIT, "a matrix of " + size_text(rows, cols) + " cannot be an image");
-    }
-    if (value_count != std::uint64_t{rows} * cols) {
-        throw Error(GEOIDX_ERROR_INTERNAL, "a matrix of " + size_text(rows, cols) + " with " +
+PngImage image_of(std::size_t value_count, std::uint32_t rows, std::uint32_t cols) {
+    const PngImage image{rows, cols, Pixel::Rgba8};
+    check_sides(image);
+    if (value_count != std::uint64_t{rows} * cols)
+        throw Error(GEOIDX_ERROR_INTERNAL, "a matrix of " + std::to_string(rows) + " rows x " +
+                                               std::to_string(cols) + " columns with " +
                                                std::to_string(value_count) + " values");
-    }
+    return image;
 }
-
-// ---- Encoding
-
-class Writer {
-public:
-    explicit Writer(Failure& failure)
-        : png_(png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning, &failure,
-                                         on_malloc, on_free)),
-          info_(png_ == nullptr ? nullptr : png_create_info_struct(png_)) {}
-    Writer(const Writer&) = delete;
-    Writer& operator=(const Writer&) = delete;
-    ~Writer() { png_destroy_write_struct(&png_, &info_); }
-
-    bool is_open() const { return info_ != nullptr; }
-    png_structp png() const { return png_; }
-    png_infop info() const { return info_; }
-
-private:
-    png_structp png_;
-    png_infop info_;
-};
-
-bool append(std::vector<std::byte>& out, std::span<const std::byte> bytes) noexcept {
-    try {
-        out.insert(out.end(), bytes.begin(), bytes.end());
-        return true;
-    } catch (...) {
-        return false;
-    }
-}
-
-void on_write(png_structp png, png_bytep data, std::size_t size) {
-    auto& out = *static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
-    if (append(out, std::as_bytes(std::span(data, size)))) return;
-    static_cast<Failure*>(png_get_error_ptr(png))->out_of_memory = true;
-    png_error(png, "out of memory");
-}
-
-void on_flush(png_structp) {}
 
 // Measured on distance matrices of smooth surfaces: the Paeth filter leaves the fewest bytes at any size, and
 // of what it leaves only the frequencies can be packed, so that searching for repeats costs time and space
 // for nothing. But a small symmetric matrix holds nearly every entry twice within the 32 KiB that deflate
 // looks back.
-void choose_compression(png_structp png, std::uint32_t rows, std::uint32_t cols) {
+Compression compression_of(const PngImage& image) {
     constexpr std::uint64_t SIZE_WORTH_SEARCHING = 5 * 32768;
-    constexpr std::uint64_t MAX_CHUNK_SIZE = 1 << 20;
-    const std::uint64_t image_size = rows * (1 + BYTES_PER_PIXEL * std::uint64_t{cols});
-    const bool may_repeat = rows == cols && image_size <= SIZE_WORTH_SEARCHING;
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
-    png_set_compression_level(png, 1);
-    png_set_compression_strategy(png, may_repeat ? Z_FILTERED : Z_HUFFMAN_ONLY);
-    png_set_compression_buffer_size(png, static_cast<std::size_t>(std::min(image_size + 64, MAX_CHUNK_SIZE)));
-}
-
-bool write_image(png_structp png, png_infop info, const float* values, std::uint32_t rows, std::uint32_t cols,
-                 png_bytep row) {
-    if (setjmp(png_jmpbuf(png)) != 0) return false;
-    png_set_user_limits(png, MAX_MATRIX_SIDE, MAX_MATRIX_SIDE);
-    png_set_IHDR(png, info, cols, rows, 8, PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    choose_compression(png, rows, cols);
-    png_write_info(png, info);
-    for (std::size_t r = 0; r < rows; ++r) {
-        pack_row(values + r * cols, cols, row);
-        png_write_row(png, row);
-    }
-    png_write_end(png, nullptr);
-    return true;
-}
-
-// ---- Decoding
-
-class Reader {
-public:
-    explicit Reader(Failure& failure)
-        : png_(png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning, &failure,
-                                        on_malloc, on_free)),
-          info_(png_ == nullptr ? nullptr : png_create_info_struct(png_)) {}
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
-    ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-
-    bool is_open() const { return info_ != nullptr; }
-    png_structp png() const { return png_; }
-    png_infop info() const { return info_; }
-
-private:
-    png_structp png_;
-    png_infop info_;
-};
-
-void on_read(png_structp png, png_bytep data, std::size_t size) {
-    auto& rest = *static_cast<std::span<const std::byte>*>(png_get_io_ptr(png));
-    if (size > rest.size()) png_error(png, "the image ended early");
-    std::memcpy(data, rest.data(), size);
-    rest = rest.subspan(size);
-}
-
-std::uint32_t load_big_endian(std::span<const std::byte> bytes) {
-    std::uint32_t value = 0;
-    for (const std::byte byte : bytes.first(4)) value = value << 8 | std::to_integer<std::uint32_t>(byte);
-    return value;
-}
-
-[[noreturn]] void fail_corrupt(const std::string& what) {
-    throw Error(GEOIDX_ERROR_CORRUPT, "PNG matrix: " + what);
-}
-
-// Before libpng sees the image, so that nothing is allocated for a size that is not expected.
-void check_image_header(std::span<const std::byte> png, std::uint32_t rows, std::uint32_t cols) {
-    // Signature, chunk length, "IHDR", width, height, depth, color type, compression, filter, interlace, CRC.
-    constexpr std::size_t HEADER_SIZE = 8 + 4 + 4 + 13 + 4;
-    if (png.size() < HEADER_SIZE)
-        fail_corrupt(std::to_string(png.size()) + " bytes are too few for an image");
-    if (png_sig_cmp(reinterpret_cast<png_const_bytep>(png.data()), 0, 8) != 0) fail_corrupt("not a PNG");
-    const std::uint32_t width = load_big_endian(png.subspan(16));
-    const std::uint32_t height = load_big_endian(png.subspan(20));
-    if (width != cols || height != rows) {
-        fail_corrupt("the image has " + size_text(height, width) + ", expected " + size_text(rows, cols));
-    }
-    const auto depth = std::to_integer<int>(png[24]);
-    const auto color = std::to_integer<int>(png[25]);
-    const auto interlace = std::to_integer<int>(png[28]);
-    if (depth != 8 || color != PNG_COLOR_TYPE_RGB_ALPHA || interlace != PNG_INTERLACE_NONE) {
-        fail_corrupt("depth " + std::to_string(depth) + ", color type " + std::to_string(color) +
-                     ", interlace " + std::to_string(interlace) + " is not plain 8-bit RGBA");
-    }
-}
-
-bool read_image(png_structp png, png_infop info, std::uint32_t rows, std::uint32_t cols, float* out) {
-    if (setjmp(png_jmpbuf(png)) != 0) return false;
-    png_set_user_limits(png, cols, rows);
-    png_set_chunk_malloc_max(png, 1 << 16);
-    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
-    png_set_benign_errors(png, 0);
-    png_read_info(png, info);
-    for (std::size_t r = 0; r < rows; ++r) {
-        png_read_row(png, reinterpret_cast<png_bytep>(out + r * cols), nullptr);
-        unpack_row(out + r * cols, cols);
-    }
-    png_read_end(png, nullptr);
-    return true;
+    return {Filter::Paeth,
+            image.height == image.width && image.height * (1 + image.row_size()) <= SIZE_WORTH_SEARCHING};
 }
 
 }
 
 std::vector<std::byte> encode_png(std::span<const float> values, std::uint32_t rows, std::uint32_t cols) {
-    check_arguments(values.size(), rows, cols);
-    std::vector<png_byte> row(BYTES_PER_PIXEL * cols);
-    std::vector<std::byte> out;
-    Failure failure;
-    const Writer writer(failure);
-    if (!writer.is_open()) throw std::bad_alloc();
-    png_set_write_fn(writer.png(), &out, on_write, on_flush);
-    if (write_image(writer.png(), writer.info(), values.data(), rows, cols, row.data())) return out;
-    if (failure.out_of_memory) throw std::bad_alloc();
-    throw Error(GEOIDX_ERROR_INTERNAL,
-                "PNG matrix of " + size_text(rows, cols) + ": " + failure.message.data());
+    const PngImage image = image_of(values.size(), rows, cols);
+    std::vector<std::byte> pixels(BYTES_PER_PIXEL * values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) pack(values[i], &pixels[BYTES_PER_PIXEL * i]);
+    return write_png(pixels, image, compression_of(image));
 }
 
 void decode_png(std::span<const std::byte> png, std::uint32_t rows, std::uint32_t cols,
                 std::span<float> out) {
-    check_arguments(out.size(), rows, cols);
-    check_image_header(png, rows, cols);
-    Failure failure;
-    const Reader reader(failure);
-    if (!reader.is_open()) throw std::bad_alloc();
-    std::span<const std::byte> rest = png;
-    png_set_read_fn(reader.png(), &rest, on_read);
-    if (!read_image(reader.png(), reader.info(), rows, cols, out.data())) {
-        if (failure.out_of_memory) throw std::bad_alloc();
-        fail_corrupt(failure.message.data());
-    }
-    if (!rest.empty()) fail_corrupt(std::to_string(rest.size()) + " bytes after the end of the image");
+    read_png(png, image_of(out.size(), rows, cols), std::as_writable_bytes(out));
+    for (float& value : out) unpack(value);
 }
 
 }

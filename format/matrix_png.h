@@ -12,11 +12,8 @@
 
 namespace geodesic::format {
 
-// Rows and columns of a stored matrix: 1 .. MAX_MATRIX_SIDE, what PNG can say.
-inline constexpr std::uint32_t MAX_MATRIX_SIDE = 0x7fffffff;
-
 // `values` is rows x cols, row by row. The same values give the same bytes. Throws GEOIDX_ERROR_LIMIT for a
-// side out of range and GEOIDX_ERROR_INTERNAL when rows x cols is not the number of values.
+// side that PNG cannot say and GEOIDX_ERROR_INTERNAL when rows x cols is not the number of values.
 std::vector<std::byte> encode_png(std::span<const float> values, std::uint32_t rows, std::uint32_t cols);
 
 // Fills `out`, rows x cols, from a PNG of exactly this size: 8-bit RGBA, not interlaced, nothing after its

@@ -101,8 +101,8 @@ TEST_CASE("an index transferred as text says so") {
 }
 
 TEST_CASE("another major version and unknown incompatible features are unsupported") {
-    CHECK(parse_status(patched(sample(), MAJOR, 2, 2)) == GEOIDX_ERROR_UNSUPPORTED_VERSION);
-    CHECK(parse_status(patched(sample(), MAJOR, 0, 2)) == GEOIDX_ERROR_UNSUPPORTED_VERSION);
+    CHECK(parse_status(patched(sample(), MAJOR, 1, 2)) == GEOIDX_ERROR_UNSUPPORTED_VERSION);
+    CHECK(parse_status(patched(sample(), MAJOR, 3, 2)) == GEOIDX_ERROR_UNSUPPORTED_VERSION);
     CHECK(parse_status(patched(sample(), INCOMPATIBLE, 1, 4)) == GEOIDX_ERROR_UNSUPPORTED_VERSION);
     CHECK(parse_status(patched(sample(), INCOMPATIBLE, 0x80000000, 4)) == GEOIDX_ERROR_UNSUPPORTED_VERSION);
 }
@@ -220,8 +220,8 @@ TEST_CASE("an unknown section is skipped when it is optional and refused when it
 }
 
 TEST_CASE("an unknown codec is refused in a known section only") {
-    CHECK(parse_status(patched(sample(), record(FIRST) + CODEC, 3, 4)) == GEOIDX_ERROR_UNSUPPORTED_VERSION);
-    CHECK(parse_status(patched(sample(), record(UNKNOWN_OPTIONAL) + CODEC, 3, 4)) == GEOIDX_OK);
+    CHECK(parse_status(patched(sample(), record(FIRST) + CODEC, 4, 4)) == GEOIDX_ERROR_UNSUPPORTED_VERSION);
+    CHECK(parse_status(patched(sample(), record(UNKNOWN_OPTIONAL) + CODEC, 4, 4)) == GEOIDX_OK);
 }
 
 TEST_CASE("a raw size that the stored bytes cannot hold is refused") {

@@ -1,4 +1,5 @@
 #include "format/matrix_png.h"
+#include "format/png_stream.h"
 
 #include <algorithm>
 #include <cmath>
@@ -145,7 +146,7 @@ TEST_CASE("an image of another size is refused") {
     CHECK(decode_status(png, 5, 8) == GEOIDX_ERROR_CORRUPT);
     CHECK(decode_status(png, 4, 7) == GEOIDX_ERROR_CORRUPT);
     CHECK(decode_status(png, 6, 7) == GEOIDX_ERROR_CORRUPT);
-    CHECK(decode_status(png, MAX_MATRIX_SIDE, 0) == GEOIDX_ERROR_LIMIT);
+    CHECK(decode_status(png, MAX_PNG_SIDE, 0) == GEOIDX_ERROR_LIMIT);
 }
 
 TEST_CASE("an image with fewer or more rows than its header says is refused") {

@@ -1,0 +1,27 @@
+#pragma once
+
+// A run of bytes as 8-bit gray PNG images: of 512 x 512 pixels, a byte each, row by row, as long as there are
+// so many bytes, and then one image of a single row with the rest. Bytes whose frequencies differ, as those
+// of small residuals do, are packed well, and nothing else is looked for in them.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace geodesic::format {
+
+inline constexpr std::uint32_t BYTE_IMAGE_SIDE = 512;
+inline constexpr std::uint64_t BYTE_IMAGE_SIZE = std::uint64_t{BYTE_IMAGE_SIDE} * BYTE_IMAGE_SIDE;
+
+constexpr std::uint64_t byte_image_count(std::uint64_t size) {
+    return size / BYTE_IMAGE_SIZE + (size % BYTE_IMAGE_SIZE > 0);
+}
+
+// One stream an image.
+std::vector<std::vector<std::byte>> encode_byte_images(std::span<const std::byte> bytes);
+
+// Fills the bytes of image number `index` of a run, of which `run` is the whole. Throws as read_png does.
+void decode_byte_image(std::span<const std::byte> png, std::uint64_t index, std::span<std::byte> run);
+
+}
