@@ -96,7 +96,7 @@ BuiltIndex build_index(const Model& model, const geoidx_build_options& options) 
 
 uint64_t file_size(const geoidx& index, const std::string& name) {
     uint64_t bytes = 0;
-    tools::require_ok(geoidx_save_memory(&index, nullptr, 0, &bytes), name);
+    tools::require_ok(geoidx_save_memory(&index, nullptr, nullptr, 0, &bytes), name);
     return bytes;
 }
 

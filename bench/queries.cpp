@@ -40,7 +40,7 @@ BuiltIndex built_or_opened(const Model& model, const QueriesArguments& arguments
         BuiltIndex built = build_index(model, build_options(arguments, engine));
         if (!arguments.keep.empty()) {
             const std::string path = arguments.keep + '/' + model.name + '-' + engine + ".gidx";
-            tools::require_ok(geoidx_save(built.index.get(), path.c_str()), path);
+            tools::require_ok(geoidx_save(built.index.get(), path.c_str(), nullptr), path);
         }
         return built;
     }

@@ -225,6 +225,12 @@ typedef struct geoidx_build_options {
      * takes longer. */
     uint32_t exact_vertices;
     uint32_t reserved; /* not read */
+    /* GEOIDX_ENGINE_OVERLAY: distances are rounded to multiples of this share of the way from a vertex to the
+     * next, 0 .. 1, for each patch by itself, but never to more than 1/8192 of the longest way on the surface
+     * around it, and not at all in an index of fewer than 65,536 table entries. Default 1/64, which changes
+     * an entry by at most 0.8 % of the way to the next vertex. 0: to 16 bits only. Twice the share saves one
+     * bit of each table entry in GEOIDX_CODEC_PACKED. */
+    double rounding;
 } geoidx_build_options;
 
 GEOIDX_API void geoidx_build_options_init_sized(geoidx_build_options* options, uint32_t struct_size);
@@ -255,6 +261,22 @@ typedef struct geoidx_open_options {
 GEOIDX_API void geoidx_open_options_init_sized(geoidx_open_options* options, uint32_t struct_size);
 static inline void geoidx_open_options_init(geoidx_open_options* options) {
     geoidx_open_options_init_sized(options, sizeof(geoidx_open_options));
+}
+
+/* The forms that a file keeps distances in. All hold the same distances, so that answers are the same bits.
+ * GEOIDX_CODEC_PACKED (default): what is left of them when they are predicted from the positions of their
+ * vertices and from each other, as gray PNG images. GEOIDX_CODEC_LOSSLESS: a PNG of float32 for each table,
+ * as the paper has it; what indices of GEOIDX_ENGINE_GRAPH are always saved as. */
+enum { GEOIDX_CODEC_PACKED = 0, GEOIDX_CODEC_LOSSLESS = 1 };
+
+typedef struct geoidx_save_options {
+    uint32_t struct_size;
+    uint32_t codec; /* GEOIDX_CODEC_*; others are GEOIDX_ERROR_INVALID_ARGUMENT */
+} geoidx_save_options;
+
+GEOIDX_API void geoidx_save_options_init_sized(geoidx_save_options* options, uint32_t struct_size);
+static inline void geoidx_save_options_init(geoidx_save_options* options) {
+    geoidx_save_options_init_sized(options, sizeof(geoidx_save_options));
 }
 
 /* What an index is. Errors are of MSAD against the metric itself, |d - exact| / exact over all targets of
@@ -289,7 +311,25 @@ typedef struct geoidx_info {
     /* The mean error if paths crossed borders at vertices only: what unfolding is worth on this mesh;
      * error_mean where they do. */
     double error_mean_at_vertices;
+    uint32_t codec;    /* GEOIDX_CODEC_* of the file that it was opened from; of one that was built, what
+                          geoidx_save takes by default */
+    uint32_t reserved; /* 0 */
+    /* GEOIDX_ENGINE_OVERLAY: what the distances of a table are multiples of, for the table with the smallest
+     * and with the largest steps; half of it is the most that rounding changes an entry by. 0 for
+     * GEOIDX_ENGINE_GRAPH, whose distances are floats. */
+    double smallest_step;
+    double largest_step;
 } geoidx_info;
+
+/* A section of the file that an index was opened from; format/SPEC.md says what is in it. */
+typedef struct geoidx_section {
+    char tag[8];          /* four characters and zeros */
+    uint32_t coding;      /* 0 raw, 1 zstd, 2 a PNG a matrix, 3 gray PNG images */
+    uint32_t reserved;    /* 0 */
+    uint64_t offset;      /* bytes from the start of the file */
+    uint64_t stored_size; /* bytes in the file */
+    uint64_t raw_size;    /* bytes when decoded */
+} geoidx_section;
 
 /* ---- Building, saving, opening
  * ------------------------------------------------------------------------------ */
@@ -301,19 +341,21 @@ GEOIDX_API geoidx_status geoidx_build(const geoidx_mesh* mesh, const geoidx_buil
                                       geoidx** out);
 
 /* Writes the index to a file, replacing what is there: a sibling file is written, synced and renamed, so that
- * a failure leaves neither a partial file nor a damaged old one. */
-GEOIDX_API geoidx_status geoidx_save(const geoidx* index, const char* utf8_path);
+ * a failure leaves neither a partial file nor a damaged old one. `options` may be NULL: the file then has the
+ * codec that geoidx_info names. */
+GEOIDX_API geoidx_status geoidx_save(const geoidx* index, const char* utf8_path,
+                                     const geoidx_save_options* options);
 
 /* The same bytes into the caller's buffer. *needed is always set to their number; when capacity is smaller,
  * nothing is written and GEOIDX_ERROR_INVALID_ARGUMENT is returned, unless buffer is NULL and capacity 0,
  * which asks for the size and succeeds. */
-GEOIDX_API geoidx_status geoidx_save_memory(const geoidx* index, void* buffer, uint64_t capacity,
-                                            uint64_t* needed);
+GEOIDX_API geoidx_status geoidx_save_memory(const geoidx* index, const geoidx_save_options* options,
+                                            void* buffer, uint64_t capacity, uint64_t* needed);
 
 /* Opens an index. Everything in the file is checked before it is believed. The index, its queries and the
- * temporary memory of opening take at most 256 times the raw size of the file's sections, and 32 MiB; what
- * would take more is GEOIDX_ERROR_LIMIT before memory is taken. A small file can hold raw sections 1032 times
- * its size. `options` may be NULL. */
+ * temporary memory of opening take at most 256 times the raw size of the file's sections, table entries
+ * counted as 4 bytes, and 32 MiB; what would take more is GEOIDX_ERROR_LIMIT before memory is taken. A small
+ * file can hold raw sections 1032 times its size. `options` may be NULL. */
 GEOIDX_API geoidx_status geoidx_open(const char* utf8_path, const geoidx_open_options* options, geoidx** out);
 
 /* The same from memory; `data` is not needed after the call. */
@@ -324,6 +366,12 @@ GEOIDX_API void geoidx_close(geoidx* index);
 
 /* Fills *info up to its struct_size. */
 GEOIDX_API geoidx_status geoidx_get_info(const geoidx* index, geoidx_info* info);
+
+/* The sections of the file that the index was opened from, in the order of the file; an index that was built
+ * has none. *count is always set to their number; up to `capacity` of them are written to `sections`, which
+ * may be NULL if capacity is 0. */
+GEOIDX_API geoidx_status geoidx_get_sections(const geoidx* index, geoidx_section* sections, uint32_t capacity,
+                                             uint32_t* count);
 
 /* Told once for each problem found: its status, the byte offset it concerns, and one line of text that is
  * valid during the call. Return 0 to stop. */

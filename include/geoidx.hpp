@@ -113,14 +113,25 @@ public:
         return index(opened);
     }
 
-    void save(const std::string& utf8_path) const { check(geoidx_save(get(), detail::path_of(utf8_path))); }
+    void save(const std::string& utf8_path, const geoidx_save_options* options = nullptr) const {
+        check(geoidx_save(get(), detail::path_of(utf8_path), options));
+    }
 
-    std::vector<std::byte> bytes() const {
+    std::vector<std::byte> bytes(const geoidx_save_options* options = nullptr) const {
         std::uint64_t size = 0;
-        check(geoidx_save_memory(get(), nullptr, 0, &size));
+        check(geoidx_save_memory(get(), options, nullptr, 0, &size));
         std::vector<std::byte> file(size);
-        check(geoidx_save_memory(get(), file.data(), file.size(), &size));
+        check(geoidx_save_memory(get(), options, file.data(), file.size(), &size));
         return file;
+    }
+
+    // Of the file that the index was opened from.
+    std::vector<geoidx_section> sections() const {
+        std::uint32_t count = 0;
+        check(geoidx_get_sections(get(), nullptr, 0, &count));
+        std::vector<geoidx_section> sections(count);
+        check(geoidx_get_sections(get(), sections.data(), count, &count));
+        return sections;
     }
 
     geoidx_info info() const {

@@ -35,6 +35,14 @@ Index open_index(const std::string& path, const TriangleMesh* expected) {
     return Index(index);
 }
 
+std::vector<geoidx_section> sections_of(const geoidx& index, const std::string& path) {
+    uint32_t count = 0;
+    require_ok(geoidx_get_sections(&index, nullptr, 0, &count), path);
+    std::vector<geoidx_section> sections(count);
+    require_ok(geoidx_get_sections(&index, sections.data(), count, &count), path);
+    return sections;
+}
+
 geoidx_info info_of(const geoidx& index, const std::string& path) {
     geoidx_info info{};
     info.struct_size = sizeof info;

@@ -29,6 +29,7 @@ geoidx_mesh view_of(const TriangleMesh& mesh);
 // `expected` may be null; otherwise an index of another mesh is refused.
 Index open_index(const std::string& path, const TriangleMesh* expected);
 geoidx_info info_of(const geoidx& index, const std::string& path);
+std::vector<geoidx_section> sections_of(const geoidx& index, const std::string& path);
 
 Solver make_solver(const TriangleMesh& mesh, const std::string& path, const geoidx_build_options& options);
 

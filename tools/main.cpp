@@ -63,6 +63,7 @@ void add_commands(CLI::App& app) {
     app.footer("Exit status: 0 success, 1 failure, 2 wrong usage, 130 after Ctrl-C.");
     app.set_version_flag("--version", version_text());
     add_build(app);
+    add_convert(app);
     add_info(app);
     add_verify(app);
     add_sssd(app);

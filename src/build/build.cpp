@@ -27,6 +27,8 @@ constexpr double TABLES_END = 0.91; // the share of the work that is done when a
 void check_options(const geoidx_build_options& options) {
     if (!(options.delta >= 0 && options.delta <= 100))
         invalid("delta is " + std::to_string(options.delta) + ", not in 0 .. 100 %");
+    if (!(options.rounding >= 0 && options.rounding <= 1))
+        invalid("rounding is " + std::to_string(options.rounding) + ", not in 0 .. 1");
     if (options.level_count > GEOIDX_MAX_LEVELS)
         invalid("level_count is " + std::to_string(options.level_count) + ", more than " +
                 std::to_string(GEOIDX_MAX_LEVELS));
@@ -64,6 +66,7 @@ Description describe(const Intake& intake, const geoidx_build_options& options) 
     about.metric_flags = metric_flags(options);
     about.metric_fingerprint = metric_fingerprint(options);
     about.delta = options.delta;
+    about.codec = options.engine == GEOIDX_ENGINE_GRAPH ? GEOIDX_CODEC_LOSSLESS : GEOIDX_CODEC_PACKED;
     return about;
 }
 
@@ -72,7 +75,7 @@ void fill_tables(const Mesh& mesh, const Hierarchy& hierarchy, std::span<const u
     if (options.engine == GEOIDX_ENGINE_GRAPH) return fill_graph_tables(vertex_of_number, workers, stored);
     const bool unfold = (stored.description.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
     fill_overlay_tables(mesh, hierarchy.leaf_of_face, vertex_of_number,
-                        {options.exact_vertices, unfold, TABLES_END}, workers, stored);
+                        {options.exact_vertices, options.rounding, unfold, TABLES_END}, workers, stored);
 }
 
 ProgressFunction progress_function(const geoidx_build_options& options) {

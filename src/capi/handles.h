@@ -47,10 +47,11 @@ private:
 
 struct geoidx {
     explicit geoidx(const geoidx_allocator& allocator)
-        : memory(allocator), index(&memory), queries(index, memory) {}
+        : memory(allocator), index(&memory), sections(&memory), queries(index, memory) {}
 
     geodesic::CallerMemory memory;
     geodesic::Index index;
+    geodesic::Array<geoidx_section> sections; // of the file that it was opened from
     mutable geodesic::QueryPool queries;
 };
 

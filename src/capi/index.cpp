@@ -46,11 +46,25 @@ void check_mesh_matches(const geoidx_mesh* expected, const Description& about) {
                     "the index was built from a mesh with other positions or triangles");
 }
 
+void list_sections(const format::Container& container, Array<geoidx_section>& sections) {
+    for (const format::Section& section : container.sections()) {
+        geoidx_section listed{};
+        for (int i = 0; i < 4; ++i) listed.tag[i] = static_cast<char>(section.tag >> (8 * i));
+        listed.coding = static_cast<uint32_t>(section.codec);
+        listed.offset = section.offset;
+        listed.stored_size = section.stored_size;
+        listed.raw_size = section.raw_size;
+        sections.push_back(listed);
+    }
+}
+
 void open_bytes(std::span<const std::byte> file, const geoidx_open_options* given, geoidx** out) {
     const geoidx_open_options options = whole_or_default(given, geoidx_open_options_init);
     require((options.flags & ~uint32_t{GEOIDX_OPEN_PAIRS}) == 0, "flags has bits that mean nothing");
     OwnedIndex index = make_index(options.allocator);
-    prepare(read_index(file, thread_count(options.threads)), index->index);
+    const auto container = format::Container::parse(file, INDEX_TAGS);
+    prepare(read_index(container, thread_count(options.threads)), index->index);
+    list_sections(container, index->sections);
     check_mesh_matches(options.expected_mesh, index->index.description);
     if (options.flags & GEOIDX_OPEN_PAIRS) prepare_pairs(index->index);
     *out = index.release();
@@ -63,11 +77,22 @@ std::vector<format::Issue> issues_of(std::span<const std::byte> file) {
     if (!issues.empty()) return issues;
     try {
         Index index(std::pmr::get_default_resource());
-        prepare(read_index(file, thread_count(0)), index);
+        prepare(read_index(format::Container::parse(file, INDEX_TAGS), thread_count(0)), index);
     } catch (const Error& error) {
         issues.push_back({error.status, 0, error.what()});
     }
     return issues;
+}
+
+// The bytes of a file of the index, with the codec that is asked for.
+std::vector<std::byte> file_of(const geoidx& index, const geoidx_save_options* given) {
+    StoredIndex stored = restore(index.index);
+    if (given) {
+        const uint32_t codec = whole(*given, geoidx_save_options_init).codec;
+        require(codec <= GEOIDX_CODEC_LOSSLESS, "codec is not a GEOIDX_CODEC_*");
+        if (stored.description.engine == GEOIDX_ENGINE_OVERLAY) stored.description.codec = codec;
+    }
+    return write_index(stored);
 }
 
 std::span<const std::byte> bytes_at(const void* data, uint64_t size) {
@@ -89,20 +114,21 @@ geoidx_status geoidx_build(const geoidx_mesh* mesh, const geoidx_build_options* 
     });
 }
 
-geoidx_status geoidx_save(const geoidx* index, const char* utf8_path) {
+geoidx_status geoidx_save(const geoidx* index, const char* utf8_path, const geoidx_save_options* options) {
     return guarded([&] {
         require(index, "index is NULL");
         require(utf8_path, "utf8_path is NULL");
-        format::write_file_atomically(utf8_path, write_index(restore(index->index)));
+        format::write_file_atomically(utf8_path, file_of(*index, options));
     });
 }
 
-geoidx_status geoidx_save_memory(const geoidx* index, void* buffer, uint64_t capacity, uint64_t* needed) {
+geoidx_status geoidx_save_memory(const geoidx* index, const geoidx_save_options* options, void* buffer,
+                                 uint64_t capacity, uint64_t* needed) {
     return guarded([&] {
         require(index, "index is NULL");
         require(needed, "needed is NULL");
         require(buffer || capacity == 0, "buffer is NULL, but capacity is not 0");
-        const auto bytes = write_index(restore(index->index));
+        const auto bytes = file_of(*index, options);
         *needed = bytes.size();
         if (!buffer) return;
         require(bytes.size() <= capacity, "the buffer is too small");
@@ -132,6 +158,17 @@ void geoidx_close(geoidx* index) {
     if (!index) return;
     CallerMemory memory = index->memory;
     std::pmr::polymorphic_allocator<>(&memory).delete_object(index);
+}
+
+geoidx_status geoidx_get_sections(const geoidx* index, geoidx_section* sections, uint32_t capacity,
+                                  uint32_t* count) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        require(count, "count is NULL");
+        require(sections || capacity == 0, "sections is NULL, but capacity is not 0");
+        *count = static_cast<uint32_t>(index->sections.size());
+        std::copy_n(index->sections.begin(), std::min(*count, capacity), sections);
+    });
 }
 
 geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user) {

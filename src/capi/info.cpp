@@ -1,5 +1,6 @@
 // What an index says of itself.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "format/container.h"
@@ -10,6 +11,16 @@
 using namespace geodesic;
 
 namespace {
+
+// Tables in which all distances are 0 have no steps.
+void fill_steps(const OverlayIndex& index, geoidx_info& info) {
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) {
+        const double step = std::ldexp(double{index.quantum[p]}, index.shift[p]);
+        if (step == 0) continue;
+        info.largest_step = std::max(info.largest_step, step);
+        info.smallest_step = info.smallest_step == 0 ? step : std::min(info.smallest_step, step);
+    }
+}
 
 void fill_info(const Index& index, geoidx_info& info) {
     const Description& about = index.description;
@@ -39,6 +50,8 @@ void fill_info(const Index& index, geoidx_info& info) {
     info.error_p999 = about.error.p999;
     info.error_max = about.error.max;
     info.error_mean_at_vertices = about.error.mean_at_vertices;
+    info.codec = about.codec;
+    if (const auto* overlay = std::get_if<OverlayIndex>(&index.engine)) fill_steps(*overlay, info);
 }
 
 }

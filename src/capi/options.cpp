@@ -18,7 +18,12 @@ void geoidx_build_options_init_sized(geoidx_build_options* options, uint32_t str
     defaults.points_per_edge = 12;
     defaults.engine = GEOIDX_ENGINE_OVERLAY;
     defaults.exact_vertices = 400;
+    defaults.rounding = 1.0 / 64;
     init_sized(options, struct_size, defaults);
+}
+
+void geoidx_save_options_init_sized(geoidx_save_options* options, uint32_t struct_size) {
+    init_sized(options, struct_size, {});
 }
 
 void geoidx_open_options_init_sized(geoidx_open_options* options, uint32_t struct_size) {

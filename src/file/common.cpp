@@ -15,7 +15,7 @@ constexpr uint64_t MAX_BYTES = uint64_t{1} << 40; // of one section of numbers
 
 // ---- META
 
-constexpr uint64_t META_BYTES = 116;
+constexpr uint64_t META_BYTES = 120;
 
 std::vector<std::byte> meta_bytes(const Description& meta) {
     format::ByteWriter writer;
@@ -34,6 +34,7 @@ std::vector<std::byte> meta_bytes(const Description& meta) {
     writer.u32(meta.metric_flags);
     writer.u32(meta.engine);
     writer.f64(meta.error.mean_at_vertices);
+    writer.u32(meta.codec);
     return writer.take();
 }
 
@@ -41,6 +42,10 @@ void check_meta(const Description& meta) {
     const auto corrupt = [](const std::string& detail) { refuse_as_corrupt("section META: " + detail); };
     if (meta.engine > GEOIDX_ENGINE_OVERLAY)
         corrupt("engine " + std::to_string(meta.engine) + " is not known");
+    if (meta.codec > GEOIDX_CODEC_LOSSLESS ||
+        (meta.codec != GEOIDX_CODEC_LOSSLESS && meta.engine == GEOIDX_ENGINE_GRAPH))
+        corrupt("codec " + std::to_string(meta.codec) + " does not go with engine " +
+                std::to_string(meta.engine));
     if (meta.id_count == 0 || meta.id_count > UINT32_MAX - 1)
         corrupt("the mesh has " + std::to_string(meta.id_count) + " vertices");
     if (!(meta.bound_scale >= 0 && meta.bound_scale <= 1))
@@ -73,6 +78,7 @@ void read_meta(const format::Container& container, Description& meta) {
     meta.metric_flags = reader.u32();
     meta.engine = reader.u32();
     meta.error.mean_at_vertices = reader.f64();
+    meta.codec = reader.u32();
     reader.expect_end();
     check_meta(meta);
 }
@@ -123,7 +129,7 @@ uint32_t read_hierarchy(const format::Container& container, uint64_t patch_room,
 std::vector<std::byte> vertex_bytes(const StoredIndex& stored) {
     format::ByteWriter writer;
     writer.u64(stored.positions.size());
-    writer.u32_array(stored.number_of_id);
+    writer.u32_planes(stored.number_of_id);
     return writer.take();
 }
 
@@ -139,31 +145,12 @@ void read_vertices(const format::Container& container, StoredIndex& stored) {
         refuse_as_corrupt("section VERT: " + std::to_string(vertex_count) + " distinct vertices of " +
                           std::to_string(id_count));
     stored.number_of_id.resize(id_count);
-    reader.u32_array(stored.number_of_id);
+    reader.u32_planes(stored.number_of_id);
     for (uint32_t number : stored.number_of_id)
         if (number != NONE && number >= vertex_count)
             refuse_as_corrupt("section VERT: vertex number " + std::to_string(number) + " of " +
                               std::to_string(vertex_count));
     stored.positions.resize(vertex_count);
-}
-
-// ---- POSI
-
-std::vector<std::byte> position_bytes(const StoredIndex& stored) {
-    format::ByteWriter writer;
-    for (const auto& position : stored.positions) writer.f32_array(position);
-    return writer.take();
-}
-
-void read_positions(const format::Container& container, StoredIndex& stored) {
-    const auto bytes = container.read_bytes(TAG_POSITIONS, stored.positions.size() * 3 * sizeof(float));
-    format::ByteReader reader(bytes, "section POSI");
-    for (auto& position : stored.positions) {
-        reader.f32_array(position);
-        for (float coordinate : position)
-            if (!std::isfinite(coordinate)) refuse_as_corrupt("section POSI: a position is not finite");
-    }
-    reader.expect_end();
 }
 
 // ---- BORD
@@ -173,7 +160,7 @@ std::vector<std::byte> border_bytes(const StoredIndex& stored) {
     writer.u32_array(stored.owned_count);
     writer.u32_array(stored.internal_count);
     writer.u32_array(stored.border_size);
-    writer.u32_array(stored.border);
+    writer.u32_planes(stored.border);
     return writer.take();
 }
 
@@ -213,7 +200,7 @@ void read_borders(std::span<const std::byte> bytes, uint32_t leaf_count, StoredI
     if (reader.remaining() != entries * sizeof(uint32_t))
         refuse_as_corrupt("section BORD does not hold " + std::to_string(entries) + " border vertices");
     stored.border.resize(entries);
-    reader.u32_array(stored.border);
+    reader.u32_planes(stored.border);
     for (uint32_t v : stored.border)
         if (v >= border_vertices)
             refuse_as_corrupt("section BORD: vertex number " + std::to_string(v) + " is no border vertex");
@@ -226,7 +213,7 @@ void write_common(const StoredIndex& stored, format::ContainerWriter& writer) {
     writer.add_bytes(TAG_META, meta_bytes(stored.description));
     writer.add_bytes(TAG_HIERARCHY, hierarchy_bytes(stored));
     writer.add_bytes(TAG_VERTICES, vertex_bytes(stored));
-    writer.add_bytes(TAG_POSITIONS, position_bytes(stored));
+    write_positions(stored, writer);
     writer.add_bytes(TAG_BORDERS, border_bytes(stored));
 }
 

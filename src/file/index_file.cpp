@@ -26,8 +26,7 @@ std::vector<std::byte> write_index(const StoredIndex& stored) {
     return writer.finish();
 }
 
-StoredIndex read_index(std::span<const std::byte> file, uint32_t threads) {
-    const auto container = format::Container::parse(file, INDEX_TAGS);
+StoredIndex read_index(const format::Container& container, uint32_t threads) {
     StoredIndex stored;
     read_common(container, stored);
     check_tags(container, stored);

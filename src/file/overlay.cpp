@@ -1,55 +1,36 @@
-// Sections of the overlay engine: its tables hold codes, as floats.
+// Sections of the overlay engine, but for its tables.
 #include <cmath>
 #include <string>
 
 #include "format/bytes.h"
 #include "src/base/numbers.h"
 #include "src/file/sections.h"
-#include "src/file/tables.h"
 #include "src/overlay/codes.h"
 
 namespace geodesic {
 
 namespace {
 
-// ---- Codes as floats, and back
-
-float value_of(uint16_t code) { return code == TableCode::UNREACHED ? INFINITE : static_cast<float>(code); }
-
-std::vector<float> values_of(const std::vector<uint16_t>& codes) {
-    std::vector<float> values(codes.size());
-    for (size_t i = 0; i < codes.size(); ++i) values[i] = value_of(codes[i]);
-    return values;
-}
-
-uint16_t code_of(float value) {
-    if (value == INFINITE) return TableCode::UNREACHED;
-    const auto code = static_cast<uint16_t>(std::min(value, float{TableCode::LARGEST}));
-    if (static_cast<float>(code) != value)
-        refuse_as_corrupt("a table holds " + std::to_string(value) + ", which is no code of a distance");
-    return code;
-}
-
-std::vector<uint16_t> codes_of(const std::vector<float>& values) {
-    std::vector<uint16_t> codes(values.size());
-    for (size_t i = 0; i < values.size(); ++i) codes[i] = code_of(values[i]);
-    return codes;
-}
-
 // ---- QUAN
 
 std::vector<std::byte> quantum_bytes(const StoredIndex& stored) {
     format::ByteWriter writer;
     writer.f32_array(stored.quantum);
+    for (const uint8_t shift : stored.shift) writer.u8(shift);
     return writer.take();
 }
 
 void read_quanta(const format::Container& container, StoredIndex& stored) {
     const size_t patch_count = stored.border_size.size() + 1;
-    const auto bytes = container.read_bytes(TAG_QUANTA, patch_count * sizeof(float));
+    const auto bytes = container.read_bytes(TAG_QUANTA, patch_count * (sizeof(float) + sizeof(uint8_t)));
     format::ByteReader reader(bytes, "section QUAN");
     stored.quantum.resize(patch_count);
     reader.f32_array(stored.quantum);
+    for (size_t p = 0; p < patch_count; ++p) {
+        stored.shift.push_back(reader.u8());
+        if (stored.shift.back() > TableCode::MOST_SHIFT)
+            refuse_as_corrupt("section QUAN: the shift " + std::to_string(stored.shift.back()));
+    }
     reader.expect_end();
     for (float quantum : stored.quantum)
         if (!(quantum >= 0) || !std::isfinite(quantum))
@@ -81,33 +62,21 @@ void read_segments(const format::Container& container, StoredIndex& stored) {
                               std::to_string(stored.segment_length[i]));
 }
 
-// ---- OVOV
-
-TableSection overlay_section(const StoredIndex& stored) {
-    TableSection section(TAG_OVERLAY_TABLES);
-    for (size_t p = 0; p < stored.owned_count.size(); ++p) {
-        section.add(stored.owned_count[p], p > 0 ? stored.border_size[p - 1] : 0); // the root has no border
-        section.add_below_diagonal(stored.owned_count[p]);
-    }
-    return section;
-}
+bool is_packed(const StoredIndex& stored) { return stored.description.codec == GEOIDX_CODEC_PACKED; }
 
 }
 
 void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer) {
     writer.add_bytes(TAG_QUANTA, quantum_bytes(stored));
     writer.add_bytes(TAG_SEGMENTS, segment_bytes(stored));
-    overlay_section(stored).write(values_of(stored.overlay_codes), writer);
-    border_internal_section(stored).write(values_of(stored.border_internal_codes), writer);
-    internal_section(stored).write(values_of(stored.internal_codes), writer);
+    is_packed(stored) ? write_packed_tables(stored, writer) : write_lossless_tables(stored, writer);
 }
 
 void read_overlay(const format::Container& container, uint32_t threads, StoredIndex& stored) {
     read_quanta(container, stored);
     read_segments(container, stored);
-    stored.overlay_codes = codes_of(overlay_section(stored).read(container, threads));
-    stored.border_internal_codes = codes_of(border_internal_section(stored).read(container, threads));
-    stored.internal_codes = codes_of(internal_section(stored).read(container, threads));
+    is_packed(stored) ? read_packed_tables(container, threads, stored)
+                      : read_lossless_tables(container, threads, stored);
 }
 
 }

@@ -38,15 +38,25 @@ inline constexpr std::array INDEX_TAGS{TAG_META,
                                        TAG_SEGMENTS,
                                        TAG_OVERLAY_TABLES};
 
-// Each pair of functions writes and reads a group of sections. Those in common.cpp are for sections that both
-// engines have, those in graph.cpp and overlay.cpp for sections of one engine. Sections must be read in this
-// order, since earlier ones say how large later ones are. Reading throws Error CORRUPT for what
-// format/SPEC.md refuses.
+// Each pair of functions writes and reads a group of sections. Those in common.cpp and positions.cpp are for
+// sections that both engines have, those in graph.cpp and overlay.cpp for sections of one engine. Sections
+// must be read in this order, since earlier ones say how large later ones are. Reading throws Error CORRUPT
+// for what format/SPEC.md refuses.
 void write_common(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_common(const format::Container& container, StoredIndex& stored);
 
+// POSI, which is one of those.
+void write_positions(const StoredIndex& stored, format::ContainerWriter& writer);
+void read_positions(const format::Container& container, StoredIndex& stored);
+
 void write_graph(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_graph(const format::Container& container, uint32_t threads, StoredIndex& stored);
+
+// The tables of the overlay engine in their two forms.
+void write_lossless_tables(const StoredIndex& stored, format::ContainerWriter& writer);
+void read_lossless_tables(const format::Container& container, uint32_t threads, StoredIndex& stored);
+void write_packed_tables(const StoredIndex& stored, format::ContainerWriter& writer);
+void read_packed_tables(const format::Container& container, uint32_t threads, StoredIndex& stored);
 
 void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_overlay(const format::Container& container, uint32_t threads, StoredIndex& stored);

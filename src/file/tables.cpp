@@ -39,7 +39,7 @@ void TableSection::write(std::span<const float> values, format::ContainerWriter&
         }
         streams.push_back(format::encode_png(table, rows, cols));
     }
-    writer.add_encoded_matrices(tag_, streams, entries_ * sizeof(float));
+    writer.add_encoded_images(tag_, format::Codec::Png, streams, entries_ * sizeof(float));
 }
 
 std::vector<float> TableSection::read(const format::Container& container, uint32_t threads) const {

@@ -24,6 +24,7 @@ struct Description {
     uint64_t metric_fingerprint = 0; // of what decides the metric besides the mesh, or 0
     uint32_t metric_flags = 0;       // GEOIDX_METRIC_UNFOLDABLE or 0
     uint32_t engine = 0;             // GEOIDX_ENGINE_*
+    uint32_t codec = 0;              // GEOIDX_CODEC_*: the form of the tables in the file
 };
 
 }

@@ -40,6 +40,7 @@ void add_up(uint32_t first, const std::vector<uint32_t>& counts, Array<uint32_t>
 }
 
 void number_borders(const StoredIndex& stored, Numbering& numbering) {
+    numbering.position_step = stored.position_step;
     numbering.positions.assign(stored.positions.begin(), stored.positions.end());
     add_up(0, stored.owned_count, numbering.owned_begin);
     numbering.owned_begin.resize(size_t{numbering.patch_count()} + 1, numbering.owned_begin.back());
@@ -180,6 +181,7 @@ void restore_numbering(const Numbering& numbering, StoredIndex& stored) {
     const size_t inner = numbering.first_leaf(), leaves = numbering.patch_count() - inner;
     stored.level_count = numbering.level_count();
     stored.child_count = counts_of(numbering.child_begin, inner);
+    stored.position_step = numbering.position_step;
     stored.positions.assign(numbering.positions.begin(), numbering.positions.end());
     stored.owned_count = counts_of(numbering.owned_begin, inner);
     stored.internal_count = counts_of(numbering.internal_begin, leaves);
@@ -196,10 +198,10 @@ void require_room_for(uint64_t entries) {
 double straight_distance(const Numbering& numbering, uint32_t a, uint32_t b) {
     double square = 0;
     for (size_t k = 0; k < 3; ++k) {
-        const double difference = double{numbering.positions[a][k]} - double{numbering.positions[b][k]};
+        const double difference = numbering.positions[a][k] - numbering.positions[b][k];
         square += difference * difference;
     }
-    return std::sqrt(square);
+    return double{numbering.position_step} * std::sqrt(square);
 }
 
 }

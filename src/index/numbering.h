@@ -40,8 +40,9 @@ struct Numbering {
     Array<uint32_t> child_begin; // p has the children child_begin[p] .. child_begin[p + 1] - 1
 
     // Vertices.
-    Array<std::array<float, 3>> positions; // per number
-    Array<uint32_t> owned_begin;           // p owns the numbers owned_begin[p] .. owned_begin[p + 1] - 1
+    float position_step = 1;
+    Array<std::array<int32_t, 3>> positions; // per number, in steps; only their differences have a meaning
+    Array<uint32_t> owned_begin;             // p owns the numbers owned_begin[p] .. owned_begin[p + 1] - 1
     Array<uint32_t> internal_begin; // likewise for the internal vertices of leaf first_leaf() + i; [0] is the
                                     // number of border vertices
     Array<uint32_t> border_begin;   // patch p has border[border_begin[p]] .. border[border_begin[p + 1] - 1]

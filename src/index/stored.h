@@ -8,6 +8,10 @@
 
 namespace geodesic {
 
+// Coordinates are at most so many steps, so that the sum of three squares of differences is exact in double
+// precision.
+constexpr int32_t MOST_STEPS = (1 << 23) - 1;
+
 // What a file holds: one field for each field of format/SPEC.md, in the same order. The builder and the
 // reader fill it, prepare() makes from it what queries read, restore() does the opposite, and the writer
 // writes it. No field can be derived from the others.
@@ -25,8 +29,9 @@ struct StoredIndex {
     // VERT
     std::vector<uint32_t> number_of_id; // per id of the caller; NONE if no triangle uses it
 
-    // POSI
-    std::vector<std::array<float, 3>> positions; // per number; their count is the vertex count of VERT
+    // POSI: only differences have a meaning. The count of positions is the vertex count of VERT.
+    float position_step = 1;
+    std::vector<std::array<int32_t, 3>> positions; // per number, in steps: -MOST_STEPS .. MOST_STEPS
 
     // BORD
     std::vector<uint32_t> owned_count;    // per inner patch
@@ -41,6 +46,7 @@ struct StoredIndex {
 
     // Overlay engine: codes of distances (src/overlay/codes.h), in steps of the quantum of the patch.
     std::vector<float> quantum;                  // QUAN: per patch
+    std::vector<uint8_t> shift;                  // QUAN: per patch; its codes are multiples of 2^shift
     std::vector<uint32_t> segment_end;           // SEGM: per element of `border`, a position there, or NONE
     std::vector<float> segment_length;           // SEGM: per element of `border`
     std::vector<uint16_t> overlay_codes;         // OVOV: of every inner patch, owned x border, then owned x

@@ -22,11 +22,16 @@ struct TableCode {
     // Kernels read rows in blocks of up to this many entries, so that so many follow the last table.
     static constexpr size_t PADDING = 32;
 
+    // The codes of a table are multiples of 2^shift, at most so large a shift.
+    static constexpr int MOST_SHIFT = 14;
+
     // Only a distance of 0 is rounded to 0, so that different vertices never are at distance 0.
-    static uint16_t nearest_to(float distance, float quantum) {
+    static uint16_t nearest_to(float distance, float quantum, int shift = 0) {
         if (distance == INFINITE) return UNREACHED;
         if (distance == 0 || !(quantum > 0)) return 0;
-        return in_range(std::round(double{distance} / double{quantum}));
+        const double steps = std::round(double{distance} / std::ldexp(double{quantum}, shift));
+        return static_cast<uint16_t>(
+            static_cast<int>(std::clamp(steps, 1.0, static_cast<double>(LARGEST >> shift))) << shift);
     }
 
     // The code of the same distance in steps of another quantum.

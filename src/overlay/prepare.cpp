@@ -140,6 +140,7 @@ void take_border_codes_from_parents(OverlayIndex& index) {
 void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
     number_vertices(stored, index.numbering);
     index.quantum.assign(stored.quantum.begin(), stored.quantum.end());
+    index.shift.assign(stored.shift.begin(), stored.shift.end());
     lay_out_rings(stored.segment_end, stored.segment_length, index.numbering, index.rings);
     require_proportion(index);
     measure_segments(index);
@@ -155,6 +156,7 @@ void restore_overlay(const OverlayIndex& index, StoredIndex& stored) {
     const Numbering& numbering = index.numbering;
     restore_numbering(numbering, stored);
     stored.quantum.assign(index.quantum.begin(), index.quantum.end());
+    stored.shift.assign(index.shift.begin(), index.shift.end());
     BorderSegments segments = segments_of_rings(index.rings, numbering);
     stored.segment_end = std::move(segments.end);
     stored.segment_length = std::move(segments.length);

@@ -88,11 +88,12 @@ struct Labels {
 // What the overlay engine answers from.
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
-        : numbering(memory), quantum(memory), rings(memory), longest_segment(memory), hops(memory),
-          samples(memory), labels(memory) {}
+        : numbering(memory), quantum(memory), shift(memory), rings(memory), longest_segment(memory),
+          hops(memory), samples(memory), labels(memory) {}
 
     Numbering numbering;
     Array<float> quantum; // per patch: the distance of one step of its codes
+    Array<uint8_t> shift; // per patch: its stored codes are multiples of 2^shift; only files need it
     BorderRings rings;
     Array<float> longest_segment; // per patch: length of the longest segment of its border, or 0
     HopTables hops;

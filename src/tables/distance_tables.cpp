@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/overlay/codes.h"
+#include "src/tables/rounding.h"
 
 namespace geodesic {
 
@@ -41,35 +42,40 @@ float longest_of_leaves_inside(uint32_t patch, const Numbering& numbering, const
     return longest;
 }
 
-void add_codes(std::span<const float> distances, float quantum, std::vector<uint16_t>& codes) {
-    for (float d : distances) codes.push_back(TableCode::nearest_to(d, quantum));
+void add_codes(std::span<const float> distances, const Steps& steps, std::vector<uint16_t>& codes) {
+    for (float d : distances) codes.push_back(TableCode::nearest_to(d, steps.quantum, steps.shift));
+}
+
+Steps add_steps(Steps steps, StoredIndex& stored) {
+    stored.quantum.push_back(steps.quantum);
+    stored.shift.push_back(steps.shift);
+    return steps;
 }
 
 // Adds the codes of owned x border, then those of owned x owned below the diagonal.
-void hand_over_overlay(uint32_t patch, const Numbering& numbering, DistanceTables& tables,
+void hand_over_overlay(uint32_t patch, const Numbering& numbering, float rounding, DistanceTables& tables,
                        StoredIndex& stored) {
     const std::vector<float> table = std::exchange(tables.overlay[patch], {});
     // Labels count in steps of this quantum, so that it must not be 0 where a table has no distance but 0, as
     // it is if all its borders meet in one vertex.
-    const float own = longest(table);
-    stored.quantum.push_back((own > 0 ? own : longest_of_leaves_inside(patch, numbering, tables)) /
-                             TableCode::LARGEST);
     const size_t border = numbering.border_size(patch), size = numbering.overlay_size(patch);
+    const float own = longest(table);
+    const Steps steps = add_steps(
+        choose_steps(own > 0 ? own : longest_of_leaves_inside(patch, numbering, tables), rounding), stored);
     for (size_t i = border; i < size; ++i)
-        add_codes(std::span(table).subspan(i * size, border), stored.quantum[patch], stored.overlay_codes);
+        add_codes(std::span(table).subspan(i * size, border), steps, stored.overlay_codes);
     for (size_t i = border; i < size; ++i)
-        add_codes(std::span(table).subspan(i * size + border, i - border), stored.quantum[patch],
-                  stored.overlay_codes);
+        add_codes(std::span(table).subspan(i * size + border, i - border), steps, stored.overlay_codes);
 }
 
-void hand_over_leaf(uint32_t patch, const Numbering& numbering, const DistanceTables& tables,
+void hand_over_leaf(uint32_t patch, const Numbering& numbering, float rounding, const DistanceTables& tables,
                     StoredIndex& stored) {
     const uint32_t leaf = patch - numbering.first_leaf();
     const auto border_internal = of_leaf(tables.border_internal, numbering.border_internal_begin, leaf);
     const auto internal = of_leaf(tables.internal, numbering.internal_table_begin, leaf);
-    stored.quantum.push_back(longest_of_leaf(patch, numbering, tables) / TableCode::LARGEST);
-    add_codes(border_internal, stored.quantum[patch], stored.border_internal_codes);
-    add_codes(internal, stored.quantum[patch], stored.internal_codes);
+    const Steps steps = add_steps(choose_steps(longest_of_leaf(patch, numbering, tables), rounding), stored);
+    add_codes(border_internal, steps, stored.border_internal_codes);
+    add_codes(internal, steps, stored.internal_codes);
 }
 
 }
@@ -81,11 +87,12 @@ DistanceTables::DistanceTables(const Numbering& numbering)
         overlay.emplace_back(size_t{numbering.overlay_size(p)} * numbering.overlay_size(p), INFINITE);
 }
 
-void hand_over(uint32_t patch, const Numbering& numbering, DistanceTables& tables, StoredIndex& stored) {
+void hand_over(uint32_t patch, const Numbering& numbering, float rounding, DistanceTables& tables,
+               StoredIndex& stored) {
     if (patch < numbering.first_leaf())
-        hand_over_overlay(patch, numbering, tables, stored);
+        hand_over_overlay(patch, numbering, rounding, tables, stored);
     else
-        hand_over_leaf(patch, numbering, tables, stored);
+        hand_over_leaf(patch, numbering, rounding, tables, stored);
 }
 
 }

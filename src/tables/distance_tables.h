@@ -19,8 +19,9 @@ struct DistanceTables {
 };
 
 // Rounds the distances of one patch to codes, adds them to `stored` and frees their table. Patches are handed
-// over in the order of their numbers, each as soon as no other table is filled from its own. A patch gets the
-// smallest quantum with which its longest distance is a code.
-void hand_over(uint32_t patch, const Numbering& numbering, DistanceTables& tables, StoredIndex& stored);
+// over in the order of their numbers, each as soon as no other table is filled from its own. Distances are
+// rounded to about `rounding`, see choose_steps().
+void hand_over(uint32_t patch, const Numbering& numbering, float rounding, DistanceTables& tables,
+               StoredIndex& stored);
 
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/tables/borders.h"
+#include "src/tables/positions.h"
 
 namespace geodesic {
 
@@ -161,10 +162,6 @@ void number_internal(const Mesh& mesh, const Hierarchy& hierarchy,
     }
 }
 
-std::array<float, 3> rounded(const Eigen::Vector3d& p) {
-    return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
-}
-
 }
 
 std::vector<uint32_t> lay_out(const Intake& intake, const Hierarchy& hierarchy,
@@ -188,7 +185,7 @@ std::vector<uint32_t> lay_out(const Intake& intake, const Hierarchy& hierarchy,
     for (uint32_t vertex : intake.vertex_of_id)
         stored.number_of_id.push_back(vertex == NONE ? NONE : giver.number()[vertex]);
     std::vector<uint32_t> vertex_of_number = giver.take_vertices();
-    for (uint32_t v : vertex_of_number) stored.positions.push_back(rounded(intake.mesh.positions[v]));
+    round_positions(intake.mesh, vertex_of_number, stored);
     return vertex_of_number;
 }
 

@@ -5,6 +5,7 @@
 #include "src/tables/closure.h"
 #include "src/tables/distance_tables.h"
 #include "src/tables/measuring.h"
+#include "src/tables/rounding.h"
 #include "src/tables/segments.h"
 
 namespace geodesic {
@@ -91,14 +92,14 @@ private:
 // Lowers the tables by those of their parents. The table of a patch is handed over once its children's are
 // lowered; the leaves' need no closure.
 void close_downwards_and_hand_over(const Numbering& numbering, const std::vector<uint8_t>& exact,
-                                   const BorderRings& rings, Workers& workers, DistanceTables& tables,
-                                   StoredIndex& stored) {
+                                   const BorderRings& rings, std::span<const float> rounding,
+                                   Workers& workers, DistanceTables& tables, StoredIndex& stored) {
     for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
         if (p < numbering.first_leaf())
             for (uint32_t child = numbering.child_begin[p]; child < numbering.child_begin[p + 1]; ++child)
                 if (child < numbering.first_leaf() && !exact[child])
                     close_from_above(child, numbering, rings, workers, tables);
-        hand_over(p, numbering, tables, stored);
+        hand_over(p, numbering, rounding[p], tables, stored);
     }
 }
 
@@ -131,7 +132,8 @@ void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_fac
     workers.begin_stage("closure", options.stage_end, closure_rows(numbering, exact));
     for (uint32_t p = numbering.first_leaf(); p-- > 0;)
         if (!exact[p]) close_from_below(p, numbering, rings, workers, tables);
-    close_downwards_and_hand_over(numbering, exact, rings, workers, tables, stored);
+    const auto rounding = rounding_of_patches(numbering, tables, options.rounding);
+    close_downwards_and_hand_over(numbering, exact, rings, rounding, workers, tables, stored);
     stored.segment_end = std::move(segments.end);
     stored.segment_length = std::move(segments.length);
 }

@@ -10,6 +10,7 @@ namespace geodesic {
 
 struct OverlayOptions {
     uint32_t exact_vertices; // patches with at most this many vertices inside are measured
+    double rounding;         // see rounding_of_patches()
     bool unfold;             // paths may cross borders between vertices: the metric is locally Euclidean
     double stage_end;        // where the stage "closure" ends, see Workers::begin_stage()
 };

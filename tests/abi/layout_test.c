@@ -34,6 +34,8 @@ NUMBER(GEOIDX_METRIC_WEIGHTED, 3);
 NUMBER(GEOIDX_METRIC_UNFOLDABLE, 1);
 NUMBER(GEOIDX_ENGINE_GRAPH, 0);
 NUMBER(GEOIDX_ENGINE_OVERLAY, 1);
+NUMBER(GEOIDX_CODEC_PACKED, 0);
+NUMBER(GEOIDX_CODEC_LOSSLESS, 1);
 NUMBER(GEOIDX_MAX_LEVELS, 8);
 
 FIELD(geoidx_allocator, allocate, 0);
@@ -78,7 +80,8 @@ FIELD(geoidx_build_options, edge_lengths, 184);
 FIELD(geoidx_build_options, edge_length_count, 192);
 FIELD(geoidx_build_options, exact_vertices, 200);
 FIELD(geoidx_build_options, reserved, 204);
-SIZE(geoidx_build_options, 208);
+FIELD(geoidx_build_options, rounding, 208);
+SIZE(geoidx_build_options, 216);
 
 FIELD(geoidx_open_options, struct_size, 0);
 FIELD(geoidx_open_options, flags, 4);
@@ -113,7 +116,23 @@ FIELD(geoidx_info, metric_fingerprint, 168);
 FIELD(geoidx_info, metric_flags, 176);
 FIELD(geoidx_info, engine, 180);
 FIELD(geoidx_info, error_mean_at_vertices, 184);
-SIZE(geoidx_info, 192);
+FIELD(geoidx_info, codec, 192);
+FIELD(geoidx_info, reserved, 196);
+FIELD(geoidx_info, smallest_step, 200);
+FIELD(geoidx_info, largest_step, 208);
+SIZE(geoidx_info, 216);
+
+FIELD(geoidx_save_options, struct_size, 0);
+FIELD(geoidx_save_options, codec, 4);
+SIZE(geoidx_save_options, 8);
+
+FIELD(geoidx_section, tag, 0);
+FIELD(geoidx_section, coding, 8);
+FIELD(geoidx_section, reserved, 12);
+FIELD(geoidx_section, offset, 16);
+FIELD(geoidx_section, stored_size, 24);
+FIELD(geoidx_section, raw_size, 32);
+SIZE(geoidx_section, 40);
 
 FIELD(geoidx_surface_point, triangle, 0);
 FIELD(geoidx_surface_point, reserved, 4);

@@ -19,6 +19,7 @@ struct Matrix {
 
 struct FileContent {
     uint32_t engine = 0, metric = 0, metric_flags = 0;
+    bool is_packed = false; // overlay engine only
     float bound_scale = 0;
     double delta = 0, diagonal = 1;
 
@@ -27,13 +28,15 @@ struct FileContent {
     std::vector<uint32_t> parent;      // per patch
 
     std::vector<uint32_t> number_of_id;
-    std::vector<std::array<float, 3>> positions; // per vertex number
+    float position_step = 1;
+    std::vector<std::array<int32_t, 3>> positions; // per vertex number
 
     std::vector<uint32_t> owned;                // per inner patch
     std::vector<uint32_t> internal;             // per leaf
     std::vector<std::vector<uint32_t>> borders; // per patch; the root has none
 
     std::vector<float> quantum;                     // per patch
+    uint8_t shift = 0;                              // of all patches
     std::vector<std::vector<uint32_t>> next;        // per patch and position of its border: of segments
     std::vector<std::vector<float>> segment_length; // likewise
 

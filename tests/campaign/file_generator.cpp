@@ -130,13 +130,16 @@ private:
 
     // A few coordinates of lattices, so that vertices coincide, or anything.
     void make_positions() {
+        constexpr int32_t MOST = (1 << 23) - 1;
+        constexpr std::array<float, 6> STEPS{1, 0, 1e-45f, 1e-6f, 1e30f, 3.4e38f};
+        content_.position_step = STEPS[random_.one_in(2) ? 0 : random_.below(STEPS.size())];
         const uint32_t manner = random_.below(4);
         for (auto& position : content_.positions)
-            for (float& coordinate : position) {
+            for (int32_t& coordinate : position) {
                 if (manner == 0) coordinate = 0;
-                if (manner == 1) coordinate = static_cast<float>(random_.below(4));
-                if (manner == 2) coordinate = random_.unit();
-                if (manner == 3) coordinate = random_.one_in(8) ? 3e38f : random_.unit() * 1e30f;
+                if (manner == 1) coordinate = static_cast<int32_t>(random_.below(4));
+                if (manner == 2) coordinate = static_cast<int32_t>(random_.below(1000)) - 500;
+                if (manner == 3) coordinate = random_.one_in(2) ? MOST : -MOST;
             }
     }
 
@@ -189,10 +192,10 @@ private:
     double straight(uint32_t a, uint32_t b) const {
         double square = 0;
         for (size_t k = 0; k < 3; ++k) {
-            const double difference = double{content_.positions[a][k]} - double{content_.positions[b][k]};
+            const double difference = content_.positions[a][k] - content_.positions[b][k];
             square += difference * difference;
         }
-        return std::sqrt(square);
+        return double{content_.position_step} * std::sqrt(square);
     }
 
     float distance(uint32_t a, uint32_t b) const {
@@ -213,9 +216,15 @@ private:
         }
     }
 
+    // A multiple of 2^shift.
     float code(uint32_t a, uint32_t b, float quantum) const {
-        constexpr float LARGEST = 32766;
         if (!is_reached(a, b)) return INFINITE;
+        const auto unit = static_cast<float>(1 << content_.shift);
+        return std::floor(code_before_shift(a, b, quantum) / unit) * unit;
+    }
+
+    float code_before_shift(uint32_t a, uint32_t b, float quantum) const {
+        constexpr float LARGEST = 32766;
         Random random = of_pair(a, b);
         switch (entries_) {
         case 0:
@@ -284,6 +293,8 @@ private:
     }
 
     void make_overlay_engine() {
+        content_.is_packed = random_.one_in(2);
+        content_.shift = static_cast<uint8_t>(random_.one_in(2) ? 0 : random_.below(15));
         make_quanta();
         for (uint32_t p = 0; p < content_.patch_count(); ++p) make_chains(p);
         const auto entry_of = [this](uint32_t patch) {

@@ -29,9 +29,9 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 
 std::vector<std::byte> saved(const geoidx& index) {
     uint64_t size = 0;
-    succeed(geoidx_save_memory(&index, nullptr, 0, &size), "the size of the saved file");
+    succeed(geoidx_save_memory(&index, nullptr, nullptr, 0, &size), "the size of the saved file");
     std::vector<std::byte> bytes(size);
-    succeed(geoidx_save_memory(&index, bytes.data(), size, &size), "saving");
+    succeed(geoidx_save_memory(&index, nullptr, bytes.data(), size, &size), "saving");
     return bytes;
 }
 
@@ -222,7 +222,8 @@ private:
 
 void check_saving(const FileContent& content, const WrittenFile& file, const geoidx& index) {
     const auto bytes = saved(index);
-    if (content.is_canonical) require(bytes == file.bytes, "what is saved is what was opened");
+    if (content.is_canonical && !content.is_packed)
+        require(bytes == file.bytes, "what is saved is what was opened");
     geoidx* again = nullptr;
     succeed(geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &again), "opening what was saved");
     require(saved(*test::IndexHandle(again)) == bytes, "what is saved of that is the same again");

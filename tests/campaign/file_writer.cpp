@@ -1,3 +1,6 @@
+#include <span>
+#include <utility>
+
 #include "format/bytes.h"
 #include "format/container.h"
 #include "tests/campaign/file_content.h"
@@ -15,6 +18,26 @@ public:
         raw_size_ += raw.size();
         if (content_.is_canonical)
             container_.add_bytes(format::make_tag(tag), raw);
+        else
+            container_.add_raw(format::make_tag(tag), raw);
+    }
+
+    // Packed: every entry is far off its prediction, whatever that is. Every second matrix may be folded, or
+    // all, or none.
+    void add_packed(const char (&tag)[5], const std::vector<Matrix>& matrices, const auto& is_folded) {
+        format::ByteWriter near, far;
+        for (size_t m = 0; m < matrices.size(); ++m)
+            for (const float value : is_folded(m) ? unfolded(matrices[m]) : matrices[m].values) {
+                near.u8(0x80);
+                far.u16(value == INFINITE
+                            ? 0xffff
+                            : static_cast<uint16_t>(static_cast<uint32_t>(value) >> content_.shift));
+                raw_size_ += sizeof(float);
+            }
+        near.bytes(far.take());
+        const auto raw = near.take();
+        if (content_.is_canonical)
+            container_.add_images(format::make_tag(tag), raw);
         else
             container_.add_raw(format::make_tag(tag), raw);
     }
@@ -37,6 +60,21 @@ public:
     WrittenFile finish() { return {container_.finish(), raw_size_}; }
 
 private:
+    // The rows below a diagonal from the first on.
+    static std::vector<float> unfolded(const Matrix& folded) {
+        const uint32_t size = folded.rows + folded.rows + (folded.cols > 2 * folded.rows ? 1 : 0);
+        std::vector<std::span<const float>> rows(size);
+        std::span<const float> left(folded.values);
+        for (uint32_t line = 0; line < folded.rows; ++line)
+            for (const uint32_t row : {size - 1 - line, line + size % 2}) {
+                rows[row] = left.first(row);
+                left = left.subspan(row);
+            }
+        std::vector<float> values;
+        for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
+        return values;
+    }
+
     const FileContent& content_;
     format::ContainerWriter container_;
     uint64_t raw_size_ = 0;
@@ -57,6 +95,7 @@ void add_meta(const FileContent& content, Writer& writer) {
     bytes.u32(content.metric_flags);
     bytes.u32(content.engine);
     bytes.f64(0); // the error at vertices
+    bytes.u32(content.is_packed ? 0 : 1);
     writer.add("META", bytes);
 }
 
@@ -71,9 +110,18 @@ void add_hierarchy(const FileContent& content, Writer& writer) {
 void add_vertices(const FileContent& content, Writer& writer) {
     format::ByteWriter bytes;
     bytes.u64(content.vertex_count());
-    bytes.u32_array(content.number_of_id);
+    bytes.u32_planes(content.number_of_id);
     writer.add("VERT", bytes);
-    for (const auto& position : content.positions) bytes.f32_array(position);
+    bytes.f32(content.position_step);
+    std::vector<uint32_t> differences;
+    std::array<int32_t, 3> last{};
+    for (const auto& position : content.positions)
+        for (size_t k = 0; k < 3; ++k) {
+            const int32_t difference = position[k] - std::exchange(last[k], position[k]);
+            differences.push_back(
+                static_cast<uint32_t>(difference < 0 ? -2 * difference - 1 : 2 * difference));
+        }
+    bytes.u32_planes(differences);
     writer.add("POSI", bytes);
 }
 
@@ -83,13 +131,16 @@ void add_borders(const FileContent& content, Writer& writer) {
     bytes.u32_array(content.internal);
     for (uint32_t p = 1; p < content.patch_count(); ++p)
         bytes.u32(static_cast<uint32_t>(content.borders[p].size()));
-    for (const auto& border : content.borders) bytes.u32_array(border);
+    std::vector<uint32_t> all;
+    for (const auto& border : content.borders) all.insert(all.end(), border.begin(), border.end());
+    bytes.u32_planes(all);
     writer.add("BORD", bytes);
 }
 
 void add_segments(const FileContent& content, Writer& writer) {
     format::ByteWriter bytes;
     bytes.f32_array(content.quantum);
+    for (size_t p = 0; p < content.quantum.size(); ++p) bytes.u8(content.shift);
     writer.add("QUAN", bytes);
     for (const auto& next : content.next) bytes.u32_array(next);
     for (const auto& length : content.segment_length) bytes.f32_array(length);
@@ -106,10 +157,16 @@ WrittenFile write_content(const FileContent& content) {
     add_borders(content, writer);
     if (content.is_overlay()) {
         add_segments(content, writer);
-        writer.add("OVOV", content.overlay_tables);
     } else {
         writer.add("BVBV", content.border_tables);
     }
+    if (content.is_packed) {
+        writer.add_packed("OVOV", content.overlay_tables, [](size_t m) { return m % 2 == 1; });
+        writer.add_packed("BVIV", content.border_internal_tables, [](size_t) { return false; });
+        writer.add_packed("IVIV", content.internal_tables, [](size_t) { return true; });
+        return writer.finish();
+    }
+    if (content.is_overlay()) writer.add("OVOV", content.overlay_tables);
     writer.add("BVIV", content.border_internal_tables);
     writer.add("IVIV", content.internal_tables);
     return writer.finish();

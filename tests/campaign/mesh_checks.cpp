@@ -65,9 +65,9 @@ int32_t tell(void* user, geoidx_status status, uint64_t offset, const char* mess
 
 std::vector<std::byte> saved(const geoidx* index) {
     uint64_t size = 0;
-    succeed(geoidx_save_memory(index, nullptr, 0, &size), "geoidx_save_memory, size");
+    succeed(geoidx_save_memory(index, nullptr, nullptr, 0, &size), "geoidx_save_memory, size");
     std::vector<std::byte> bytes(size);
-    succeed(geoidx_save_memory(index, bytes.data(), size, &size), "geoidx_save_memory");
+    succeed(geoidx_save_memory(index, nullptr, bytes.data(), size, &size), "geoidx_save_memory");
     return bytes;
 }
 

@@ -46,14 +46,19 @@ inline IndexHandle build(const TestMesh& mesh, const geoidx_build_options& optio
     return IndexHandle(index);
 }
 
-inline Bytes save(const geoidx* index) {
+inline Bytes save(const geoidx* index, uint32_t codec) {
+    geoidx_save_options options;
+    geoidx_save_options_init(&options);
+    options.codec = codec;
     uint64_t size = 0;
-    require_success(geoidx_save_memory(index, nullptr, 0, &size));
+    require_success(geoidx_save_memory(index, &options, nullptr, 0, &size));
     Bytes bytes(size);
-    require_success(geoidx_save_memory(index, bytes.data(), bytes.size(), &size));
+    require_success(geoidx_save_memory(index, &options, bytes.data(), bytes.size(), &size));
     REQUIRE(size == bytes.size());
     return bytes;
 }
+
+inline Bytes save(const geoidx* index) { return save(index, GEOIDX_CODEC_PACKED); }
 
 inline IndexHandle open(std::span<const std::byte> bytes) {
     geoidx* index = nullptr;

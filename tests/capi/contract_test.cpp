@@ -149,11 +149,11 @@ TEST_CASE("every NULL that is not allowed is named") {
     geoidx* out = not_null();
     refused(geoidx_build(nullptr, nullptr, &out), "mesh");
     CHECK(out == nullptr);
-    refused(geoidx_save(nullptr, "/tmp/never-written.gidx"), "index");
-    refused(geoidx_save(index.get(), nullptr), "path");
-    refused(geoidx_save_memory(nullptr, nullptr, 0, &size), "index");
-    refused(geoidx_save_memory(index.get(), nullptr, 0, nullptr), "needed");
-    refused(geoidx_save_memory(index.get(), nullptr, 1, &size), "buffer");
+    refused(geoidx_save(nullptr, "/tmp/never-written.gidx", nullptr), "index");
+    refused(geoidx_save(index.get(), nullptr, nullptr), "path");
+    refused(geoidx_save_memory(nullptr, nullptr, nullptr, 0, &size), "index");
+    refused(geoidx_save_memory(index.get(), nullptr, nullptr, 0, nullptr), "needed");
+    refused(geoidx_save_memory(index.get(), nullptr, nullptr, 1, &size), "buffer");
     refused(geoidx_open("/tmp/never-read.gidx", nullptr, nullptr), "out");
     out = not_null();
     refused(geoidx_open(nullptr, nullptr, &out), "path");
@@ -354,20 +354,20 @@ TEST_CASE("float and strided positions are the same mesh") {
 TEST_CASE("save_memory tells the size and never writes a part") {
     const auto index = build(grid(6, 5), build_options());
     uint64_t needed = 0;
-    require_success(geoidx_save_memory(index.get(), nullptr, 0, &needed));
+    require_success(geoidx_save_memory(index.get(), nullptr, nullptr, 0, &needed));
     REQUIRE(needed > 0);
     const std::byte filler{0xAB};
     for (uint64_t capacity : {uint64_t{0}, uint64_t{1}, needed - 1}) {
         Bytes buffer(needed, filler);
         uint64_t told = 0;
-        check_refused(geoidx_save_memory(index.get(), buffer.data(), capacity, &told),
+        check_refused(geoidx_save_memory(index.get(), nullptr, buffer.data(), capacity, &told),
                       GEOIDX_ERROR_INVALID_ARGUMENT, "buffer");
         CHECK(told == needed);
         CHECK(buffer == Bytes(needed, filler));
     }
     Bytes buffer(needed + 10, filler);
     uint64_t told = 0;
-    require_success(geoidx_save_memory(index.get(), buffer.data(), buffer.size(), &told));
+    require_success(geoidx_save_memory(index.get(), nullptr, buffer.data(), buffer.size(), &told));
     CHECK(told == needed);
     for (size_t i = needed; i < buffer.size(); ++i) CHECK(buffer[i] == filler);
     buffer.resize(needed);

@@ -28,8 +28,9 @@ static void (*const build_options_init_sized)(geoidx_build_options*,
                                               uint32_t) = geoidx_build_options_init_sized;
 static void (*const open_options_init_sized)(geoidx_open_options*, uint32_t) = geoidx_open_options_init_sized;
 static geoidx_status (*const build)(const geoidx_mesh*, const geoidx_build_options*, geoidx**) = geoidx_build;
-static geoidx_status (*const save)(const geoidx*, const char*) = geoidx_save;
-static geoidx_status (*const save_memory)(const geoidx*, void*, uint64_t, uint64_t*) = geoidx_save_memory;
+static geoidx_status (*const save)(const geoidx*, const char*, const geoidx_save_options*) = geoidx_save;
+static geoidx_status (*const save_memory)(const geoidx*, const geoidx_save_options*, void*, uint64_t,
+                                          uint64_t*) = geoidx_save_memory;
 static geoidx_status (*const open_file)(const char*, const geoidx_open_options*, geoidx**) = geoidx_open;
 static geoidx_status (*const open_memory)(const void*, uint64_t, const geoidx_open_options*,
                                           geoidx**) = geoidx_open_memory;
@@ -133,9 +134,9 @@ static int check_memory(const geoidx* index) {
     geoidx* opened = NULL;
     geoidx_open_options options;
     int issues = 0, failed;
-    EXPECT(save_memory(index, NULL, 0, &size) == GEOIDX_OK && size > 0);
+    EXPECT(save_memory(index, NULL, NULL, 0, &size) == GEOIDX_OK && size > 0);
     bytes = malloc((size_t)size);
-    EXPECT(bytes && save_memory(index, bytes, size, &size) == GEOIDX_OK);
+    EXPECT(bytes && save_memory(index, NULL, bytes, size, &size) == GEOIDX_OK);
     EXPECT(verify(bytes, size, count_issue, &issues) == GEOIDX_OK && issues == 0);
     EXPECT(verify(bytes, size - 1, count_issue, &issues) == GEOIDX_ERROR_TRUNCATED && issues > 0);
     open_options_init(&options);
@@ -151,7 +152,7 @@ static int check_file(const geoidx* index) {
     static const char name[] = "geoidx_header_test.gidx";
     geoidx* opened = NULL;
     int failed;
-    EXPECT(save(index, name) == GEOIDX_OK);
+    EXPECT(save(index, name, NULL) == GEOIDX_OK);
     EXPECT(open_file(name, NULL, &opened) == GEOIDX_OK);
     EXPECT(remove(name) == 0);
     failed = check_queries(opened);

@@ -82,7 +82,7 @@ Bytes damaged_in_tables(const Bytes& file) {
     const auto container = format::Container::parse(file, INDEX_TAGS);
     format::ContainerWriter writer(container.mesh_fingerprint());
     for (const format::Section& section : container.sections()) {
-        if (section.codec != format::Codec::Png) {
+        if (section.codec != format::Codec::Png && section.codec != format::Codec::ByteImages) {
             writer.add_bytes(section.tag, container.read_bytes(section.tag, section.raw_size));
             continue;
         }
@@ -91,7 +91,7 @@ Bytes damaged_in_tables(const Bytes& file) {
         for (const auto image : container.png_streams(section.tag, stored.u32()))
             images.emplace_back(image.begin(), image.end());
         images.back().pop_back();
-        writer.add_encoded_matrices(section.tag, images, section.raw_size);
+        writer.add_encoded_images(section.tag, section.codec, images, section.raw_size);
     }
     return writer.finish();
 }
@@ -180,7 +180,8 @@ TEST_CASE("saving, opening and querying at once") {
             threads.emplace_back([&] {
                 Bytes saved(bytes.size());
                 uint64_t size = 0;
-                wrong += geoidx_save_memory(index.get(), saved.data(), saved.size(), &size) != GEOIDX_OK;
+                wrong +=
+                    geoidx_save_memory(index.get(), nullptr, saved.data(), saved.size(), &size) != GEOIDX_OK;
                 wrong += saved != bytes;
                 geoidx* opened = nullptr;
                 wrong += geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &opened) != GEOIDX_OK;

@@ -245,7 +245,7 @@ TEST_CASE("out of memory while saving to memory") {
             Bytes saved(file.size());
             uint64_t size = 0;
             const geoidx_status status = fault.disturb(
-                [&] { return geoidx_save_memory(index.get(), saved.data(), saved.size(), &size); });
+                [&] { return geoidx_save_memory(index.get(), nullptr, saved.data(), saved.size(), &size); });
             if (status == GEOIDX_OK) CHECK(saved == file);
         });
         CHECK(failed > 20);
@@ -264,7 +264,7 @@ TEST_CASE("out of memory while saving to a file, over a symbolic link too") {
         try_with_faults(Source::process, 7, [&](Fault& fault) {
             write(path, old);
             const geoidx_status status =
-                fault.disturb([&] { return geoidx_save(index.get(), destination.c_str()); });
+                fault.disturb([&] { return geoidx_save(index.get(), destination.c_str(), nullptr); });
             CHECK(content_of(path) == (status == GEOIDX_OK ? file : old));
             const std::filesystem::directory_iterator entries(directory.path());
             CHECK(std::distance(begin(entries), end(entries)) == 2);

@@ -44,9 +44,9 @@ Bytes small_index(uint32_t engine) {
     geoidx* index = nullptr;
     fuzz::require(geoidx_build(&mesh, &options, &index) == GEOIDX_OK, "the small index is built");
     uint64_t size = 0;
-    geoidx_save_memory(index, nullptr, 0, &size);
+    geoidx_save_memory(index, nullptr, nullptr, 0, &size);
     Bytes file(size);
-    fuzz::require(geoidx_save_memory(index, file.data(), size, &size) == GEOIDX_OK, "it is saved");
+    fuzz::require(geoidx_save_memory(index, nullptr, file.data(), size, &size) == GEOIDX_OK, "it is saved");
     geoidx_close(index);
     return file;
 }
@@ -74,7 +74,7 @@ Bytes changed(const Bytes& file, fuzz::Input input) {
         if (is_bytes(section))
             writer.add_bytes(section.tag, raw[section.tag]);
         else
-            test::copy_matrices(container, file, section, writer);
+            test::copy_images(container, file, section, writer);
     }
     return writer.finish();
 }

@@ -128,11 +128,14 @@ TEST_CASE("crafted VERT and POSI") {
             check_corrupt("vertex number", [&](TakenApart& parts) { parts.number_of_id[id] = number; });
     check_corrupt("an id too few", [](TakenApart& parts) { parts.number_of_id.pop_back(); });
     check_corrupt("an id too many", [](TakenApart& parts) { parts.number_of_id.push_back(0); });
-    for (float coordinate : {INFINITE, -INFINITE, NOT_A_NUMBER})
-        for (size_t i : {size_t{0}, original().parts.positions.size() - 1})
-            check_corrupt("position", [&](TakenApart& parts) { parts.positions[i] = coordinate; });
-    check_corrupt("a coordinate too few", [](TakenApart& parts) { parts.positions.pop_back(); });
-    check_corrupt("a coordinate too many", [](TakenApart& parts) { parts.positions.push_back(0); });
+    for (float step : {INFINITE, -INFINITE, NOT_A_NUMBER, -1.f})
+        check_corrupt("position step", [&](TakenApart& parts) { parts.position_step = step; });
+    // 2^24 and -2^24, 2^31 - 1 and -2^31 steps from the coordinate before.
+    for (uint32_t difference : {1u << 25, (1u << 25) - 1, UINT32_MAX - 1, UINT32_MAX})
+        for (size_t i : {size_t{0}, original().parts.coordinates.size() - 1})
+            check_corrupt("position", [&](TakenApart& parts) { parts.coordinates[i] = difference; });
+    check_corrupt("a coordinate too few", [](TakenApart& parts) { parts.coordinates.pop_back(); });
+    check_corrupt("a coordinate too many", [](TakenApart& parts) { parts.coordinates.push_back(0); });
 }
 
 TEST_CASE("an id may be made unreachable, and then is") {

@@ -24,7 +24,8 @@ const Bytes& original() {
     static const Bytes file = [] {
         auto options = build_options(GEOIDX_METRIC_EXACT, 1);
         options.engine = GEOIDX_ENGINE_OVERLAY;
-        return save(build(hills(9, 8), options).get());
+        options.rounding = 0; // every code is allowed
+        return save(build(hills(9, 8), options).get(), GEOIDX_CODEC_LOSSLESS);
     }();
     return file;
 }
@@ -56,7 +57,7 @@ Bytes with(uint32_t changed, const Change& change) {
             change(raw);
             if (!raw.empty()) writer.add_raw(changed, raw);
         } else if (section.codec == format::Codec::Png) {
-            copy_matrices(container, original(), section, writer);
+            copy_images(container, original(), section, writer);
         } else {
             writer.add_bytes(section.tag, container.read_bytes(section.tag, UINT64_MAX));
         }

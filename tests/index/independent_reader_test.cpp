@@ -55,6 +55,13 @@ public:
         for (uint32_t& value : values) value = u32();
         return values;
     }
+    std::vector<uint32_t> u32_planes(size_t count) {
+        const Bytes planes = bytes(4 * count);
+        std::vector<uint32_t> values(count);
+        for (size_t i = 0; i < planes.size(); ++i)
+            values[i % count] |= std::to_integer<uint32_t>(planes[i]) << (8 * (i / count));
+        return values;
+    }
     Bytes bytes(size_t count) {
         REQUIRE(next_ + count <= bytes_.size());
         const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(next_);
@@ -82,7 +89,7 @@ public:
         Numbers header(file);
         const Bytes magic = header.bytes(8);
         REQUIRE(std::memcmp(magic.data(), "\x89GIDX\r\n\x1A", 8) == 0);
-        CHECK(header.unsigned_integer(2) == 1);
+        CHECK(header.unsigned_integer(2) == 2);
         header.unsigned_integer(2);
         CHECK(header.u32() == 0);
         header.u32();
@@ -195,7 +202,8 @@ struct IndependentIndex {
     std::vector<uint32_t> parent, first_child, child_count, level_begin;
     uint32_t inner_count, patch_count, border_vertex_count;
     std::vector<uint32_t> number_of_id;
-    std::vector<float> positions;
+    double position_step;
+    std::vector<int32_t> positions;
     std::vector<std::vector<uint32_t>> owned, internal, border; // per patch
     std::vector<Table> border_table, crossing_table, internal_table;
 
@@ -206,10 +214,14 @@ struct IndependentIndex {
         read_hierarchy(file.bytes("HIER"));
         Numbers vertices = file.bytes("VERT");
         const uint64_t vertex_count = vertices.u64();
-        number_of_id = vertices.u32s(id_count);
+        number_of_id = vertices.u32_planes(id_count);
         CHECK(vertices.remaining() == 0);
         Numbers coordinates = file.bytes("POSI");
-        for (uint64_t i = 0; i < 3 * vertex_count; ++i) positions.push_back(coordinates.f32());
+        position_step = double{coordinates.f32()};
+        for (const uint32_t stored : coordinates.u32_planes(3 * vertex_count)) {
+            const int32_t half = static_cast<int32_t>(stored / 2), difference = stored % 2 ? -half - 1 : half;
+            positions.push_back(difference + (positions.size() < 3 ? 0 : positions[positions.size() - 3]));
+        }
         CHECK(coordinates.remaining() == 0);
         read_borders(file.bytes("BORD"), vertex_count);
         border_table = folded_tables(file, "BVBV", border);
@@ -231,6 +243,7 @@ struct IndependentIndex {
         metric_flags = meta.u32();
         CHECK(meta.u32() == GEOIDX_ENGINE_GRAPH);
         CHECK(!std::isnan(meta.f64()));
+        CHECK(meta.u32() == 1); // lossless
         CHECK(meta.remaining() == 0);
     }
 
@@ -267,7 +280,14 @@ struct IndependentIndex {
         for (uint32_t p = inner_count; p < patch_count; ++p)
             for (uint32_t i = 0; i < internal_count[p - inner_count]; ++i) internal[p].push_back(next++);
         CHECK(next == vertex_count);
-        for (uint32_t p = 1; p < patch_count; ++p) border[p] = numbers.u32s(border_size[p - 1]);
+        const auto all = numbers.u32_planes(numbers.remaining() / 4);
+        auto first = all.begin();
+        for (uint32_t p = 1; p < patch_count; ++p) {
+            REQUIRE(border_size[p - 1] <= all.end() - first);
+            border[p].assign(first, first + border_size[p - 1]);
+            first += border_size[p - 1];
+        }
+        CHECK(first == all.end());
         CHECK(numbers.remaining() == 0);
     }
 
@@ -403,7 +423,7 @@ struct IndependentIndex {
     double straight(uint32_t a, uint32_t b) const {
         double square = 0;
         for (size_t k = 0; k < 3; ++k) {
-            const double difference = double{positions[3 * a + k]} - double{positions[3 * b + k]};
+            const double difference = position_step * (positions[3 * a + k] - positions[3 * b + k]);
             square += difference * difference;
         }
         return std::sqrt(square);
@@ -454,14 +474,21 @@ TEST_CASE("independent reader: what the file says of mesh and options") {
         CHECK(index.border_vertex_count == info.border_vertex_count);
         for (uint32_t l = 1; l <= written.options.level_count; ++l)
             CHECK(index.level_begin[l + 1] - index.level_begin[l] == info.patch_count[l - 1]);
+        CHECK(index.position_step > 0);
+        const auto corner = [&](size_t k) {
+            double least = INFINITE;
+            for (const uint32_t id : written.mesh.triangles)
+                least = std::min(least, written.mesh.positions[3 * id + k]);
+            return least;
+        };
         std::set<uint32_t> used(written.mesh.triangles.begin(), written.mesh.triangles.end());
         for (uint32_t id = 0; id < index.id_count; ++id) {
             const uint32_t number = index.number_of_id[id];
             CHECK((number == UNUSED) == !used.contains(id));
             if (number == UNUSED) continue;
             for (size_t k = 0; k < 3; ++k)
-                CHECK(index.positions[3 * number + k] ==
-                      static_cast<float>(written.mesh.positions[3 * id + k]));
+                CHECK(std::abs(index.position_step * index.positions[3 * number + k] + corner(k) -
+                               written.mesh.positions[3 * id + k]) <= 0.501 * index.position_step);
         }
     }
 }

@@ -35,13 +35,15 @@ TEST_CASE("middle tables: in the plane, straight lines to the middles of segment
                            &second = numbering.positions[index.rings.vertex[place + 1]];
                 double square = 0;
                 for (size_t axis = 0; axis < 3; ++axis)
-                    square += std::pow(
-                        double{target[axis]} - 0.5 * (double{first[axis]} + double{second[axis]}), 2);
-                const double quantum = double{index.quantum[p]}, distance = std::sqrt(square);
+                    square += std::pow(target[axis] - 0.5 * (first[axis] + second[axis]), 2);
+                const double quantum = double{index.quantum[p]},
+                             distance = double{numbering.position_step} * std::sqrt(square);
                 // Entries are rounded by half a step, the middle's once more; near a segment that counts
                 // more. What is no leaf's is calibrated.
                 const double length = double{index.rings.segment_length[place]};
-                const double rounding = quantum * (1 + 2 * (distance + length) / distance) +
+                const double step = std::ldexp(quantum, index.shift[p]);
+                const double rounding = step * (1 + 2 * (distance + length) / distance) +
+                                        2 * double{numbering.position_step} +
                                         (p < numbering.first_leaf() ? 1e-3 * distance : 0);
                 wrong += std::abs(code * quantum - distance) > rounding;
                 ++middles;

@@ -30,7 +30,7 @@ TEST_CASE("an opened index answers bit for bit as the built one and saves the sa
 TEST_CASE("a file is what save_memory gives") {
     const auto path = std::filesystem::temp_directory_path() / "geoidx_same_bytes_test.gidx";
     const auto index = build(hills(9, 9), build_options());
-    require_success(geoidx_save(index.get(), path.c_str()));
+    require_success(geoidx_save(index.get(), path.c_str(), nullptr));
     geoidx* made = nullptr;
     require_success(geoidx_open(path.c_str(), nullptr, &made));
     const IndexHandle opened(made);

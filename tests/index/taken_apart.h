@@ -23,13 +23,15 @@ struct TakenApart {
         uint64_t metric_fingerprint;
         uint32_t metric_flags, engine;
         double error_at_vertices;
+        uint32_t codec;
     } meta;
     uint32_t level_count;
     uint64_t inner_count;
     std::vector<uint32_t> children; // per inner patch
     uint64_t vertex_count;
     std::vector<uint32_t> number_of_id;
-    std::vector<float> positions;
+    float position_step;
+    std::vector<uint32_t> coordinates; // as they are stored: folded differences
     std::vector<uint32_t> owned, internal, border_sizes, border;
     std::map<uint32_t, std::vector<float>> tables; // by tag, the matrices back to back
     uint32_t missing_tag = 0;                      // a section to leave out
@@ -57,6 +59,7 @@ inline TakenApart take_apart(std::span<const std::byte> file) {
     parts.meta.metric_flags = meta.u32();
     parts.meta.engine = meta.u32();
     parts.meta.error_at_vertices = meta.f64();
+    parts.meta.codec = meta.u32();
 
     const auto hierarchy_bytes = bytes(TAG_HIERARCHY);
     format::ByteReader hierarchy(hierarchy_bytes);
@@ -71,11 +74,12 @@ inline TakenApart take_apart(std::span<const std::byte> file) {
     format::ByteReader vertices(vertex_bytes);
     parts.vertex_count = vertices.u64();
     parts.number_of_id.resize(parts.meta.id_count);
-    vertices.u32_array(parts.number_of_id);
+    vertices.u32_planes(parts.number_of_id);
     const auto position_bytes = bytes(TAG_POSITIONS);
     format::ByteReader positions(position_bytes);
-    parts.positions.resize(3 * parts.vertex_count);
-    positions.f32_array(parts.positions);
+    parts.position_step = positions.f32();
+    parts.coordinates.resize(3 * parts.vertex_count);
+    positions.u32_planes(parts.coordinates);
 
     const auto border_bytes = bytes(TAG_BORDERS);
     format::ByteReader borders(border_bytes);
@@ -84,7 +88,7 @@ inline TakenApart take_apart(std::span<const std::byte> file) {
     parts.border_sizes.resize(patches - 1);
     for (auto* sizes : {&parts.owned, &parts.internal, &parts.border_sizes}) borders.u32_array(*sizes);
     parts.border.resize(borders.remaining() / 4);
-    borders.u32_array(parts.border);
+    borders.u32_planes(parts.border);
     return parts;
 }
 
@@ -146,6 +150,7 @@ inline Bytes put_together(const TakenApart& parts, const TakenApart& shapes, uin
     bytes.u32(parts.meta.metric_flags);
     bytes.u32(parts.meta.engine);
     bytes.f64(parts.meta.error_at_vertices);
+    bytes.u32(parts.meta.codec);
     add(TAG_META, bytes);
     bytes.take();
     bytes.u32(parts.level_count);
@@ -154,14 +159,16 @@ inline Bytes put_together(const TakenApart& parts, const TakenApart& shapes, uin
     add(TAG_HIERARCHY, bytes);
     bytes.take();
     bytes.u64(parts.vertex_count);
-    bytes.u32_array(parts.number_of_id);
+    bytes.u32_planes(parts.number_of_id);
     add(TAG_VERTICES, bytes);
     bytes.take();
-    bytes.f32_array(parts.positions);
+    bytes.f32(parts.position_step);
+    bytes.u32_planes(parts.coordinates);
     add(TAG_POSITIONS, bytes);
     bytes.take();
-    for (const auto* numbers : {&parts.owned, &parts.internal, &parts.border_sizes, &parts.border})
+    for (const auto* numbers : {&parts.owned, &parts.internal, &parts.border_sizes})
         bytes.u32_array(*numbers);
+    bytes.u32_planes(parts.border);
     add(TAG_BORDERS, bytes);
     for (uint32_t tag : {TAG_BORDER_TABLES, TAG_BORDER_INTERNAL_TABLES, TAG_INTERNAL_TABLES}) {
         if (tag == parts.missing_tag) continue;

@@ -17,7 +17,7 @@ int main(void) {
     mesh.triangle_count = 2;
     if (geoidx_abi_version() != GEOIDX_ABI_VERSION) return 1;
     if (geoidx_build(&mesh, NULL, &index) != GEOIDX_OK) return 2;
-    if (geoidx_save(index, "square.geoidx") != GEOIDX_OK) return 3;
+    if (geoidx_save(index, "square.geoidx", NULL) != GEOIDX_OK) return 3;
     geoidx_close(index);
     if (geoidx_open("square.geoidx", NULL, &index) != GEOIDX_OK) return 4;
     if (geoidx_sssd(index, 0, 2, &distance) != GEOIDX_OK) return 5;

@@ -79,8 +79,9 @@ std::vector<uint32_t> labelled_vertices(const OverlayIndex& index, uint32_t patc
 double steps_between(const OverlayIndex& index, uint32_t patch, uint32_t labelled) {
     double sum = 0;
     for (uint32_t p = patch; p != index.numbering.parent[labelled]; p = index.numbering.parent[p])
-        sum += double{index.quantum[p]};
-    return sum + double{index.quantum[index.numbering.parent[labelled]]};
+        sum += std::ldexp(double{index.quantum[p]}, index.shift[p]);
+    const uint32_t outer = index.numbering.parent[labelled];
+    return sum + std::ldexp(double{index.quantum[outer]}, index.shift[outer]);
 }
 
 // Calls check(distance of the i-th labelled vertex, inner vertex, i) for each patch and what lies deeper.

@@ -102,8 +102,7 @@ TEST_CASE("prepare: without segments, paths cross borders at their vertices") {
         OverlaySsad(with.overlay(), memory).sweep({&source, 1}, INFINITE, between);
         OverlaySsad(overlay, memory).sweep({&source, 1}, INFINITE, at_vertices);
         for (uint32_t v = 0; v < count; ++v) {
-            const auto &a = overlay.numbering.positions[source], &b = overlay.numbering.positions[v];
-            const double line = std::hypot(double{a[0]} - double{b[0]}, double{a[1]} - double{b[1]});
+            const double line = straight_distance(overlay.numbering, source, v);
             shorter += double{at_vertices[v]} < double{between[v]} * 0.999;
             longer += double{at_vertices[v]} > double{between[v]} * 1.005;
             wrong += !(double{at_vertices[v]} >= line * 0.97 && double{at_vertices[v]} <= line * 1.3);

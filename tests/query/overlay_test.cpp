@@ -128,7 +128,7 @@ TEST_CASE("overlay: near vertices find their way across a large border") {
                 errors.add(double{sssd(index.get(), source, target)}, mesh.straight(source, target));
             }
     CHECK(errors.reached_wrongly == 0);
-    CHECK(errors.mean() < 1e-3);
+    CHECK(errors.mean() < 2e-3); // entries are rounded to 1/64 edge, and pairs are 1 to 4 edges apart
     CHECK(errors.largest < 0.2);
 }
 

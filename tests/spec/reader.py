@@ -11,10 +11,14 @@ import numpy
 import xxhash
 import zstandard
 
+from packed import PackedTables
+
 MAGIC = bytes.fromhex("89474944580D0A1A")
-RAW, ZSTD, PNG = 0, 1, 2
+RAW, ZSTD, PNG, IMAGES = 0, 1, 2, 3
 NONE = 0xFFFFFFFF
 GRAPH, OVERLAY = 0, 1
+PACKED, LOSSLESS = 0, 1
+RUN = 1 << 18
 
 
 class Refused(Exception):
@@ -36,6 +40,8 @@ class Section:
     def bytes(self):
         if self.codec == RAW:
             return self.stored
+        if self.codec == IMAGES:
+            return self._runs()
         require(self.codec == ZSTD, "a section of bytes is png")
         return zstandard.ZstdDecompressor().decompress(self.stored, max_output_size=self.raw_size)
 
@@ -43,7 +49,7 @@ class Section:
         """One array for each (rows, columns), in order; matrices of nothing are not stored."""
         shapes = [shape for shape in shapes if 0 not in shape]
         if self.codec == PNG:
-            return self._images(shapes)
+            return [floats_of(image) for image in self._images(shapes, RGBA)]
         entries, matrices = numpy.frombuffer(self.bytes(), "<f4"), []
         for rows, columns in shapes:
             matrices.append(entries[: rows * columns].reshape(rows, columns))
@@ -51,22 +57,27 @@ class Section:
         require(len(entries) == 0, "entries are left over")
         return matrices
 
-    def _images(self, shapes):
+    def _runs(self):
+        rest = self.raw_size % RUN
+        shapes = [(512, 512)] * (self.raw_size // RUN) + ([(1, rest)] if rest else [])
+        return b"".join(image.tobytes() for image in self._images(shapes, GRAY))
+
+    def _images(self, shapes, color):
         (count,) = struct.unpack_from("<I", self.stored)
-        require(count == len(shapes), "another number of matrices")
+        require(count == len(shapes), "another number of images")
         lengths = struct.unpack_from(f"<{count}Q", self.stored, 4)
-        at, matrices = 4 + 8 * count, []
+        at, images = 4 + 8 * count, []
         for length, shape in zip(lengths, shapes):
-            matrices.append(decode_png(self.stored[at : at + length], shape))
+            images.append(decode_png(self.stored[at : at + length], shape, color))
             at += length
         require(at == len(self.stored), "streams do not fill their section")
-        return matrices
+        return images
 
 
 def read_sections(content):
     require(content[:8] == MAGIC, "not an index")
     major, _, _, _, count, file_size, fingerprint, checksum = struct.unpack_from("<HHIIIQQQ", content, 8)
-    require(major == 1 and file_size == len(content), "another version or size")
+    require(major == 2 and file_size == len(content), "another version or size")
     head = bytearray(content[: 48 + 48 * count])
     head[40:48] = bytes(8)
     require(xxhash.xxh3_64_intdigest(bytes(head)) == checksum, "the header's checksum does not match")
@@ -84,45 +95,52 @@ def read_sections(content):
 # ---- PNG
 
 
-def decode_png(stream, shape):
-    """The matrix of float32 in an RGBA image of 8 bits a channel."""
+GRAY, RGBA = (0, 1), (6, 4)  # color type, bytes a pixel
+
+
+def floats_of(image):
+    """The matrix of float32 in the pixels of an RGBA image."""
+    return image.reshape(image.shape[0], -1, 4).view(">f4")[..., 0].astype("f4")
+
+
+def decode_png(stream, shape, color):
+    """The lines of an image of 8 bits a channel."""
     data, at = b"", 8
     while at < len(stream):
         length, kind = struct.unpack_from(">I4s", stream, at)
         body = stream[at + 8 : at + 8 + length]
         if kind == b"IHDR":
-            width, height, depth, color, _, _, interlaced = struct.unpack(">IIBBBBB", body)
-            require((height, width) == shape and (depth, color, interlaced) == (8, 6, 0), "another kind of image")
+            width, height, depth, color_type, _, _, interlaced = struct.unpack(">IIBBBBB", body)
+            require((height, width) == shape and (depth, color_type, interlaced) == (8, color[0], 0), "another kind of image")
         if kind == b"IDAT":
             data += body
         at += 12 + length
-    lines = unfilter(zlib.decompress(data), *shape)
-    return lines.reshape(shape[0], shape[1], 4).view(">f4")[..., 0].astype("f4")
+    return unfilter(zlib.decompress(data), *shape, color[1])
 
 
-def unfilter(data, height, width):
-    stride = 4 * width
+def unfilter(data, height, width, pixel):
+    stride = pixel * width
     lines, before = numpy.empty((height, stride), "u1"), numpy.zeros(stride, "u1")
     for r in range(height):
         kind = data[r * (stride + 1)]
         line = numpy.frombuffer(data, "u1", stride, r * (stride + 1) + 1)
-        lines[r] = before = unfilter_line(kind, line, before)
+        lines[r] = before = unfilter_line(kind, line, before, pixel)
     return lines
 
 
-def unfilter_line(kind, line, above):
+def unfilter_line(kind, line, above, pixel):
     if kind == 0:
         return line
     if kind == 1:
-        return line.reshape(-1, 4).cumsum(axis=0, dtype="u1").reshape(-1)
+        return line.reshape(-1, pixel).cumsum(axis=0, dtype="u1").reshape(-1)
     if kind == 2:
         return line + above
     predict = average if kind == 3 else paeth
-    # Four zero bytes stand left of the line, as the format wants it.
-    out, above = bytearray(4), bytes(4) + above.tobytes()
-    for i, value in enumerate(line.tobytes(), 4):
-        out.append(value + predict(out[i - 4], above[i], above[i - 4]) & 0xFF)
-    return numpy.frombuffer(bytes(out[4:]), "u1")
+    # The pixel left of the line is zero, as the format wants it.
+    out, above = bytearray(pixel), bytes(pixel) + above.tobytes()
+    for i, value in enumerate(line.tobytes(), pixel):
+        out.append(value + predict(out[i - pixel], above[i], above[i - pixel]) & 0xFF)
+    return numpy.frombuffer(bytes(out[pixel:]), "u1")
 
 
 def average(left, up, _):
@@ -147,6 +165,11 @@ class Fields:
         array = numpy.frombuffer(self.content, kind, count, self.at)
         self.at += array.nbytes
         return array
+
+    def planes(self, count):
+        """u32 numbers, of which all lowest bytes stand first."""
+        planes = self.take("u1", 4 * count).reshape(4, count).astype("u4")
+        return planes[0] | planes[1] << 8 | planes[2] << 16 | planes[3] << 24
 
     def rest(self, kind):
         return self.take(kind, (len(self.content) - self.at) // numpy.dtype(kind).itemsize)
@@ -173,17 +196,23 @@ class Index:
         with open(path, "rb") as file:
             self.sections, self.fingerprint = read_sections(file.read())
         meta = self.sections["META"].bytes()
-        require(len(meta) == 116, "META of another size")
+        require(len(meta) == 120, "META of another size")
         (self.id_count,) = struct.unpack_from("<Q", meta)
         (self.engine,) = struct.unpack_from("<I", meta, 104)
+        (self.codec,) = struct.unpack_from("<I", meta, 116)
         self._read_hierarchy()
         self._read_vertices()
+        self._read_positions()
         self._read_borders()
+        if self.engine == OVERLAY:
+            self._read_overlays()
+        if self.codec == PACKED:
+            return self._read_packed()
         self._read_leaf_tables()
         if self.engine == GRAPH:
             self._read_border_tables()
         else:
-            self._read_overlays()
+            self._read_overlay_tables()
 
     def _read_hierarchy(self):
         fields = Fields(self.sections["HIER"].bytes())
@@ -198,7 +227,14 @@ class Index:
     def _read_vertices(self):
         fields = Fields(self.sections["VERT"].bytes())
         self.vertex_count = int(fields.take("<u8", 1)[0])
-        self.number_of_id = fields.take("<u4", self.id_count)
+        self.number_of_id = fields.planes(self.id_count)
+
+    def _read_positions(self):
+        fields = Fields(self.sections["POSI"].bytes())
+        (self.position_step,) = fields.take("<f4", 1)
+        stored = fields.planes(3 * self.vertex_count).astype(int)
+        differences = numpy.where(stored % 2, -(stored + 1) // 2, stored // 2)
+        self.positions = differences.reshape(-1, 3).cumsum(axis=0)
 
     def _read_borders(self):
         fields = Fields(self.sections["BORD"].bytes())
@@ -209,7 +245,7 @@ class Index:
         self.inside = [range(end - count, end) for end, count in zip(ends, counts)]
         self.border_vertex_count = self.inside[self.inner_count - 1].stop
         self.border_begin = numpy.insert(numpy.cumsum(sizes), 0, 0)
-        numbers = fields.rest("<u4").astype(int)
+        numbers = fields.planes(int(sizes.sum())).astype(int)
         self.border = [numbers[a:b] for a, b in zip(self.border_begin, self.border_begin[1:])]
         self.entry = numpy.repeat(numpy.arange(self.patch_count), counts)
         self.leaves = range(self.inner_count, self.patch_count)
@@ -249,14 +285,45 @@ class Index:
         self.border_table = dict(enumerate(self._folded("BVBV", sizes), 1))
 
     def _read_overlays(self):
-        self.quantum = Fields(self.sections["QUAN"].bytes()).rest("<f4")
+        fields = Fields(self.sections["QUAN"].bytes())
+        self.quantum, self.shift = fields.take("<f4", self.patch_count), fields.take("u1", self.patch_count).tolist()
         fields = Fields(self.sections["SEGM"].bytes())
         size = self.border_begin[-1]
         ends, lengths = fields.take("<u4", size), fields.take("<f4", size)
         begin = self.border_begin
         self.segment_end = [ends[a:b] for a, b in zip(begin, begin[1:])]
         self.segment_length = [lengths[a:b] for a, b in zip(begin, begin[1:])]
-        self._read_overlay_tables()
+
+    def _read_packed(self):
+        """The tables of a packed index; of triangles, both halves."""
+        insides, borders = [len(inside) for inside in self.inside], [len(border) for border in self.border]
+        inner, triangle = range(self.inner_count), [n * (n - 1) // 2 for n in insides]
+        tables = self._packed("OVOV", sum(insides[p] * borders[p] + triangle[p] for p in inner))
+        self.overlay_table = []
+        for patch in inner:
+            to_border = self._next(tables, patch, self.inside[patch], self.border[patch])
+            own = self._next_triangle(tables, patch)
+            self.overlay_table.append(self._joined(patch, to_border, own))
+        tables.require_end()
+        tables = self._packed("BVIV", sum(insides[p] * borders[p] for p in self.leaves))
+        self.border_internal = {p: self._next(tables, p, self.border[p], self.inside[p]) for p in self.leaves}
+        tables.require_end()
+        tables = self._packed("IVIV", sum(triangle[p] for p in self.leaves))
+        self.internal = {p: self._next_triangle(tables, p) for p in self.leaves}
+        tables.require_end()
+
+    def _packed(self, tag, entries):
+        raw = numpy.frombuffer(self.sections[tag].bytes(), "u1")
+        return PackedTables(raw, entries, self.positions, self.position_step)
+
+    def _next(self, tables, patch, rows, cols):
+        rows, cols = numpy.array(rows, int), numpy.array(cols, int)
+        return tables.table(rows, cols, self.quantum[patch], self.shift[patch])
+
+    def _next_triangle(self, tables, patch):
+        inside = numpy.array(self.inside[patch], int)
+        table = tables.table(inside, inside, self.quantum[patch], self.shift[patch], is_triangle=True)
+        return table + table.T
 
     def _read_overlay_tables(self):
         shapes = []
@@ -270,12 +337,14 @@ class Index:
         tables = [None if 0 in shape else next(matrices) for shape in shapes]
         self.overlay_table = []
         for patch in range(self.inner_count):
-            self.overlay_table.append(self._overlay_table(patch, *tables[2 * patch : 2 * patch + 2]))
+            to_border, folded = tables[2 * patch : 2 * patch + 2]
+            self.overlay_table.append(self._joined(patch, to_border, unfold(folded, len(self.inside[patch]))))
 
-    def _overlay_table(self, patch, to_border, folded):
+    def _joined(self, patch, to_border, own):
+        """The whole overlay table of a patch, whose parent's is known."""
         border, owned = len(self.border[patch]), len(self.inside[patch])
         table = numpy.zeros((border + owned, border + owned), "f4")
-        table[border:, border:] = unfold(folded, owned)
+        table[border:, border:] = own
         if to_border is not None:
             table[border:, :border], table[:border, border:] = to_border, to_border.T
         if patch:

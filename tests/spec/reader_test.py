@@ -66,7 +66,23 @@ class Subject:
         self.path = FOLDER / f"{name}.geoidx"
         run("build", mesh, "-o", self.path, *options)
         self.index = Index(self.path)
+        self.require_same_tables_lossless()
         self.engine = (OverlayEngine if self.index.engine == OVERLAY else GraphEngine)(self.index)
+
+    def require_same_tables_lossless(self):
+        """The file in its other form holds the same entries."""
+        if self.index.engine != OVERLAY:
+            return
+        lossless = FOLDER / "lossless.geoidx"
+        run("convert", self.path, "-o", lossless, "--codec", "lossless")
+        other = Index(lossless)
+        assert (self.index.codec, other.codec) == (0, 1)
+        numpy.testing.assert_array_equal(self.index.quantum, other.quantum)
+        for mine, others in zip(self.index.overlay_table, other.overlay_table):
+            numpy.testing.assert_array_equal(mine, others)
+        for leaf in self.index.leaves:
+            numpy.testing.assert_array_equal(self.index.border_internal[leaf], other.border_internal[leaf])
+            numpy.testing.assert_array_equal(self.index.internal[leaf], other.internal[leaf])
 
     def msad_by_library(self, sources):
         fields = FOLDER / "field.npy"

@@ -212,13 +212,39 @@ class Outputs(unittest.TestCase):
         self.assertEqual((same["distance"], same["exact"], same["relative_error"]), (0, 0, 0))
 
     def test_json_of_build_and_info(self):
-        built = strict_json(output_of("build", self.mesh, "-o", self.folder / "built.geoidx", "--json"))
-        info = strict_json(output_of("info", self.folder / "built.geoidx", "--json"))
-        self.assertEqual(built["mesh"], str(self.mesh))
-        self.assertEqual(built["file_size"], (self.folder / "built.geoidx").stat().st_size)
-        self.assertGreater(built["build_seconds"], 0)
-        self.assertEqual((info["vertex_count"], info["triangle_count"]), (16, 24))
-        self.assertEqual({key: built[key] for key in info}, info)
+        for codec in ("packed", "lossless"):
+            file = self.folder / f"{codec}.geoidx"
+            built = strict_json(output_of("build", self.mesh, "-o", file, "--codec", codec, "--json"))
+            info = strict_json(output_of("info", file, "--json"))
+            self.assertEqual(built["mesh"], str(self.mesh))
+            self.assertEqual(built["file_size"], file.stat().st_size)
+            self.assertGreater(built["build_seconds"], 0)
+            self.assertEqual((info["vertex_count"], info["triangle_count"]), (16, 24))
+            self.assertEqual(info["codec"], codec)
+            sections = info.pop("sections")
+            self.assertEqual([section["tag"] for section in sections][:3], ["META", "HIER", "VERT"])
+            self.assertEqual(sections[-1]["offset"] + sections[-1]["stored_size"], built["file_size"])
+            self.assertEqual({key: built[key] for key in info}, info)
+
+    def test_convert(self):
+        lossless, packed = self.folder / "there.geoidx", self.folder / "back.geoidx"
+        shown = strict_json(output_of("convert", self.index, "-o", lossless, "--codec", "lossless", "--json"))
+        self.assertEqual((shown["index"], shown["output"]), (str(self.index), str(lossless)))
+        info = strict_json(output_of("info", lossless, "--json"))
+        info.pop("sections")
+        self.assertEqual({key: shown[key] for key in info}, info)
+        self.assertEqual(shown["codec"], "lossless")
+        output_of("convert", lossless, "-o", packed)
+        self.assertEqual(packed.read_bytes(), self.index.read_bytes())
+        self.assertEqual(output_of("convert", lossless, "-o", "-"), self.index.read_bytes())
+        self.assertEqual(output_of("convert", packed, "-o", "-", "--codec", "lossless"), lossless.read_bytes())
+        for wrong in (["-o", "-", "--json"], ["-o", packed, "--codec", "zip"], []):
+            self.assertEqual(run("convert", lossless, *wrong).returncode, 2)
+        before = lossless.read_bytes()
+        self.assertEqual(run("convert", lossless, "-o", lossless).returncode, 1)
+        self.assertEqual(lossless.read_bytes(), before)
+        self.assertEqual(run("convert", self.mesh, "-o", packed).returncode, 1)
+        self.assertEqual(packed.read_bytes(), self.index.read_bytes())
 
     def test_json_of_verify(self):
         good = strict_json(output_of("verify", self.index, "--json"))

@@ -3,6 +3,7 @@
 
 #include "tools/commands/arguments.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/index_output.h"
 #include "tools/commands/index_rows.h"
 #include "tools/failure.h"
 #include "tools/library.h"
@@ -20,7 +21,9 @@ struct BuildArguments {
     std::string output;
     MetricArguments metric;
     std::string engine;
+    std::string codec;
     uint32_t exact_vertices = 0;
+    double rounding = 0;
     double delta = 0;
     uint32_t levels = 0;
     std::vector<uint32_t> patches;
@@ -42,6 +45,7 @@ geoidx_build_options build_options(const BuildArguments& arguments, ProgressBar&
     apply(arguments.metric, options);
     options.engine = engine_of_name(arguments.engine);
     options.exact_vertices = arguments.exact_vertices;
+    options.rounding = arguments.rounding;
     options.delta = arguments.delta;
     options.seed = arguments.seed;
     options.threads = arguments.threads;
@@ -63,45 +67,23 @@ Index build_index(const TriangleMesh& mesh, const BuildArguments& arguments, Pro
     return Index(index);
 }
 
-std::vector<unsigned char> bytes_of(const geoidx& index, const std::string& path) {
-    uint64_t size = 0;
-    require_ok(geoidx_save_memory(&index, nullptr, 0, &size), path);
-    std::vector<unsigned char> bytes(size);
-    require_ok(geoidx_save_memory(&index, bytes.data(), size, &size), path);
-    return bytes;
-}
-
-void save_index(const geoidx& index, const std::string& path) {
-    if (path == STANDARD_OUTPUT) return write_file(path, bytes_of(index, path));
-    const SignalsHeldBack until_renamed;
-    require_ok(geoidx_save(&index, behind_links(path).c_str()), path);
-}
-
-// The library replaces what is at the path, which must not happen to a device.
-void require_index_output(const BuildArguments& arguments) {
-    if (arguments.json && arguments.output == STANDARD_OUTPUT)
-        throw CLI::ValidationError("standard output is for one of -o and --json, not for both");
-    require_writable(arguments.output, {&arguments.mesh, 1});
-    require_no_terminal(arguments.output);
-    if (is_device_or_pipe(arguments.output))
-        throw Failure(arguments.output + ": is not a regular file; - is standard output");
-}
-
 void print_json(const geoidx& index, const BuildArguments& arguments, double seconds) {
+    const geoidx_info info = info_of_saved(index, codec_of_name(arguments.codec), arguments.output);
     JsonObject object;
     object.text("mesh", arguments.mesh).text("output", arguments.output).number("build_seconds", seconds);
-    add_rows(rows_of_index(info_of(index, arguments.output), arguments.output, true), object);
+    add_rows(rows_of_index(info, arguments.output, true), object);
     object.print();
 }
 
 void build(const BuildArguments& arguments) {
-    require_index_output(arguments);
+    require_json_apart(arguments.json, arguments.output);
+    require_index_output(arguments.output, arguments.mesh);
     const TriangleMesh mesh = read_mesh(arguments.mesh);
     ProgressBar bar(arguments.progress);
     const auto begin = std::chrono::steady_clock::now();
     const Index index = build_index(mesh, arguments, bar);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-    save_index(*index, arguments.output);
+    save_index(*index, codec_of_name(arguments.codec), arguments.output);
     bar.show(1, "written");
     if (arguments.json) print_json(*index, arguments, time.count());
 }
@@ -115,6 +97,12 @@ void add_shape_options(CLI::App& command, BuildArguments& arguments) {
                     "of the overlay engine: largest patch whose tables are the metric's own distances")
         ->check(whole_number())
         ->capture_default_str();
+    command
+        .add_option("--rounding", arguments.rounding,
+                    "of the overlay engine: what distances are rounded to, as a share of the way from a "
+                    "vertex to the next; 0: 16 bits")
+        ->capture_default_str();
+    add_codec_option(command, arguments.codec);
     command.add_option("--delta", arguments.delta, "pruning threshold, % of the bounding-box diagonal")
         ->capture_default_str();
     command.add_option("--levels", arguments.levels, "levels of patches; 0: automatic")
@@ -141,6 +129,7 @@ void add_build(CLI::App& app) {
     arguments->lloyd_iterations = defaults.lloyd_iterations;
     arguments->seed = defaults.seed;
     arguments->exact_vertices = defaults.exact_vertices;
+    arguments->rounding = defaults.rounding;
     arguments->engine = ENGINE_NAMES[defaults.engine];
 
     CLI::App* command = app.add_subcommand("build", "build the index of a mesh");

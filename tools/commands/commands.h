@@ -6,6 +6,7 @@ namespace geodesic::tools {
 
 // Each adds its command to the command line; the command runs when the line has been parsed.
 void add_build(CLI::App& app);
+void add_convert(CLI::App& app);
 void add_info(CLI::App& app);
 void add_verify(CLI::App& app);
 void add_sssd(CLI::App& app);

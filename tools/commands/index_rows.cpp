@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "tools/commands/index_output.h"
 #include "tools/library.h"
 
 namespace geodesic::tools {
@@ -53,6 +54,9 @@ std::vector<IndexRow> general_rows(const geoidx_info& info, const std::string& p
         {"table_entries", "table entries", std::to_string(info.table_entries)},
         {"delta", "delta (% of diagonal)", printed(info.delta)},
         {"seed", "seed", std::to_string(info.seed)},
+        {"codec", "codec", info.codec < CODEC_NAMES.size() ? CODEC_NAMES[info.codec] : "unknown", true},
+        {"smallest_step", "distances are multiples of, in the finest table", printed(info.smallest_step)},
+        {"largest_step", "in the coarsest table", printed(info.largest_step)},
         {"file_size", "file size (bytes)", std::to_string(size_of_file(path))},
         {"format_version", "format version",
          std::to_string(info.format_major) + "." + std::to_string(info.format_minor), true},

@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdio>
 
 #include "tools/commands/commands.h"
@@ -13,21 +14,47 @@ struct InfoArguments {
     bool json = false;
 };
 
-void print_text(const std::vector<IndexRow>& rows) {
-    for (const IndexRow& row : rows) std::printf("%-28s %s\n", row.label, row.value.c_str());
+const char* coding_of(const geoidx_section& section) {
+    constexpr std::array NAMES{"raw", "zstd", "png", "images"};
+    return section.coding < NAMES.size() ? NAMES[section.coding] : "unknown";
 }
 
-void print_json(const std::vector<IndexRow>& rows) {
+void print_text(const std::vector<IndexRow>& rows, const std::vector<geoidx_section>& sections,
+                const geoidx_info& info) {
+    for (const IndexRow& row : rows) std::printf("%-28s %s\n", row.label, row.value.c_str());
+    const auto vertices = static_cast<double>(info.welded_vertex_count);
+    std::printf("\n%-8s %-8s %12s %12s %14s\n", "section", "coding", "bytes", "decoded", "bytes a vertex");
+    for (const geoidx_section& section : sections)
+        std::printf("%-8s %-8s %12llu %12llu %14.2f\n", section.tag, coding_of(section),
+                    static_cast<unsigned long long>(section.stored_size),
+                    static_cast<unsigned long long>(section.raw_size),
+                    vertices > 0 ? static_cast<double>(section.stored_size) / vertices : 0);
+}
+
+std::string json_of(const std::vector<geoidx_section>& sections) {
+    std::string list;
+    for (const geoidx_section& section : sections)
+        list += std::string(list.empty() ? "" : ", ") + "{\"tag\": " + json_text(section.tag) +
+                ", \"coding\": " + json_text(coding_of(section)) +
+                ", \"offset\": " + std::to_string(section.offset) +
+                ", \"stored_size\": " + std::to_string(section.stored_size) +
+                ", \"raw_size\": " + std::to_string(section.raw_size) + "}";
+    return "[" + list + "]";
+}
+
+void print_json(const std::vector<IndexRow>& rows, const std::vector<geoidx_section>& sections) {
     JsonObject object;
     add_rows(rows, object);
+    object.json("sections", json_of(sections));
     object.print();
 }
 
 void info(const InfoArguments& arguments) {
     const Index index = open_index(arguments.index, nullptr);
-    const std::vector<IndexRow> rows =
-        rows_of_index(info_of(*index, arguments.index), arguments.index, arguments.json);
-    arguments.json ? print_json(rows) : print_text(rows);
+    const geoidx_info about = info_of(*index, arguments.index);
+    const std::vector<IndexRow> rows = rows_of_index(about, arguments.index, arguments.json);
+    const std::vector<geoidx_section> sections = sections_of(*index, arguments.index);
+    arguments.json ? print_json(rows, sections) : print_text(rows, sections, about);
 }
 
 }
