@@ -104,6 +104,9 @@ namespace Geoidx.Tests
             ("Delta is Infinity,", () => Build(new BuildOptions { Delta = double.PositiveInfinity })),
             ("Delta is -Infinity,", () => Build(new BuildOptions { Delta = double.NegativeInfinity })),
             ("Delta is 200", () => Build(new BuildOptions { Delta = 200 })),
+            ("Rounding is NaN,", () => Build(new BuildOptions { Rounding = double.NaN })),
+            ("Rounding is 1.5", () => Build(new BuildOptions { Rounding = 1.5 })),
+            ("Rounding is -1", () => Build(new BuildOptions { Rounding = -1 })),
             ("Threads is 2000", () => Build(new BuildOptions { Threads = 2000 })),
             ("LevelCount is 9", () => Build(new BuildOptions { LevelCount = 9 })),
             ("LloydIterations is 1001", () => Build(new BuildOptions { LloydIterations = 1001 })),
@@ -130,6 +133,8 @@ namespace Geoidx.Tests
             ("type 7 is not a PositionType",
                 () => GeodesicIndex.Build(GeodesicMesh.From(
                     new System.Numerics.Vector3[3], new int[3], (PositionType)7))),
+            ("codec is not a GeodesicCodec", () => WithIndex(index => index.ToBytes((GeodesicCodec)7))),
+            ("codec is not a GeodesicCodec", () => WithIndex(index => index.Save("never.geoidx", (GeodesicCodec)(-1)))),
             ("threads is 1025", () => WithQuery(query => query.SetThreads(1025))),
             ("distances.Length is 3", () => WithQuery(query => query.FromSources(new[] { 0 }, new float[3]))),
             ("sources is empty", () => WithQuery(query => query.FromSources(default, new float[4]))),
@@ -141,12 +146,18 @@ namespace Geoidx.Tests
 
         private static void Build(BuildOptions options) => GeodesicIndex.Build(Shapes.Square(), options).Dispose();
 
-        private static void WithQuery(Action<GeodesicQuery> use)
+        private static void WithIndex(Action<GeodesicIndex> use)
         {
             using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
-            using GeodesicQuery query = index.CreateQuery();
-            use(query);
+            use(index);
         }
+
+        private static void WithQuery(Action<GeodesicQuery> use) =>
+            WithIndex(index =>
+            {
+                using GeodesicQuery query = index.CreateQuery();
+                use(query);
+            });
 
         private static void WithSolver(Action<GeodesicSolver> use)
         {

@@ -22,6 +22,7 @@ namespace Geoidx.Tests
             ("GEOIDX_METRIC_", typeof(MetricKind)),
             ("GEOIDX_ENGINE_", typeof(GeodesicEngine)),
             ("GEOIDX_OPEN_", typeof(OpenFlags)),
+            ("GEOIDX_CODEC_", typeof(GeodesicCodec)),
             ("GEOIDX_", typeof(GeodesicStatus)),
         };
 

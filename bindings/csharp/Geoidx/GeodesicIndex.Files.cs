@@ -51,26 +51,40 @@ namespace Geoidx
         /// Writes the index to a file, replacing what is there: a failure leaves neither a partial file nor a damaged
         /// old one.
         /// </summary>
+        /// <param name="path">Of the file.</param>
+        /// <param name="codec">The form of the file. Null: <see cref="GeodesicInfo.Codec"/>.</param>
         /// <exception cref="ArgumentException">The path has half of a surrogate pair.</exception>
+        /// <exception cref="GeodesicArgumentException">The codec is none.</exception>
         /// <exception cref="GeodesicIOException">The file cannot be written.</exception>
-        public void Save(string path) =>
-            NativeMethods.geoidx_save(Handle, NativeText.CheckedPath(path)).ThrowIfError();
+        public unsafe void Save(string path, GeodesicCodec? codec = null)
+        {
+            NativeSaveOptions options = NativeOptions(codec);
+            NativeMethods.geoidx_save(Handle, NativeText.CheckedPath(path), codec == null ? null : &options)
+                .ThrowIfError();
+        }
 
         /// <summary>Writes the bytes of a file to a stream.</summary>
-        public void Save(Stream stream)
+        /// <param name="stream">Takes the bytes.</param>
+        /// <param name="codec">The form of the file. Null: <see cref="GeodesicInfo.Codec"/>.</param>
+        /// <exception cref="GeodesicArgumentException">The codec is none.</exception>
+        public void Save(Stream stream, GeodesicCodec? codec = null)
         {
             if (stream == null) throw new ArgumentNullException(nameof(stream));
-            byte[] bytes = ToBytes();
+            byte[] bytes = ToBytes(codec);
             stream.Write(bytes, 0, bytes.Length);
         }
 
         /// <summary>The bytes of a file, up to 2 GB.</summary>
-        public unsafe byte[] ToBytes()
+        /// <param name="codec">The form of the file. Null: <see cref="GeodesicInfo.Codec"/>.</param>
+        /// <exception cref="GeodesicArgumentException">The codec is none.</exception>
+        public unsafe byte[] ToBytes(GeodesicCodec? codec = null)
         {
-            NativeMethods.geoidx_save_memory(Handle, null, 0, out ulong size).ThrowIfError();
+            NativeSaveOptions options = NativeOptions(codec);
+            NativeSaveOptions* given = codec == null ? null : &options;
+            NativeMethods.geoidx_save_memory(Handle, given, null, 0, out ulong size).ThrowIfError();
             var bytes = new byte[checked((int)size)];
             fixed (byte* first = bytes)
-                NativeMethods.geoidx_save_memory(Handle, first, size, out _).ThrowIfError();
+                NativeMethods.geoidx_save_memory(Handle, given, first, size, out _).ThrowIfError();
             return bytes;
         }
 
@@ -103,6 +117,13 @@ namespace Geoidx
             GeodesicStatus status = Verify(data, callback);
             callback.Check(status);
             return status;
+        }
+
+        private static NativeSaveOptions NativeOptions(GeodesicCodec? codec)
+        {
+            NativeSaveOptions native = NativeDefaults.SaveOptions();
+            if (codec is { } given) native.codec = (uint)given;
+            return native;
         }
 
         [MethodImpl(MethodImplOptions.NoInlining)]

@@ -22,10 +22,11 @@ namespace Geoidx
             Task.Run(() => Open(path, options), cancellationToken);
 
         /// <summary>
-        /// Writes the index to a file, as <see cref="Save(string)"/> does, on a thread of the pool; once begun, this
-        /// is not cancelled.
+        /// Writes the index to a file, as <see cref="Save(string, GeodesicCodec?)"/> does, on a thread of the pool; once
+        /// begun, this is not cancelled.
         /// </summary>
-        public Task SaveAsync(string path, CancellationToken cancellationToken = default) =>
-            Task.Run(() => Save(path), cancellationToken);
+        public Task SaveAsync(
+            string path, GeodesicCodec? codec = null, CancellationToken cancellationToken = default) =>
+            Task.Run(() => Save(path, codec), cancellationToken);
     }
 }

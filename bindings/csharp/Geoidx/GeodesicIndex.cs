@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Runtime.InteropServices;
 using System.Threading;
 
@@ -18,10 +19,17 @@ namespace Geoidx
         {
             this.handle = handle;
             Info = ReadInfo();
+            Sections = ReadSections();
         }
 
         /// <summary>What the index is and how exact.</summary>
         public GeodesicInfo Info { get; }
+
+        /// <summary>
+        /// The sections of the file that the index was opened from, in the order of the file; an index that was built
+        /// has none.
+        /// </summary>
+        public IReadOnlyList<GeodesicSection> Sections { get; }
 
         /// <summary>Vertices of the caller's array.</summary>
         public int VertexCount => checked((int)Info.VertexCount);
@@ -168,9 +176,9 @@ namespace Geoidx
         public GeodesicQuery CreateQuery() => new GeodesicQuery(QueryHandle.Create(Handle), VertexCount);
 
         /// <summary>
-        /// From then on every call of the index throws <see cref="ObjectDisposedException"/>; <see cref="Info"/> and
-        /// <see cref="VertexCount"/> stay, and its queries go on. The native index is freed when calls on other threads
-        /// and the queries are done with it.
+        /// From then on every call of the index throws <see cref="ObjectDisposedException"/>; <see cref="Info"/>,
+        /// <see cref="Sections"/> and <see cref="VertexCount"/> stay, and its queries go on. The native index is freed
+        /// when calls on other threads and the queries are done with it.
         /// </summary>
         public void Dispose()
         {
@@ -191,6 +199,15 @@ namespace Geoidx
             var native = new NativeInfo { struct_size = (uint)sizeof(NativeInfo) };
             NativeMethods.geoidx_get_info(handle, &native).ThrowIfError();
             return new GeodesicInfo(native);
+        }
+
+        private unsafe GeodesicSection[] ReadSections()
+        {
+            NativeMethods.geoidx_get_sections(handle, null, 0, out uint count).ThrowIfError();
+            var native = new NativeSection[count];
+            fixed (NativeSection* first = native)
+                NativeMethods.geoidx_get_sections(handle, first, count, out _).ThrowIfError();
+            return Array.ConvertAll(native, section => new GeodesicSection(section));
         }
     }
 }

@@ -33,6 +33,9 @@ namespace Geoidx
             ErrorP999 = native.error_p999;
             ErrorMax = native.error_max;
             ErrorMeanAtVertices = native.error_mean_at_vertices;
+            Codec = (GeodesicCodec)native.codec;
+            SmallestStep = native.smallest_step;
+            LargestStep = native.largest_step;
         }
 
         /// <summary>What a distance is.</summary>
@@ -101,6 +104,21 @@ namespace Geoidx
         /// <summary>What the mean relative error would be if paths crossed borders at vertices only.</summary>
         public double ErrorMeanAtVertices { get; }
 
+        /// <summary>
+        /// The form of the file that the index was opened from; of one that was built, what it is saved as by default.
+        /// </summary>
+        public GeodesicCodec Codec { get; }
+
+        /// <summary>
+        /// What the distances of a table are multiples of, in the mesh's unit, for the table with the smallest steps;
+        /// half of it is the most that rounding changes an entry by. 0 for <see cref="GeodesicEngine.Graph"/>, whose
+        /// distances are floats.
+        /// </summary>
+        public double SmallestStep { get; }
+
+        /// <summary>As <see cref="SmallestStep"/>, for the table with the largest steps.</summary>
+        public double LargestStep { get; }
+
         /// <summary>Each property in a line of its own.</summary>
         public override string ToString() =>
             string.Join("\n", Array.ConvertAll(Properties(), property => FormattableString.Invariant(property)));
@@ -129,6 +147,9 @@ namespace Geoidx
             $"{nameof(ErrorP999)}: {ErrorP999}",
             $"{nameof(ErrorMax)}: {ErrorMax}",
             $"{nameof(ErrorMeanAtVertices)}: {ErrorMeanAtVertices}",
+            $"{nameof(Codec)}: {Codec}",
+            $"{nameof(SmallestStep)}: {SmallestStep}",
+            $"{nameof(LargestStep)}: {LargestStep}",
         };
 
         private string PatchCountsText() => string.Join(" / ", PatchCounts);

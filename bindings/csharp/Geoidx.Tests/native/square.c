@@ -15,8 +15,8 @@ int main(int argc, char** argv) {
         return 1;
     }
     geoidx_status (*build)(const geoidx_mesh*, const geoidx_build_options*, geoidx**);
-    geoidx_status (*save)(const geoidx*, const char*);
+    geoidx_status (*save)(const geoidx*, const char*, const geoidx_save_options*);
     *(void**)&build = dlsym(library, "geoidx_build");
     *(void**)&save = dlsym(library, "geoidx_save");
-    return build(&mesh, NULL, &index) != GEOIDX_OK || save(index, argv[2]) != GEOIDX_OK;
+    return build(&mesh, NULL, &index) != GEOIDX_OK || save(index, argv[2], NULL) != GEOIDX_OK;
 }

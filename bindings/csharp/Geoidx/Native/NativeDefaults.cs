@@ -23,5 +23,12 @@ namespace Geoidx
             NativeMethods.geoidx_open_options_init_sized(&options, (uint)sizeof(NativeOpenOptions));
             return options;
         }
+
+        internal static NativeSaveOptions SaveOptions()
+        {
+            NativeSaveOptions options = default;
+            NativeMethods.geoidx_save_options_init_sized(&options, (uint)sizeof(NativeSaveOptions));
+            return options;
+        }
     }
 }

@@ -13,17 +13,18 @@ namespace Geoidx
         private static readonly Regex WholeNumber = new Regex(@"(?<![\w.-])\d{10}(?!\w|\.\d)");
         private static readonly Regex NotANumber = new Regex(@"(?<!\w)-?nan\b");
         private static readonly Regex Infinity = new Regex(@"\binf\b");
-        private static readonly Regex Constant = new Regex(@"\bGEOIDX_(METRIC|ENGINE|POSITION)_(\*|[A-Z]+)");
+        private static readonly Regex Constant = new Regex(@"\bGEOIDX_(METRIC|ENGINE|POSITION|CODEC)_(\*|[A-Z]+)");
         private static readonly Regex Name = new Regex(@"\b[a-z]+(_[a-z]+)+\b");
         private static readonly Regex Missing = new Regex(@"\b(\w+) is NULL\b");
         private static readonly Regex FirstLetter = new Regex(@"(?<=^|_)[a-z]");
-        private static readonly Regex OptionOfOneWord = new Regex(@"^(delta|engine|metric|threads)(?= -?\d| is )");
+        private static readonly Regex OptionOfOneWord = new Regex(@"^(delta|engine|metric|rounding|threads)(?= -?\d| is )");
 
         private static readonly Dictionary<string, string> Enums = new Dictionary<string, string>
         {
             ["METRIC"] = nameof(MetricKind),
             ["ENGINE"] = nameof(GeodesicEngine),
             ["POSITION"] = nameof(PositionType),
+            ["CODEC"] = nameof(GeodesicCodec),
         };
 
         private static readonly Dictionary<string, string> OtherNames = new Dictionary<string, string>

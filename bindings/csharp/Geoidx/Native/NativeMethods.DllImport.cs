@@ -30,16 +30,20 @@ namespace Geoidx
         internal static extern void geoidx_open_options_init_sized(void* options, uint struct_size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern void geoidx_save_options_init_sized(void* options, uint struct_size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_build(
             NativeMesh* mesh, NativeBuildOptions* options, out IntPtr index);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_save(
-            IndexHandle index, [MarshalAs(UnmanagedType.LPUTF8Str)] string utf8_path);
+            IndexHandle index, [MarshalAs(UnmanagedType.LPUTF8Str)] string utf8_path,
+            NativeSaveOptions* options);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_save_memory(
-            IndexHandle index, byte* buffer, ulong capacity, out ulong needed);
+            IndexHandle index, NativeSaveOptions* options, byte* buffer, ulong capacity, out ulong needed);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_open(
@@ -55,6 +59,10 @@ namespace Geoidx
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_get_info(IndexHandle index, NativeInfo* info);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_get_sections(
+            IndexHandle index, NativeSection* sections, uint capacity, out uint count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_verify(

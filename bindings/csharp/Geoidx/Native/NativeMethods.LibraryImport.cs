@@ -30,15 +30,19 @@ namespace Geoidx
         internal static partial void geoidx_open_options_init_sized(void* options, uint struct_size);
 
         [LibraryImport(Library)]
+        internal static partial void geoidx_save_options_init_sized(void* options, uint struct_size);
+
+        [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_build(
             NativeMesh* mesh, NativeBuildOptions* options, out IntPtr index);
 
         [LibraryImport(Library, StringMarshalling = StringMarshalling.Utf8)]
-        internal static partial GeodesicStatus geoidx_save(IndexHandle index, string utf8_path);
+        internal static partial GeodesicStatus geoidx_save(
+            IndexHandle index, string utf8_path, NativeSaveOptions* options);
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_save_memory(
-            IndexHandle index, byte* buffer, ulong capacity, out ulong needed);
+            IndexHandle index, NativeSaveOptions* options, byte* buffer, ulong capacity, out ulong needed);
 
         [LibraryImport(Library, StringMarshalling = StringMarshalling.Utf8)]
         internal static partial GeodesicStatus geoidx_open(
@@ -53,6 +57,10 @@ namespace Geoidx
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_get_info(IndexHandle index, NativeInfo* info);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_get_sections(
+            IndexHandle index, NativeSection* sections, uint capacity, out uint count);
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_verify(

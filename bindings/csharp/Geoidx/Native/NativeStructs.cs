@@ -56,6 +56,7 @@ namespace Geoidx
         internal ulong edge_length_count;
         internal uint exact_vertices;
         internal uint reserved;
+        internal double rounding;
     }
 
     internal enum OpenFlags
@@ -72,6 +73,13 @@ namespace Geoidx
         internal NativeAllocator allocator;
         internal uint threads;
         internal uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal struct NativeSaveOptions
+    {
+        internal uint struct_size;
+        internal uint codec;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -102,5 +110,20 @@ namespace Geoidx
         internal uint metric_flags;
         internal uint engine;
         internal double error_mean_at_vertices;
+        internal uint codec;
+        internal uint reserved;
+        internal double smallest_step;
+        internal double largest_step;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeSection
+    {
+        internal fixed byte tag[8];
+        internal uint coding;
+        internal uint reserved;
+        internal ulong offset;
+        internal ulong stored_size;
+        internal ulong raw_size;
     }
 }

@@ -43,6 +43,7 @@ namespace Geoidx
             native.lloyd_iterations = NotNegative(options.LloydIterations, nameof(options.LloydIterations));
             native.points_per_edge = NotNegative(options.PointsPerEdge, nameof(options.PointsPerEdge));
             native.exact_vertices = NotNegative(options.ExactVertices, nameof(options.ExactVertices));
+            native.rounding = options.Rounding;
             native.refuse_edges_of_many = options.RefuseEdgesOfMany ? 1u : 0u;
         }
 
