@@ -74,12 +74,15 @@ class Options(unittest.TestCase):
             {"threads": 1 << 32},
             {"lloyd_iterations": (1 << 32) - 1},
             {"exact_vertices": -1},
+            {"rounding": -0.1},
+            {"rounding": 1.1},
+            {"rounding": math.nan},
             {"seed": -1},
             {"seed": 1 << 64},
         ):
             with self.subTest(**options), self.assertRaises(geoidx.InvalidArgumentError):
                 geoidx.Index.build(*SQUARE, **options)
-        for options in ({"levels": 1.5}, {"seed": "1"}, {"delta": "1"}, {"patches": 3}, {"unknown": 1}):
+        for options in ({"levels": 1.5}, {"seed": "1"}, {"delta": "1"}, {"rounding": "1"}, {"patches": 3}, {"unknown": 1}):
             with self.subTest(**options), self.assertRaises(TypeError):
                 geoidx.Index.build(*SQUARE, **options)
 

@@ -22,6 +22,7 @@ ENUMS = {
     "GEOIDX_ERROR_": [status for status in geoidx.Status if status != geoidx.Status.OK],
     "GEOIDX_METRIC_": geoidx.MetricKind,
     "GEOIDX_ENGINE_": geoidx.Engine,
+    "GEOIDX_CODEC_": geoidx.Codec,
 }
 
 

@@ -187,6 +187,7 @@ class UseAfterClose(unittest.TestCase):
             lambda: index.query(),
             lambda: index.save("never"),
             lambda: index.to_bytes(),
+            lambda: index.sections,
         ):
             self.refused(call)
         self.assertIn("closed", repr(index))

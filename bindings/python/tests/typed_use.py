@@ -31,12 +31,16 @@ def ask(vertices: NDArray[np.float32], faces: NDArray[np.int64]) -> None:
             distances = query.prepared(2, out=np.empty((), np.float32))
         diagonal: float = index.info.bounding_box_diagonal
         counts: tuple[int, ...] = index.info.patch_count
+        index.save("index.geoidx", codec=geoidx.Codec.LOSSLESS)
+        data: bytes = index.to_bytes(codec="packed")
+        codec: geoidx.Codec = index.info.codec
+        sections: tuple[geoidx.Section, ...] = index.sections
     solver = geoidx.Solver(vertices, faces, metric=geoidx.Weighted(np.ones(len(faces))))
     exact: NDArray[np.float64] = solver.distances(0)
     point: Any = geoidx.surface_points(0, [1, 0, 0])
     solver.point_distances(point, point)
     issues: list[geoidx.Issue] = geoidx.verify("index.geoidx", most=1)
-    print(distances, diagonal, counts, exact, issues)
+    print(distances, diagonal, counts, data, codec, sections, exact, issues)
 
 
 def status(error: geoidx.Error) -> int:

@@ -32,8 +32,9 @@ from ._index import Index
 from ._info import Info
 from ._metrics import Callback, Edges, Exact, Metric, MetricKind, MetricLike, Weighted
 from ._native import HEADER_VERSION, AllocateFn, Allocator, ReleaseFn, library, version_of, version_text
-from ._options import Engine
+from ._options import Codec, Engine
 from ._query import Query
+from ._sections import Coding, Section
 from ._solver import SURFACE_POINT, Solver, surface_points
 from ._verify import Issue, verify
 
@@ -50,6 +51,8 @@ __all__ = [
     "CallbackError",
     "CancelledError",
     "ChecksumError",
+    "Codec",
+    "Coding",
     "CorruptError",
     "Edges",
     "Engine",
@@ -74,6 +77,7 @@ __all__ = [
     "Progress",
     "Query",
     "ReleaseFn",
+    "Section",
     "Solver",
     "Status",
     "TruncatedError",

@@ -21,8 +21,9 @@ from ._matrix import Matrix
 from ._mesh import MeshView
 from ._metrics import MetricLike
 from ._native import Allocator, library
-from ._options import BuildOptions, Engine, OpenOptions, as_engine
+from ._options import BuildOptions, Codec, Engine, OpenOptions, SaveOptions, as_engine
 from ._query import Query
+from ._sections import Section, read_sections
 
 
 def _is_vertex(value: object) -> bool:
@@ -68,6 +69,7 @@ class Index(Closable):
         delta: float = 0.0,
         weld_tolerance: float = 0.0,
         exact_vertices: int = 400,
+        rounding: float = 1 / 64,
         lloyd_iterations: int = 4,
         seed: int = 0,
         threads: int = 0,
@@ -87,6 +89,10 @@ class Index(Closable):
         delta: pruning threshold, % of the bounding-box diagonal.
         weld_tolerance: vertices at most this far apart are one; 0: equal positions only.
         exact_vertices: overlay tables of patches of up to so many vertices hold the metric's own distances.
+        rounding: overlay tables hold distances in multiples of this share, 0 .. 1, of the way from a vertex to the
+            next, for each patch by itself, but never of more than 1/8192 of the longest way on the surface around it,
+            and not in an index of fewer than 65,536 table entries. 0: to 16 bits only. Twice the share saves one bit
+            of each entry in a packed file.
         lloyd_iterations: relaxations of the patches' seeds.
         threads: 0: one per processor.
         refuse_edges_of_many: an edge with more than two triangles is a BadMeshError.
@@ -104,6 +110,7 @@ class Index(Closable):
         options.set_patches(patches)
         struct.delta = delta
         struct.exact_vertices = whole_number(exact_vertices, "exact_vertices")
+        struct.rounding = rounding
         struct.lloyd_iterations = whole_number(lloyd_iterations, "lloyd_iterations")
         struct.seed = whole_number(seed, "seed", UINT64_MAX)
         struct.threads = whole_number(threads, "threads")
@@ -181,27 +188,35 @@ class Index(Closable):
         check(status, path)
         return cls(handle)
 
-    def save(self, path: Path) -> None:
-        """Writes the index to a file, replacing what is there at once or, on failure (FileError), not at all."""
-        check(library.geoidx_save(self._handle, native_path(path)), path)
+    def save(self, path: Path, *, codec: Codec | str | None = None) -> None:
+        """Writes the index to a file, replacing what is there at once or, on failure (FileError), not at all.
 
-    def to_bytes(self) -> bytes:
-        """The bytes of the file."""
+        codec: "packed", the smallest file, or "lossless", with a PNG of float32 for each table; None: `info.codec`. An
+            index of the graph engine is always lossless. Answers are the same bits.
+        """
+        options = SaveOptions(codec)
+        check(library.geoidx_save(self._handle, native_path(path), options.struct), path)
+
+    def to_bytes(self, *, codec: Codec | str | None = None) -> bytes:
+        """The bytes of the file, as `save` writes it."""
+        options = SaveOptions(codec)
         buffer = np.empty(self._likely_size(), np.uint8)
-        needed = self._encode(buffer)
+        needed = self._encode(options, buffer)
         if needed > buffer.size:
             buffer = np.empty(needed, np.uint8)
-            self._encode(buffer)
+            self._encode(options, buffer)
         return buffer[:needed].tobytes()
 
     def _likely_size(self) -> int:
         """More bytes than most files have. Asking for their number encodes them, too."""
         return 8 * self.info.table_entries + 64 * self.vertex_count + (1 << 16)
 
-    def _encode(self, buffer: NDArray[np.uint8]) -> int:
+    def _encode(self, options: SaveOptions, buffer: NDArray[np.uint8]) -> int:
         """The number of the file's bytes, which are in the buffer unless there are more than it holds."""
         needed = c_uint64()
-        status = library.geoidx_save_memory(self._handle, address(buffer), buffer.size, byref(needed))
+        status = library.geoidx_save_memory(
+            self._handle, options.struct, address(buffer), buffer.size, byref(needed)
+        )
         if needed.value <= buffer.size:
             check(status)
         return needed.value
@@ -217,6 +232,11 @@ class Index(Closable):
         """What the index is."""
         self._handle
         return self._info
+
+    @property
+    def sections(self) -> tuple[Section, ...]:
+        """The sections of the file that the index was opened from, in its order; of an index that was built, none."""
+        return read_sections(self._handle)
 
     @property
     def vertex_count(self) -> int:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from . import _native
 from ._metrics import MetricKind
-from ._options import Engine
+from ._options import Codec, Engine
 
 
 @dataclass(frozen=True)
@@ -50,6 +50,12 @@ class Info:
     error_max: float
     error_mean_at_vertices: float
     """The mean error if paths crossed borders at vertices only."""
+    codec: Codec
+    """Of the file that the index was opened from; of one that was built, what it is saved as unless told otherwise."""
+    smallest_step: float
+    """What the distances of the table with the smallest steps are multiples of; 0 for the graph engine."""
+    largest_step: float
+    """The same of the table with the largest steps. Half a step is the most that rounding changes an entry by."""
 
     @property
     def level_count(self) -> int:
@@ -63,6 +69,7 @@ def info_of(struct: _native.Info) -> Info:
         metric=MetricKind(struct.metric),
         metric_unfoldable=bool(struct.metric_flags & _native.METRIC_UNFOLDABLE),
         engine=Engine(struct.engine),
+        codec=Codec(struct.codec),
         patch_count=tuple(struct.patch_count[: struct.level_count]),
     )
     return Info(**same)

@@ -8,6 +8,7 @@ from ctypes import (
     CFUNCTYPE,
     POINTER,
     Structure,
+    c_char,
     c_char_p,
     c_double,
     c_float,
@@ -90,6 +91,7 @@ class BuildOptions(Structure):
         ("edge_length_count", c_uint64),
         ("exact_vertices", c_uint32),
         ("reserved", c_uint32),
+        ("rounding", c_double),
     ]
 
 
@@ -102,6 +104,10 @@ class OpenOptions(Structure):
         ("threads", c_uint32),
         ("reserved", c_uint32),
     ]
+
+
+class SaveOptions(Structure):
+    _fields_ = [("struct_size", c_uint32), ("codec", c_uint32)]
 
 
 class Info(Structure):
@@ -131,6 +137,21 @@ class Info(Structure):
         ("metric_flags", c_uint32),
         ("engine", c_uint32),
         ("error_mean_at_vertices", c_double),
+        ("codec", c_uint32),
+        ("reserved", c_uint32),
+        ("smallest_step", c_double),
+        ("largest_step", c_double),
+    ]
+
+
+class Section(Structure):
+    _fields_ = [
+        ("tag", c_char * 8),
+        ("coding", c_uint32),
+        ("reserved", c_uint32),
+        ("offset", c_uint64),
+        ("stored_size", c_uint64),
+        ("raw_size", c_uint64),
     ]
 
 
@@ -149,13 +170,15 @@ FUNCTIONS = {
     "geoidx_mesh_init_sized": (None, [POINTER(Mesh), c_uint32]),
     "geoidx_build_options_init_sized": (None, [POINTER(BuildOptions), c_uint32]),
     "geoidx_open_options_init_sized": (None, [POINTER(OpenOptions), c_uint32]),
+    "geoidx_save_options_init_sized": (None, [POINTER(SaveOptions), c_uint32]),
     "geoidx_build": (c_int32, [POINTER(Mesh), POINTER(BuildOptions), _HANDLE_OUT]),
-    "geoidx_save": (c_int32, [c_void_p, c_char_p]),
-    "geoidx_save_memory": (c_int32, [c_void_p, c_void_p, c_uint64, POINTER(c_uint64)]),
+    "geoidx_save": (c_int32, [c_void_p, c_char_p, POINTER(SaveOptions)]),
+    "geoidx_save_memory": (c_int32, [c_void_p, POINTER(SaveOptions), c_void_p, c_uint64, POINTER(c_uint64)]),
     "geoidx_open": (c_int32, [c_char_p, POINTER(OpenOptions), _HANDLE_OUT]),
     "geoidx_open_memory": (c_int32, [c_void_p, c_uint64, POINTER(OpenOptions), _HANDLE_OUT]),
     "geoidx_close": (None, [c_void_p]),
     "geoidx_get_info": (c_int32, [c_void_p, POINTER(Info)]),
+    "geoidx_get_sections": (c_int32, [c_void_p, POINTER(Section), c_uint32, POINTER(c_uint32)]),
     "geoidx_verify": (c_int32, [c_void_p, c_uint64, IssueFn, c_void_p]),
     "geoidx_sssd": (c_int32, [c_void_p, c_uint32, c_uint32, POINTER(c_float)]),
     "geoidx_sssd_batch": (c_int32, [c_void_p, c_void_p, c_uint64, c_void_p]),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ctypes import byref, pointer, sizeof
 from enum import IntEnum
-from typing import Sequence
+from typing import Sequence, TypeVar
 
 from . import _native
 from ._arrays import whole_number
@@ -20,6 +20,18 @@ class Engine(IntEnum):
 
     GRAPH = 0
     OVERLAY = 1
+
+
+class Codec(IntEnum):
+    """The form that a file keeps distances in. Answers are the same bits in each.
+
+    PACKED: the smallest file: what is left of distances when they are predicted from the positions of their vertices
+        and from each other, as gray PNG images.
+    LOSSLESS: a PNG of float32 for each table. Indices of the graph engine are always saved like this.
+    """
+
+    PACKED = 0
+    LOSSLESS = 1
 
 
 class BuildOptions:
@@ -59,10 +71,32 @@ class OpenOptions:
             self.struct.allocator = allocator
 
 
+class SaveOptions:
+    """The options of saving an index; a codec of None is that of the index."""
+
+    def __init__(self, codec: Codec | str | None) -> None:
+        self.struct: _native.SaveOptions | None = None
+        if codec is not None:
+            self.struct = _native.SaveOptions()
+            library.geoidx_save_options_init_sized(byref(self.struct), sizeof(self.struct))
+            self.struct.codec = as_codec(codec)
+
+
+_Member = TypeVar("_Member", Engine, Codec)
+
+
+def _as_member(enum: type[_Member], what: str, given: _Member | str) -> _Member:
+    names: dict[object, _Member] = {name.lower(): member for name, member in enum.__members__.items()}
+    if isinstance(given, enum):
+        return given
+    if given not in names:
+        raise InvalidArgumentError(f"the {what} {given!r} is none of {list(names)}")
+    return names[given]
+
+
 def as_engine(engine: Engine | str) -> Engine:
-    names = {name.lower(): member for name, member in Engine.__members__.items()}
-    if isinstance(engine, Engine):
-        return engine
-    if engine not in names:
-        raise InvalidArgumentError(f"the engine {engine!r} is none of {sorted(names)}")
-    return names[engine]
+    return _as_member(Engine, "engine", engine)
+
+
+def as_codec(codec: Codec | str) -> Codec:
+    return _as_member(Codec, "codec", codec)

@@ -1,0 +1,89 @@
+"""The forms of a file, and what it is made of."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from meshes import hills
+
+import geoidx
+from geoidx import Codec, Coding
+
+TABLES = ["OVOV", "BVIV", "IVIV"]
+NAMES = {"packed": Codec.PACKED, "lossless": Codec.LOSSLESS}
+
+
+class Codecs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.index = geoidx.Index.build(*hills(24, 24))
+
+    def test_names(self):
+        for name, codec in NAMES.items():
+            self.assertEqual(self.index.to_bytes(codec=name), self.index.to_bytes(codec=codec))
+        self.assertLess(len(self.index.to_bytes(codec="packed")), len(self.index.to_bytes(codec="lossless")))
+
+    def test_the_default_is_that_of_the_index(self):
+        self.assertIs(self.index.info.codec, Codec.PACKED)
+        self.assertEqual(self.index.to_bytes(), self.index.to_bytes(codec="packed"))
+        for name, codec in NAMES.items():
+            data = self.index.to_bytes(codec=name)
+            opened = geoidx.Index.from_bytes(data)
+            self.assertIs(opened.info.codec, codec)
+            self.assertEqual(opened.to_bytes(), data)
+
+    def test_answers_are_the_same_bits(self):
+        for name in NAMES:
+            opened = geoidx.Index.from_bytes(self.index.to_bytes(codec=name))
+            np.testing.assert_array_equal(opened.ssad([5, 99]), self.index.ssad([5, 99]))
+            self.assertEqual(opened.sssd(0, 575), self.index.sssd(0, 575))
+            for other in NAMES:
+                self.assertEqual(opened.to_bytes(codec=other), self.index.to_bytes(codec=other))
+
+    def test_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "index")
+            for codec in (None, *NAMES):
+                self.index.save(path, codec=codec)
+                self.assertEqual(path.read_bytes(), self.index.to_bytes(codec=codec))
+                self.assertEqual(geoidx.verify(path), [])
+
+    def test_a_codec_that_is_none(self):
+        for codec in ("PACKED", "", "none", 7):
+            with self.assertRaisesRegex(geoidx.InvalidArgumentError, "codec"):
+                self.index.to_bytes(codec=codec)
+            with self.assertRaisesRegex(geoidx.InvalidArgumentError, "codec"):
+                self.index.save("never.geoidx", codec=codec)
+
+    def test_a_graph_is_always_lossless(self):
+        graph = geoidx.Index.build(*hills(9, 9), engine="graph")
+        self.assertIs(graph.info.codec, Codec.LOSSLESS)
+        self.assertEqual(graph.to_bytes(codec="packed"), graph.to_bytes(codec="lossless"))
+        self.assertEqual((graph.info.smallest_step, graph.info.largest_step), (0, 0))
+
+    def test_sections(self):
+        self.assertEqual(self.index.sections, ())
+        for codec, coding in (("packed", Coding.IMAGES), ("lossless", Coding.PNG)):
+            data = self.index.to_bytes(codec=codec)
+            sections = geoidx.Index.from_bytes(data).sections
+            self.assertEqual([section.tag for section in sections][:3], ["META", "HIER", "VERT"])
+            self.assertEqual(sections[-1].offset + sections[-1].stored_size, len(data))
+            tables = [section for section in sections if section.tag in TABLES]
+            self.assertEqual([section.tag for section in tables], TABLES)
+            for section in tables:
+                self.assertIs(section.coding, coding)
+                self.assertLess(section.stored_size, section.raw_size)
+
+    def test_rounding_makes_steps_larger_and_the_file_smaller(self):
+        mesh = hills(40, 40)
+        coarse, fine = geoidx.Index.build(*mesh), geoidx.Index.build(*mesh, rounding=0)
+        self.assertEqual(geoidx.Index.build(*mesh, rounding=1 / 64).to_bytes(), coarse.to_bytes())
+        self.assertGreater(fine.info.smallest_step, 0)
+        self.assertLessEqual(fine.info.smallest_step, fine.info.largest_step)
+        self.assertGreater(coarse.info.smallest_step, 2 * fine.info.smallest_step)
+        self.assertLess(len(coarse.to_bytes()), len(fine.to_bytes()))
+
+
+if __name__ == "__main__":
+    unittest.main()
