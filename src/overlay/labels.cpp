@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <mutex>
 #include <numeric>
 #include <span>
 
@@ -45,7 +44,7 @@ public:
         if (index_.is_labelled_whole(patch))
             std::iota(positions_.begin(), positions_.end(), 0u);
         else
-            std::ranges::copy(index_.samples.of(patch), positions_.begin());
+            std::ranges::copy(index_.pairs.samples.of(patch), positions_.begin());
         lay_out_distances(patch);
         for (size_t first = 0; first < positions_.size(); first += SOURCES) {
             start(patch, first);
@@ -114,21 +113,12 @@ private:
     std::vector<uint32_t> positions_; // positions of the labelled vertices in the border
 };
 
+}
+
 void make_labels(const OverlayIndex& index, Labels& labels) {
     lay_out_labels(index, labels);
     LabelSweep sweep(index, labels);
     for (uint32_t p = 1; p < index.numbering.first_leaf(); ++p) sweep.label(p);
-}
-
-}
-
-void require_labels(const OverlayIndex& index) {
-    Labels& labels = index.labels;
-    if (labels.are_made.load(std::memory_order_acquire)) return;
-    const std::lock_guard only_one(labels.making);
-    if (labels.are_made.load(std::memory_order_relaxed)) return;
-    make_labels(index, labels);
-    labels.are_made.store(true, std::memory_order_release);
 }
 
 }

@@ -4,8 +4,7 @@
 
 namespace geodesic {
 
-// Makes sure that an index has its labels. The first thread that asks makes them while others wait; when that
-// throws, as where memory is short, the next one to ask begins anew.
-void require_labels(const OverlayIndex& index);
+// Fills `labels`, of an index that has its samples.
+void make_labels(const OverlayIndex& index, Labels& labels);
 
 }

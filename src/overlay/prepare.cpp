@@ -6,7 +6,6 @@
 
 #include "src/overlay/middles.h"
 #include "src/overlay/proportion.h"
-#include "src/overlay/samples.h"
 
 namespace geodesic {
 
@@ -148,7 +147,6 @@ void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
     write_overlay_tables(stored, index);
     write_leaf_tables(stored, index);
     take_border_codes_from_parents(index);
-    make_samples(index);
     make_middle_tables(index);
 }
 

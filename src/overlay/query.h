@@ -1,10 +1,11 @@
 #pragma once
 
 #include <memory_resource>
+#include <optional>
 #include <span>
 
-#include "src/overlay/labels.h"
 #include "src/overlay/msad.h"
+#include "src/overlay/pair_tables.h"
 #include "src/overlay/ssad.h"
 #include "src/overlay/sssd/sssd.h"
 
@@ -15,25 +16,21 @@ namespace geodesic {
 class OverlayQuery {
 public:
     OverlayQuery(const OverlayIndex& index, std::pmr::memory_resource* memory)
-        : index_(index), pairs_(index, memory), field_(index, memory), nearest_(index, memory),
+        : index_(index), memory_(memory), field_(index, memory), nearest_(index, memory),
           batch_(index, memory, FIELDS_AT_ONCE), vertex_count_(index.numbering.vertex_count()),
           prepared_distance_(memory) {}
 
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
-    float sssd(uint32_t low, uint32_t high) {
-        need_labels();
-        return pairs_.distance(low, high);
-    }
+    float sssd(uint32_t low, uint32_t high) { return pairs().distance(low, high); }
 
     // Prepares a source: prepared_sssd() then answers distances from it.
     void prepare(uint32_t source) {
-        need_labels();
         prepared_ = source;
         prepared_distance_.resize(vertex_count_);
-        field_.sweep_borders(source, pairs_.prepared_level(), prepared_distance_);
+        field_.sweep_borders(source, pairs().prepared_level(), prepared_distance_);
     }
     float prepared_sssd(uint32_t target) {
-        return pairs_.distance_from(prepared_, prepared_distance_, target);
+        return pairs().distance_from(prepared_, prepared_distance_, target);
     }
 
     // Sets how many threads msad() uses.
@@ -58,16 +55,16 @@ public:
     }
 
 private:
-    // The first pair of all makes the labels; later ones cost a look at a flag of this thread.
-    void need_labels() {
-        if (has_labels_) return;
-        require_labels(index_);
-        has_labels_ = true;
+    // The first pair of all makes the tables that pairs need, and the first one of this object its scratch.
+    OverlaySssd& pairs() {
+        if (pairs_) return *pairs_;
+        require_pair_tables(index_);
+        return pairs_.emplace(index_, memory_);
     }
 
     const OverlayIndex& index_;
-    bool has_labels_ = false;
-    OverlaySssd pairs_;
+    std::pmr::memory_resource* const memory_;
+    std::optional<OverlaySssd> pairs_;
     OverlaySsad field_;
     OverlayMsad nearest_;
     OverlaySsad batch_;

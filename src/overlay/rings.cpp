@@ -69,6 +69,9 @@ void RingWriter::end_ring() {
 
 void RingWriter::end() {
     for (size_t i = 0; i < Rings::PADDING; ++i) add_place(rings_, 0, 0, GAP, false);
+    const auto shrink = [](auto&... arrays) { (arrays.shrink_to_fit(), ...); };
+    shrink(rings_.begin, rings_.position, rings_.vertex, rings_.segment_length, rings_.half_inverse,
+           rings_.is_own, rings_.chain, rings_.chains);
 }
 
 std::vector<Chain> chains_of_ring(const Rings& rings, uint32_t patch) {

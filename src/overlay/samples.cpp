@@ -51,7 +51,7 @@ float segment_between(const OverlayIndex& index, uint32_t patch, uint32_t a, uin
     return code == TableCode::UNREACHED ? Rings::GAP : index.distance(code, parent);
 }
 
-void sample_ring(OverlayIndex& index, uint32_t patch, RingWriter& writer) {
+void sample_ring(const OverlayIndex& index, uint32_t patch, RingWriter& writer) {
     const uint32_t step = step_of(index, patch);
     for (const Chain& chain : chains_of_ring(index.rings, patch)) {
         const std::vector<uint32_t> samples = sample(chain, step);
@@ -78,77 +78,91 @@ float average_segment(const Rings& rings, uint32_t patch) {
 // How far it is along the border from a sample to the next one, at most. Vertices between two samples are no
 // farther from either, which the distance of the two does not tell: the border may go out and back between
 // them.
-float longest_gap(const OverlayIndex& index, uint32_t patch) {
-    const Rings& samples = index.samples.rings;
+float longest_gap(const OverlayIndex& index, const Samples& samples, uint32_t patch) {
+    const Rings& coarse = samples.rings;
     float longest = 0;
-    for (uint32_t k = samples.begin[patch]; k < samples.begin[patch + 1]; ++k) {
-        if (std::isnan(samples.segment_length[k])) continue;
+    for (uint32_t k = coarse.begin[patch]; k < coarse.begin[patch + 1]; ++k) {
+        if (std::isnan(coarse.segment_length[k])) continue;
         float length = 0;
-        for (uint32_t at = index.samples.full_place[k]; index.rings.position[at] != samples.position[k + 1];
-             ++at)
+        for (uint32_t at = samples.full_place[k]; index.rings.position[at] != coarse.position[k + 1]; ++at)
             length += index.rings.segment_length[at];
         longest = std::max(longest, length);
     }
     return longest;
 }
 
-void lay_out_samples(OverlayIndex& index, uint32_t patch) {
-    const Rings& rings = index.samples.rings;
+void lay_out_samples(const OverlayIndex& index, uint32_t patch, Samples& samples) {
+    const Rings& rings = samples.rings;
     std::vector<uint32_t> sample(index.numbering.border_size(patch), 0); // per position
     uint32_t count = 0;
     for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
         if (rings.is_own[k]) {
             sample[rings.position[k]] = count++;
-            index.samples.positions.push_back(rings.position[k]);
+            samples.positions.push_back(rings.position[k]);
         }
     for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
-        index.samples.full_place.push_back(
+        samples.full_place.push_back(
             index.rings.begin[patch] +
             index.rings.place_of_slot[index.numbering.border_begin[patch] + rings.position[k]]);
-        index.samples.sample_of_place.push_back(sample[rings.position[k]]);
+        samples.sample_of_place.push_back(sample[rings.position[k]]);
     }
     const float spacing = average_segment(rings, patch);
-    index.samples.spacing.push_back(spacing);
-    index.samples.longest_gap.push_back(longest_gap(index, patch));
-    index.samples.shortest_told.push_back(
+    samples.spacing.push_back(spacing);
+    samples.longest_gap.push_back(longest_gap(index, samples, patch));
+    samples.shortest_told.push_back(
         std::max(NEAR_SAMPLES * spacing, near_radius(index.longest_segment[patch])));
-    index.samples.begin.push_back(static_cast<uint32_t>(index.samples.positions.size()));
+    samples.begin.push_back(static_cast<uint32_t>(samples.positions.size()));
 }
 
 // Appends the positions, in the overlay of a patch, of the samples of a child's border or of the patch's own.
-void add_samples(const OverlayIndex& index, uint32_t ring_of, bool of_child,
+void add_samples(const OverlayIndex& index, const Samples& samples, uint32_t ring_of, bool of_child,
                  std::vector<uint32_t>& positions) {
-    for (uint32_t position : index.samples.of(ring_of))
+    for (uint32_t position : samples.of(ring_of))
         positions.push_back(
             of_child ? index.numbering.overlay_position[index.numbering.border_begin[ring_of] + position]
                      : position);
 }
 
-void sample_table(OverlayIndex& index, uint32_t patch, std::span<const uint32_t> rows) {
-    index.samples.table_begin[patch] = index.samples.tables.size();
-    const uint32_t* place = index.samples.full_place.data() + index.samples.rings.begin[patch];
+void sample_table(const OverlayIndex& index, uint32_t patch, std::span<const uint32_t> rows,
+                  Samples& samples) {
+    samples.table_begin[patch] = samples.tables.size();
+    const uint32_t* place = samples.full_place.data() + samples.rings.begin[patch];
     const uint32_t first_place = index.rings.begin[patch];
-    const uint32_t places = index.samples.rings.size(patch);
+    const uint32_t places = samples.rings.size(patch);
     if (places == index.rings.size(patch)) return;
     for (uint32_t row : rows)
         for (uint32_t k = 0; k < places; ++k)
-            index.samples.tables.push_back(
-                index.hops.outer[index.outer_row(patch, row) + place[k] - first_place]);
+            samples.tables.push_back(index.hops.outer[index.outer_row(patch, row) + place[k] - first_place]);
 }
 
-void sample_tables(OverlayIndex& index, uint32_t patch) {
+// The number of codes that coarse tables will have.
+uint64_t coarse_codes(const OverlayIndex& index, const Samples& samples) {
+    uint64_t codes = 0;
+    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) {
+        uint64_t rows = samples.of(p).size(), places = 0;
+        for (uint32_t child = index.numbering.child_begin[p]; child < index.numbering.child_begin[p + 1];
+             ++child) {
+            rows += samples.of(child).size();
+            if (samples.rings.size(child) < index.rings.size(child)) places += samples.rings.size(child);
+        }
+        codes += rows * places;
+    }
+    return codes;
+}
+
+void sample_tables(const OverlayIndex& index, uint32_t patch, Samples& samples) {
     std::vector<uint32_t> rows;
-    add_samples(index, patch, false, rows);
+    add_samples(index, samples, patch, false, rows);
     for (uint32_t child = index.numbering.child_begin[patch]; child < index.numbering.child_begin[patch + 1];
          ++child) {
-        index.samples.first_row[child] = static_cast<uint32_t>(rows.size());
-        add_samples(index, child, true, rows);
+        samples.first_row[child] = static_cast<uint32_t>(rows.size());
+        add_samples(index, samples, child, true, rows);
     }
     for (uint32_t child = index.numbering.child_begin[patch]; child < index.numbering.child_begin[patch + 1];
          ++child)
-        sample_table(index, child, rows);
-    index.samples.row_begin.push_back(static_cast<uint32_t>(index.samples.row_position.size()));
-    index.samples.row_position.insert(index.samples.row_position.end(), rows.begin(), rows.end());
+        sample_table(index, child, rows, samples);
+    samples.row_begin.push_back(static_cast<uint32_t>(samples.row_position.size()));
+    samples.row_position.insert(samples.row_position.end(), rows.begin(), rows.end());
 }
 
 }
@@ -167,17 +181,20 @@ SampleCount count_samples(const OverlayIndex& index, uint32_t patch) {
     return count;
 }
 
-void make_samples(OverlayIndex& index) {
-    Samples& samples = index.samples;
+void make_samples(const OverlayIndex& index, Samples& samples) {
+    const uint32_t patch_count = index.numbering.patch_count();
     RingWriter writer(samples.rings);
     writer.begin();
-    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) sample_ring(index, p, writer);
+    for (uint32_t p = 0; p < patch_count; ++p) sample_ring(index, p, writer);
+    const size_t places = samples.rings.position.size();
+    for (auto* per_place : {&samples.full_place, &samples.sample_of_place}) per_place->reserve(places);
     samples.begin.assign(1, 0);
-    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) lay_out_samples(index, p);
+    for (uint32_t p = 0; p < patch_count; ++p) lay_out_samples(index, p, samples);
     writer.end();
-    samples.first_row.assign(index.numbering.patch_count(), 0);
-    samples.table_begin.assign(index.numbering.patch_count(), 0);
-    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) sample_tables(index, p);
+    samples.first_row.assign(patch_count, 0);
+    samples.table_begin.assign(patch_count, 0);
+    samples.tables.reserve(coarse_codes(index, samples) + TableCode::PADDING);
+    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) sample_tables(index, p, samples);
     samples.tables.resize(samples.tables.size() + TableCode::PADDING);
 }
 

@@ -12,7 +12,7 @@ struct SampleCount {
 // Needs the rings of the index. make_samples() makes exactly as many.
 SampleCount count_samples(const OverlayIndex& index, uint32_t patch);
 
-// Fills `samples` of an index that has its rings and outer tables.
-void make_samples(OverlayIndex& index);
+// Fills empty `samples` of an index that has its rings and outer tables.
+void make_samples(const OverlayIndex& index, Samples& samples);
 
 }

@@ -68,9 +68,6 @@ struct Samples {
 // nearest vertex, a float, and then a code for each labelled vertex that says by how many steps it is farther
 // (see StepsOf). All vertices of a border are labelled, in its order, if it has at most WHOLE of them;
 // otherwise its samples are.
-//
-// Only pairs need labels, which take more memory than all tables, so that require_labels() makes them when
-// the first pair is asked for.
 struct Labels {
     explicit Labels(std::pmr::memory_resource* memory) : offset(memory), begin(memory), codes(memory) {}
 
@@ -81,6 +78,15 @@ struct Labels {
                             // also how long the labels of its inner vertices are
     Array<uint64_t> begin;  // per patch: where the labels of its inner vertices begin in `codes`
     Array<int16_t> codes;
+};
+
+// What only pairs of vertices need. It takes more memory than all other tables, so that it is empty until
+// require_pair_tables() makes it, when the first pair is asked for.
+struct PairTables {
+    explicit PairTables(std::pmr::memory_resource* memory) : samples(memory), labels(memory) {}
+
+    Samples samples;
+    Labels labels;
     std::mutex making; // held while one thread fills the arrays
     std::atomic<bool> are_made = false;
 };
@@ -89,7 +95,7 @@ struct Labels {
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
         : numbering(memory), quantum(memory), shift(memory), rings(memory), longest_segment(memory),
-          hops(memory), samples(memory), labels(memory) {}
+          hops(memory), pairs(memory) {}
 
     Numbering numbering;
     Array<float> quantum; // per patch: the distance of one step of its codes
@@ -97,8 +103,7 @@ struct OverlayIndex {
     BorderRings rings;
     Array<float> longest_segment; // per patch: length of the longest segment of its border, or 0
     HopTables hops;
-    Samples samples;
-    mutable Labels labels; // empty until require_labels() has run
+    mutable PairTables pairs;
 
     float distance(uint16_t code, uint32_t patch) const { return TableCode::distance(code, quantum[patch]); }
 
@@ -127,7 +132,7 @@ struct OverlayIndex {
     // How many distances to the border of a patch a label holds.
     uint32_t label_size(uint32_t patch) const {
         const uint32_t size = numbering.border_size(patch);
-        return size <= Labels::WHOLE ? size : static_cast<uint32_t>(samples.of(patch).size());
+        return size <= Labels::WHOLE ? size : static_cast<uint32_t>(pairs.samples.of(patch).size());
     }
     bool is_labelled_whole(uint32_t patch) const { return label_size(patch) == numbering.border_size(patch); }
 };

@@ -2,7 +2,7 @@
 
 #include "geoidx.h"
 #include "src/graph/prepare.h"
-#include "src/overlay/labels.h"
+#include "src/overlay/pair_tables.h"
 #include "src/overlay/prepare.h"
 
 namespace geodesic {
@@ -17,7 +17,7 @@ void prepare(const StoredIndex& stored, Index& index) {
 }
 
 void prepare_pairs(const Index& index) {
-    if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine)) require_labels(*overlay);
+    if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine)) require_pair_tables(*overlay);
 }
 
 StoredIndex restore(const Index& index) {

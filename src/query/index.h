@@ -30,8 +30,8 @@ struct Index {
 // Fills an empty index from what is stored. Throws Error where what is stored cannot be an index.
 void prepare(const StoredIndex& stored, Index& index);
 
-// Makes what only pairs need, if it has not been made: the labels of the overlay engine. Any thread may call
-// it at any time; the first pair that is asked for does.
+// Makes what only pairs need, if it has not been made: samples and labels of the overlay engine. Any thread
+// may call it at any time; the first pair that is asked for does.
 void prepare_pairs(const Index& index);
 
 // What is stored of an index: the opposite of prepare().

@@ -13,10 +13,12 @@ namespace {
 // As it was made, without padding.
 uint64_t codes_made(const OverlayIndex& index) {
     return index.hops.outer.size() + index.hops.inner.size() + index.hops.inner_middles.size() +
-           index.samples.tables.size() + index.labels.codes.size() - 4 * TableCode::PADDING;
+           index.pairs.samples.tables.size() + index.pairs.labels.codes.size() - 4 * TableCode::PADDING;
 }
 
-uint64_t coarse_codes(const OverlayIndex& index) { return index.samples.tables.size() - TableCode::PADDING; }
+uint64_t coarse_codes(const OverlayIndex& index) {
+    return index.pairs.samples.tables.size() - TableCode::PADDING;
+}
 
 // The number of patches whose inner vertices have labels to the samples of a border, and not to all of it.
 uint32_t labels_to_samples(const OverlayIndex& index) {
@@ -24,7 +26,7 @@ uint32_t labels_to_samples(const OverlayIndex& index) {
     uint32_t patches = 0;
     for (uint32_t p = 1; p < numbering.patch_count(); ++p) {
         const uint32_t parent = numbering.parent[p], size = numbering.border_size(parent);
-        patches += parent != 0 && size > Labels::WHOLE && index.samples.of(parent).size() < size;
+        patches += parent != 0 && size > Labels::WHOLE && index.pairs.samples.of(parent).size() < size;
     }
     return patches;
 }

@@ -57,7 +57,7 @@ const std::list<Labelled>& on_planes() {
 
 // The distance of an inner vertex of `patch` to the i-th labelled vertex of the border of `labelled`.
 double label_of(const OverlayIndex& index, uint32_t patch, uint32_t inner, uint32_t labelled, uint32_t i) {
-    const Labels& labels = index.labels;
+    const Labels& labels = index.pairs.labels;
     const int16_t* label = labels.codes.data() + labels.begin[patch] +
                            uint64_t{inner} * labels.offset[patch] + labels.offset[labelled];
     if (label[2 + i] == SourceCode::UNREACHED) return double{INFINITE};
@@ -70,7 +70,7 @@ std::vector<uint32_t> labelled_vertices(const OverlayIndex& index, uint32_t patc
     const auto border = index.numbering.border_of(patch);
     std::vector<uint32_t> vertices;
     if (index.is_labelled_whole(patch)) return {border.begin(), border.end()};
-    for (const uint32_t position : index.samples.of(patch)) vertices.push_back(border[position]);
+    for (const uint32_t position : index.pairs.samples.of(patch)) vertices.push_back(border[position]);
     return vertices;
 }
 
@@ -145,11 +145,12 @@ TEST_CASE("labels: to all of a border of up to 400 vertices, to the samples of a
         const OverlayIndex& index = made.overlay();
         for (uint32_t p = 1; p < index.numbering.first_leaf(); ++p) {
             const uint32_t size = index.numbering.border_size(p);
-            const auto expected = size <= 400 ? size : static_cast<uint32_t>(index.samples.of(p).size());
+            const auto expected =
+                size <= 400 ? size : static_cast<uint32_t>(index.pairs.samples.of(p).size());
             CHECK(index.label_size(p) == expected);
             for (uint32_t child = index.numbering.child_begin[p]; child < index.numbering.child_begin[p + 1];
                  ++child)
-                CHECK(index.labels.offset[child] - index.labels.offset[p] == 2 + expected);
+                CHECK(index.pairs.labels.offset[child] - index.pairs.labels.offset[p] == 2 + expected);
             ++(size <= 400 ? whole : sampled);
         }
     }

@@ -2,21 +2,21 @@
 
 #include "src/build/build.h"
 #include "src/index/stored.h"
-#include "src/overlay/labels.h"
+#include "src/overlay/pair_tables.h"
 #include "tests/capi/calls.h"
 
 namespace geodesic::test {
 
-// An index of the overlay engine, as it is built or opened, and with its labels.
+// An index of the overlay engine, as it is built or opened, and with what pairs need.
 struct OverlayOf {
     OverlayOf(const TestMesh& mesh, geoidx_build_options options) : index(std::pmr::get_default_resource()) {
         options.engine = GEOIDX_ENGINE_OVERLAY;
         build_index(mesh.view(), options, index);
-        require_labels(overlay());
+        require_pair_tables(overlay());
     }
     explicit OverlayOf(const StoredIndex& stored) : index(std::pmr::get_default_resource()) {
         prepare(stored, index);
-        require_labels(overlay());
+        require_pair_tables(overlay());
     }
     const OverlayIndex& overlay() const { return std::get<OverlayIndex>(index.engine); }
 

@@ -59,7 +59,7 @@ TEST_CASE("samples: on the border, evenly spaced along each chain, the ends of o
     for (const OverlayOf& of : built()) {
         const OverlayIndex& overlay = of.overlay();
         for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
-            const auto samples = overlay.samples.of(p);
+            const auto samples = overlay.pairs.samples.of(p);
             const uint32_t size = overlay.numbering.border_size(p);
             CHECK(std::ranges::is_sorted(samples, std::less_equal<>()));
             CHECK(samples.size() >= std::min(size, 64u));
@@ -84,8 +84,8 @@ TEST_CASE("samples: as many as are foreseen") {
         const OverlayIndex& overlay = of.overlay();
         for (uint32_t p = 0; p < overlay.numbering.patch_count(); ++p) {
             const SampleCount count = count_samples(overlay, p);
-            CHECK(count.samples == overlay.samples.of(p).size());
-            CHECK(count.places == overlay.samples.rings.size(p));
+            CHECK(count.samples == overlay.pairs.samples.of(p).size());
+            CHECK(count.places == overlay.pairs.samples.rings.size(p));
         }
     }
 }
@@ -93,14 +93,14 @@ TEST_CASE("samples: as many as are foreseen") {
 TEST_CASE("samples: a place of a coarse ring names its vertex, its sample and its place among all") {
     for (const OverlayOf& of : built()) {
         const OverlayIndex& overlay = of.overlay();
-        const Rings& coarse = overlay.samples.rings;
+        const Rings& coarse = overlay.pairs.samples.rings;
         for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
-            std::vector<uint32_t> own_places(overlay.samples.of(p).size(), 0);
+            std::vector<uint32_t> own_places(overlay.pairs.samples.of(p).size(), 0);
             for (uint32_t k = coarse.begin[p]; k < coarse.begin[p + 1]; ++k) {
-                const uint32_t full = overlay.samples.full_place[k];
-                const uint32_t sample = overlay.samples.sample_of_place[k];
+                const uint32_t full = overlay.pairs.samples.full_place[k];
+                const uint32_t sample = overlay.pairs.samples.sample_of_place[k];
                 REQUIRE(sample < own_places.size());
-                CHECK(overlay.samples.of(p)[sample] == coarse.position[k]);
+                CHECK(overlay.pairs.samples.of(p)[sample] == coarse.position[k]);
                 CHECK(coarse.vertex[k] == overlay.numbering.border_of(p)[coarse.position[k]]);
                 CHECK(overlay.rings.vertex[full] == coarse.vertex[k]);
                 CHECK(overlay.rings.is_own[full] == -1);
@@ -114,7 +114,7 @@ TEST_CASE("samples: a place of a coarse ring names its vertex, its sample and it
 TEST_CASE("samples: a coarse segment is a straight line on a plane, but for steps and calibration") {
     const OverlayOf& of = built().front();
     const OverlayIndex& overlay = of.overlay();
-    const Rings& coarse = overlay.samples.rings;
+    const Rings& coarse = overlay.pairs.samples.rings;
     const auto ids = ids_by_number(of.index);
     uint32_t segments = 0;
     for (uint32_t k = coarse.begin[1]; k < coarse.begin[3]; ++k) {
@@ -132,7 +132,7 @@ TEST_CASE("samples: their tables are rows of the tables of all, for the samples 
     for (const OverlayOf& of : built()) {
         const OverlayIndex& overlay = of.overlay();
         const Numbering& numbering = overlay.numbering;
-        const Samples& samples = overlay.samples;
+        const Samples& samples = overlay.pairs.samples;
         for (uint32_t p = 1; p < numbering.patch_count(); ++p) {
             const uint32_t parent = numbering.parent[p], places = samples.rings.size(p);
             const size_t end = parent + 1 < numbering.first_leaf() ? samples.row_begin[parent + 1]

@@ -9,9 +9,9 @@ BorderLabel label_of(const OverlayIndex& index, uint32_t vertex, uint32_t patch)
     const Numbering& numbering = index.numbering;
     const uint32_t innermost = numbering.innermost_patch(vertex);
     const int16_t* label =
-        index.labels.codes.data() + index.labels.begin[innermost] +
-        uint64_t{vertex - numbering.first_inner(innermost)} * index.labels.offset[innermost] +
-        index.labels.offset[patch];
+        index.pairs.labels.codes.data() + index.pairs.labels.begin[innermost] +
+        uint64_t{vertex - numbering.first_inner(innermost)} * index.pairs.labels.offset[innermost] +
+        index.pairs.labels.offset[patch];
     const uint32_t nearest = static_cast<uint32_t>(static_cast<uint16_t>(label[0])) +
                              0x10000u * static_cast<uint32_t>(static_cast<uint16_t>(label[1]));
     return {std::bit_cast<float>(nearest), index.quantum[numbering.parent[patch]], label + Labels::HEAD,
@@ -28,7 +28,7 @@ RingRow inner_row_of(const OverlayIndex& index, uint32_t vertex) {
 size_t largest_sample_count(const OverlayIndex& index) {
     size_t largest = 0;
     for (uint32_t p = 0; p < index.numbering.patch_count(); ++p)
-        largest = std::max(largest, index.samples.of(p).size());
+        largest = std::max(largest, index.pairs.samples.of(p).size());
     return largest;
 }
 
@@ -50,7 +50,7 @@ void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Ascent& asc
 
 void read_samples(const OverlayIndex& index, Ascent& ascent) {
     const uint32_t vertex = ascent.vertex, patch = ascent.last_patch();
-    const auto samples = index.samples.of(patch);
+    const auto samples = index.pairs.samples.of(patch);
     ascent.sample_distances.resize(samples.size());
     if (patch == index.numbering.innermost_patch(vertex)) {
         read_samples(index, patch, inner_row_of(index, vertex), ascent.sample_distances);

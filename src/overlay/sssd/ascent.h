@@ -55,9 +55,9 @@ auto with_ring_distances(const OverlayIndex& index, uint32_t vertex, uint32_t pa
 template <class DistanceTo>
 void read_samples(const OverlayIndex& index, uint32_t patch, const DistanceTo& distance_to,
                   std::span<float> out) {
-    const Rings& rings = index.samples.rings;
+    const Rings& rings = index.pairs.samples.rings;
     for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
-        out[index.samples.sample_of_place[k]] = distance_to(index.samples.full_place[k]);
+        out[index.pairs.samples.sample_of_place[k]] = distance_to(index.pairs.samples.full_place[k]);
 }
 
 // The largest number of samples that a border has.

@@ -23,7 +23,7 @@ struct BorderCrossing {
 // of their numbers; those of a patch begin at Samples::first_row. Where the ring has all vertices of the
 // border, the row lies in the outer table.
 inline const uint16_t* coarse_row(const OverlayIndex& index, uint32_t patch, uint32_t row) {
-    const Samples& samples = index.samples;
+    const Samples& samples = index.pairs.samples;
     const uint32_t places = samples.rings.size(patch);
     if (places < index.rings.size(patch))
         return samples.tables.data() + samples.table_begin[patch] + size_t{row} * places;

@@ -24,7 +24,7 @@ void spread_codes(const Rings& rings, uint32_t patch, const int16_t* codes, cons
 // repeat vertices at the ends of chains, these two need not enclose the given ones; then whole chains are
 // returned.
 BorderRange range_around(const OverlayIndex& index, uint32_t patch, SampleRange samples) {
-    const uint32_t* place = index.samples.full_place.data() + index.samples.rings.begin[patch];
+    const uint32_t* place = index.pairs.samples.full_place.data() + index.pairs.samples.rings.begin[patch];
     const uint32_t first = place[samples.first - REACH], last = place[samples.last + REACH];
     if (first <= place[samples.first] && place[samples.last] <= last) return {first, last};
     const auto chain = [&](uint32_t k) { return index.rings.chains[index.rings.chain[place[k]]]; };
@@ -41,8 +41,8 @@ SampleRange range_of_winners(std::span<const uint16_t> winners) {
 }
 
 SampleRange samples_within(const OverlayIndex& index, const Ascent& ascent, float reach) {
-    const Rings& rings = index.samples.rings;
-    const uint32_t* sample = index.samples.sample_of_place.data() + rings.begin[ascent.last_patch()];
+    const Rings& rings = index.pairs.samples.rings;
+    const uint32_t* sample = index.pairs.samples.sample_of_place.data() + rings.begin[ascent.last_patch()];
     const uint32_t places = rings.size(ascent.last_patch());
     SampleRange within;
     for (uint32_t k = REACH; k + REACH < places; ++k)
@@ -53,7 +53,7 @@ SampleRange samples_within(const OverlayIndex& index, const Ascent& ascent, floa
 BorderRanges::BorderRanges(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), ranges_(memory), first_codes_(memory), codes_(memory), sample_distances_(memory),
       sample_codes_(memory), rows_(memory), winners_(memory) {
-    const size_t places = index.samples.rings.largest_size();
+    const size_t places = index.pairs.samples.rings.largest_size();
     ranges_.reserve(index.numbering.level_count());
     first_codes_.resize(places + SourceCode::BLOCK);
     codes_.resize(places + SourceCode::BLOCK);
@@ -90,15 +90,15 @@ bool BorderRanges::take_whole(const Ascent& ascent) {
 // Writes the codes of the distances from the end to the places of a patch's coarse ring, in steps of the
 // parent's quantum.
 void BorderRanges::read_codes(const Ascent& ascent, uint32_t patch, std::span<int16_t> out) {
-    const Rings& rings = index_.samples.rings;
-    const uint32_t* sample_of_place = index_.samples.sample_of_place.data();
+    const Rings& rings = index_.pairs.samples.rings;
+    const uint32_t* sample_of_place = index_.pairs.samples.sample_of_place.data();
     if (patch != index_.numbering.innermost_patch(ascent.vertex)) {
         const BorderLabel label = label_of(index_, ascent.vertex, patch);
         spread_codes(rings, patch, label.codes, label.is_whole ? rings.position.data() : sample_of_place,
                      out);
         return;
     }
-    const auto distances = std::span(sample_distances_).first(index_.samples.of(patch).size());
+    const auto distances = std::span(sample_distances_).first(index_.pairs.samples.of(patch).size());
     read_samples(index_, patch, inner_row_of(index_, ascent.vertex), distances);
     const StepsOf steps(distances, index_.quantum[index_.numbering.parent[patch]]);
     for (size_t i = 0; i < distances.size(); ++i) sample_codes_[i] = steps.code(distances[i]);
@@ -110,9 +110,9 @@ void BorderRanges::read_codes(const Ascent& ascent, uint32_t patch, std::span<in
 // parent's own border.
 SampleRange BorderRanges::samples_before(const Ascent& ascent, size_t border, SampleRange samples) {
     const uint32_t patch = ascent.patches[border], before = ascent.patches[border - 1];
-    const Rings& rings = index_.samples.rings;
+    const Rings& rings = index_.pairs.samples.rings;
     if (border > 1) read_codes(ascent, before, codes_);
-    const uint32_t* sample = index_.samples.sample_of_place.data() + rings.begin[patch];
+    const uint32_t* sample = index_.pairs.samples.sample_of_place.data() + rings.begin[patch];
     rows_.clear();
     for (uint32_t k = samples.first - 1; k <= samples.last + 1; ++k)
         rows_.push_back(coarse_row(index_, before, sample[k]));

@@ -70,8 +70,8 @@ void gather_rows(const OverlayIndex& index, uint32_t patch, uint32_t sibling, si
                  Array<const uint16_t*>& rows) {
     rows.resize(count);
     for (uint32_t i = 0; i < count; ++i) {
-        rows[i] = coarse_row(index, patch, index.samples.first_row[sibling] + i);
-        prefetch(rows[i], index.samples.rings.size(patch));
+        rows[i] = coarse_row(index, patch, index.pairs.samples.first_row[sibling] + i);
+        prefetch(rows[i], index.pairs.samples.rings.size(patch));
     }
 }
 
@@ -86,12 +86,12 @@ SamplesAcross::SamplesAcross(const OverlayIndex& index, std::pmr::memory_resourc
 void cross_samples(const OverlayIndex& index, const Ascent& ascent, uint32_t sibling,
                    BorderCrossing& crossing, SamplesAcross& out) {
     const uint32_t patch = ascent.last_patch();
-    const Rings& rings = index.samples.rings;
-    const size_t count = index.samples.of(sibling).size();
+    const Rings& rings = index.pairs.samples.rings;
+    const size_t count = index.pairs.samples.of(sibling).size();
     out.distance.resize(count);
     out.winner.resize(count);
     gather_rows(index, patch, sibling, count, crossing.rows);
-    const uint32_t* sample = index.samples.sample_of_place.data() + rings.begin[patch];
+    const uint32_t* sample = index.pairs.samples.sample_of_place.data() + rings.begin[patch];
     for (float& d : crossing.field.begin(rings, rings.begin[patch], rings.size(patch),
                                          index.quantum[index.numbering.parent[patch]]))
         d = ascent.sample_distances[*sample++];
@@ -105,13 +105,17 @@ void cross_samples(const OverlayIndex& index, const Ascent& ascent, uint32_t sib
 
 Candidates find_candidates(const OverlayIndex& index, uint32_t patch, std::span<const float> from,
                            std::span<const float> to) {
-    const Rings& rings = index.samples.rings;
+    const Rings& rings = index.pairs.samples.rings;
     const uint32_t first = rings.begin[patch];
-    const SamplesBetween samples{
-        rings.is_own.data(), index.samples.sample_of_place.data(), first, rings.begin[patch + 1], from, to};
+    const SamplesBetween samples{rings.is_own.data(),
+                                 index.pairs.samples.sample_of_place.data(),
+                                 first,
+                                 rings.begin[patch + 1],
+                                 from,
+                                 to};
     Candidates candidates;
     const auto ways = shortest_ways(samples);
-    uint32_t beside = place_beside_an_end(samples, index.samples.spacing[patch]);
+    uint32_t beside = place_beside_an_end(samples, index.pairs.samples.spacing[patch]);
     for (const Way& way : ways) {
         if (!(way.length < INFINITE) || way.length > ways.front().length * WORTH_MEASURING) break;
         candidates.add(way.place - first);

@@ -77,7 +77,7 @@ struct OverlaySssd::Climber {
 
     // Finds the ranges of paths to a sample and to its two neighbours.
     bool find_ranges(uint32_t place) const {
-        const Samples& samples = search.index_.samples;
+        const Samples& samples = search.index_.pairs.samples;
         const uint32_t* sample = samples.sample_of_place.data() + samples.rings.begin[search.meeting_patch()];
         const auto& winner = search.samples_.winner;
         const std::array<uint16_t, 3> winners{winner[sample[place - 1]], winner[sample[place]],
@@ -109,7 +109,7 @@ struct OverlaySssd::KnownVertex {
 
     void read_samples() const {
         const uint32_t patch = search.meeting_patch();
-        search.samples_.distance.resize(search.index_.samples.of(patch).size());
+        search.samples_.distance.resize(search.index_.pairs.samples.of(patch).size());
         geodesic::read_samples(search.index_, patch, distance_to, search.samples_.distance);
     }
     bool find_ranges(uint32_t) const { return true; }
@@ -203,8 +203,8 @@ float OverlaySssd::meet(const From& from) {
          find_candidates(index_, patch, samples_.distance, to_.ascent.sample_distances))
         if (from.find_ranges(place) && to_.ranges.find(to_.ascent, {place, place}))
             shortest = std::min(shortest, measure(from));
-    if (!(shortest <= index_.samples.shortest_told[patch])) return shortest;
-    const float reach = shortest + 2 * index_.samples.longest_gap[patch];
+    if (!(shortest <= index_.pairs.samples.shortest_told[patch])) return shortest;
+    const float reach = shortest + 2 * index_.pairs.samples.longest_gap[patch];
     if (from.find_ranges_within(reach) &&
         to_.ranges.find(to_.ascent, samples_within(index_, to_.ascent, reach)))
         shortest = std::min(shortest, measure(from));

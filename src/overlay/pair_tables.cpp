@@ -1,0 +1,21 @@
+#include "src/overlay/pair_tables.h"
+
+#include <mutex>
+
+#include "src/overlay/labels.h"
+#include "src/overlay/samples.h"
+
+namespace geodesic {
+
+void require_pair_tables(const OverlayIndex& index) {
+    PairTables& pairs = index.pairs;
+    if (pairs.are_made.load(std::memory_order_acquire)) return;
+    const std::lock_guard only_one(pairs.making);
+    if (pairs.are_made.load(std::memory_order_relaxed)) return;
+    pairs.samples = Samples(pairs.samples.tables.get_allocator().resource());
+    make_samples(index, pairs.samples);
+    make_labels(index, pairs.labels);
+    pairs.are_made.store(true, std::memory_order_release);
+}
+
+}

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "src/overlay/tables.h"
+
+namespace geodesic {
+
+// Makes sure that an index has what pairs of vertices need. The first thread that asks makes it while others
+// wait; when that throws, as where memory is short, the next one to ask begins anew.
+void require_pair_tables(const OverlayIndex& index);
+
+}
