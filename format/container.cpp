@@ -98,6 +98,12 @@ std::vector<std::byte> Container::read_bytes(std::uint32_t tag, std::uint64_t ma
     fail_corrupt(tag, "it holds matrices, expected bytes");
 }
 
+std::span<const std::byte> Container::view_bytes(std::uint32_t tag) const {
+    const Section& found = section(tag);
+    if (found.codec != Codec::Raw) fail_corrupt(tag, "it is not stored raw");
+    return stored_bytes(found);
+}
+
 std::vector<std::byte> Container::read_images(const Section& section, const ShareOut& share_out) const {
     const auto streams = png_streams(section.tag, byte_image_count(section.raw_size));
     std::vector<std::byte> raw(static_cast<std::size_t>(section.raw_size));

@@ -62,15 +62,20 @@ struct MatrixTarget {
     std::uint32_t cols = 0;
 };
 
+// What becomes of sections of bytes: they are compressed, or stand in the file as they are, for readers that
+// map it.
+enum class Packing { Zstd, None };
+
 // Collects sections, in the order in which they shall stand in the file. A tag added twice is
 // GEOIDX_ERROR_INTERNAL.
 class ContainerWriter {
 public:
-    explicit ContainerWriter(std::uint64_t mesh_fingerprint) : mesh_fingerprint_(mesh_fingerprint) {}
+    explicit ContainerWriter(std::uint64_t mesh_fingerprint, Packing packing = Packing::Zstd)
+        : mesh_fingerprint_(mesh_fingerprint), packing_(packing) {}
 
-    // Compressed by zstd. `flags` is 0 or SECTION_OPTIONAL.
+    // `flags` is 0 or SECTION_OPTIONAL.
     void add_bytes(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags = 0);
-    // As they are, for a reader that maps the file.
+    // As they are, whatever the packing.
     void add_raw(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags = 0);
     // As gray images, which pack well what has few different bytes next to each other.
     void add_images(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags = 0);
@@ -88,6 +93,7 @@ private:
              std::uint64_t raw_size);
 
     std::uint64_t mesh_fingerprint_;
+    Packing packing_;
     std::vector<Section> sections_;
     std::vector<std::vector<std::byte>> stored_;
 };
@@ -123,6 +129,8 @@ public:
     // allocates, for a missing section and for one that is larger than `max_raw_size`.
     std::vector<std::byte> read_bytes(std::uint32_t tag, std::uint64_t max_raw_size,
                                       const ShareOut& share_out = one_after_the_other) const;
+    // The bytes of a section as they stand in the file, which must be Raw.
+    std::span<const std::byte> view_bytes(std::uint32_t tag) const;
     // Fills the matrices, which must be those of the section, all of them, in their order, whatever its
     // codec. Throws GEOIDX_ERROR_CORRUPT otherwise, with unspecified values in the matrices.
     void read_matrices(std::uint32_t tag, std::span<const MatrixTarget> matrices,
@@ -143,6 +151,10 @@ private:
     std::uint64_t mesh_fingerprint_ = 0;
     std::vector<Section> sections_;
 };
+
+// Whether a file that begins with these bytes seems to have a section, by its section table as far as it is
+// there. Nothing is checked.
+bool names_section(std::span<const std::byte> start, std::uint32_t tag);
 
 // Every problem that Container::parse would throw, and those behind it: after a problem that leaves the rest
 // readable, the checks go on. Empty when parse would succeed.

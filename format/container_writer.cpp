@@ -12,6 +12,7 @@
 namespace geodesic::format {
 
 void ContainerWriter::add_bytes(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags) {
+    if (packing_ == Packing::None) return add_raw(tag, raw, flags);
     auto packed = compress_zstd(raw);
     if (raw.size() / MAX_PACKING > packed.size())
         add_raw(tag, raw, flags);

@@ -267,4 +267,11 @@ Layout examine(std::span<const std::byte> file, std::span<const std::uint32_t> k
     return Examination(file, known_tags, report).run();
 }
 
+bool names_section(std::span<const std::byte> start, std::uint32_t tag) {
+    for (std::uint64_t at = HEADER_SIZE; at + sizeof tag <= start.size() && at < table_end(MAX_SECTIONS);
+         at += SECTION_RECORD_SIZE)
+        if (load_little_endian<std::uint32_t>(start.data() + at) == tag) return true;
+    return false;
+}
+
 }

@@ -243,11 +243,16 @@ static inline void geoidx_build_options_init(geoidx_build_options* options) {
  * makes what pairs need, once for all threads: about 0.1 s for 30,000 vertices, and about as much memory as
  * the rest of the index. An index of which only fields are asked never takes either. It is the same for an
  * index that was just built. The answers are the same bits. Nothing is made for GEOIDX_ENGINE_GRAPH. */
-enum { GEOIDX_OPEN_PAIRS = 1 };
+enum {
+    GEOIDX_OPEN_PAIRS = 1,
+    /* geoidx_open_memory only: `data` stays as it is until geoidx_close, so that the tables of a file of
+     * GEOIDX_CODEC_MAPPED need not be copied. It must be aligned to 8 bytes, better to 64. */
+    GEOIDX_OPEN_BORROW = 2
+};
 
 typedef struct geoidx_open_options {
     uint32_t struct_size;
-    uint32_t flags; /* GEOIDX_OPEN_PAIRS or 0; other bits are GEOIDX_ERROR_INVALID_ARGUMENT */
+    uint32_t flags; /* GEOIDX_OPEN_*, added up; other bits are GEOIDX_ERROR_INVALID_ARGUMENT */
     /* May be NULL; otherwise the index must have been built from this very mesh, else
      * GEOIDX_ERROR_MESH_MISMATCH: the same triangles in the same order, and positions that are equal as
      * floats, so that it does not matter which of the two was given in double precision. (Two meshes that
@@ -256,6 +261,12 @@ typedef struct geoidx_open_options {
     geoidx_allocator allocator;
     uint32_t threads;  /* that decode tables; 0 (default): one per processor; at most 1024 */
     uint32_t reserved; /* not read */
+    /* What a file may ask for; more is GEOIDX_ERROR_LIMIT. max_vertices: how long the caller's vertex array
+     * may have been; 0 (default): any. max_memory: bytes that the decoded sections of the file, and that the
+     * index with its queries may take, each; 0 (default): in proportion to the file, see geoidx_open. The
+     * latter holds as long as the index is open, so that a query, too, may be refused. */
+    uint64_t max_vertices;
+    uint64_t max_memory;
 } geoidx_open_options;
 
 GEOIDX_API void geoidx_open_options_init_sized(geoidx_open_options* options, uint32_t struct_size);
@@ -266,8 +277,12 @@ static inline void geoidx_open_options_init(geoidx_open_options* options) {
 /* The forms that a file keeps distances in. All hold the same distances, so that answers are the same bits.
  * GEOIDX_CODEC_PACKED (default): what is left of them when they are predicted from the positions of their
  * vertices and from each other, as gray PNG images. GEOIDX_CODEC_LOSSLESS: a PNG of float32 for each table,
- * as the paper has it; what indices of GEOIDX_ENGINE_GRAPH are always saved as. */
-enum { GEOIDX_CODEC_PACKED = 0, GEOIDX_CODEC_LOSSLESS = 1 };
+ * as the paper has it; what indices of GEOIDX_ENGINE_GRAPH are always saved as. GEOIDX_CODEC_MAPPED: the
+ * tables as queries read them, uncompressed: more than ten times as large as packed, but nothing is left to
+ * do when it is opened. geoidx_open maps such a file instead of reading it, so that processes share one copy
+ * in memory; as long as an index is open, nobody may write into the file or cut it short (geoidx_save
+ * replaces a file, which is no harm except on Windows, where it fails). */
+enum { GEOIDX_CODEC_PACKED = 0, GEOIDX_CODEC_LOSSLESS = 1, GEOIDX_CODEC_MAPPED = 2 };
 
 typedef struct geoidx_save_options {
     uint32_t struct_size;
@@ -358,7 +373,7 @@ GEOIDX_API geoidx_status geoidx_save_memory(const geoidx* index, const geoidx_sa
  * file can hold raw sections 1032 times its size. `options` may be NULL. */
 GEOIDX_API geoidx_status geoidx_open(const char* utf8_path, const geoidx_open_options* options, geoidx** out);
 
-/* The same from memory; `data` is not needed after the call. */
+/* The same from memory; `data` is not needed after the call, unless GEOIDX_OPEN_BORROW is given. */
 GEOIDX_API geoidx_status geoidx_open_memory(const void* data, uint64_t size,
                                             const geoidx_open_options* options, geoidx** out);
 

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <atomic>
+#include <limits>
 #include <memory>
 #include <memory_resource>
 #include <mutex>
+#include <optional>
 #include <vector>
 
+#include "format/file_mapping.h"
 #include "geoidx.h"
 #include "src/mesh/intake.h"
 #include "src/metric/metric.h"
@@ -18,12 +22,18 @@ class CallerMemory final : public std::pmr::memory_resource {
 public:
     explicit CallerMemory(const geoidx_allocator& allocator) : allocator_(allocator) {}
 
+    const geoidx_allocator& allocator() const { return allocator_; }
+    // Asking for more than so many bytes in all is Error LIMIT from now on.
+    void set_limit(uint64_t bytes) { limit_ = bytes; }
+
 private:
     void* do_allocate(size_t size, size_t alignment) override;
     void do_deallocate(void* memory, size_t size, size_t alignment) override;
     bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 
     geoidx_allocator allocator_;
+    uint64_t limit_ = std::numeric_limits<uint64_t>::max();
+    std::atomic<uint64_t> used_ = 0;
 };
 
 // Query scratch that is not in use, so that geoidx_sssd and geoidx_msad need not make it anew.
@@ -47,9 +57,12 @@ private:
 
 struct geoidx {
     explicit geoidx(const geoidx_allocator& allocator)
-        : memory(allocator), index(&memory), sections(&memory), queries(index, memory) {}
+        : memory(allocator), file_copy(&memory), index(&memory), sections(&memory), queries(index, memory) {}
 
     geodesic::CallerMemory memory;
+    // Where the tables of a mapped file lie, unless the caller keeps them: the file itself, or a copy of it.
+    std::optional<geodesic::format::FileMapping> mapping;
+    geodesic::Array<uint64_t> file_copy;
     geodesic::Index index;
     geodesic::Array<geoidx_section> sections; // of the file that it was opened from
     mutable geodesic::QueryPool queries;

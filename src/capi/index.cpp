@@ -58,17 +58,70 @@ void list_sections(const format::Container& container, Array<geoidx_section>& se
     }
 }
 
-void open_bytes(std::span<const std::byte> file, const geoidx_open_options* given, geoidx** out) {
-    const geoidx_open_options options = whole_or_default(given, geoidx_open_options_init);
-    require((options.flags & ~uint32_t{GEOIDX_OPEN_PAIRS}) == 0, "flags has bits that mean nothing");
-    OwnedIndex index = make_index(options.allocator);
-    const auto container = format::Container::parse(file, INDEX_TAGS);
-    prepare(read_index(container, thread_count(options.threads)), index->index);
-    list_sections(container, index->sections);
-    check_mesh_matches(options.expected_mesh, index->index.description);
-    if (options.flags & GEOIDX_OPEN_PAIRS) prepare_pairs(index->index);
-    *out = index.release();
+void check_limits(const format::Container& container, const geoidx_open_options& options) {
+    if (options.max_memory == 0) return;
+    uint64_t decoded = 0;
+    for (const format::Section& section : container.sections()) {
+        if (section.raw_size > options.max_memory - decoded)
+            throw Error(GEOIDX_ERROR_LIMIT, "the sections of the file hold more than the " +
+                                                std::to_string(options.max_memory) +
+                                                " bytes that max_memory allows");
+        decoded += section.raw_size;
+    }
 }
+
+bool is_mapped_file(std::span<const std::byte> start) { return format::names_section(start, TAG_HOP_CODES); }
+
+// An index that is being opened.
+class Opening {
+public:
+    explicit Opening(const geoidx_open_options* given)
+        : options_(whole_or_default(given, geoidx_open_options_init)),
+          index_(make_index(options_.allocator)) {
+        require((options_.flags & ~uint32_t{GEOIDX_OPEN_PAIRS | GEOIDX_OPEN_BORROW}) == 0,
+                "flags has bits that mean nothing");
+        if (options_.max_memory != 0) index_->memory.set_limit(options_.max_memory);
+    }
+
+    geoidx* file(const std::string& utf8_path) {
+        index_->mapping = format::FileMapping::of_file(utf8_path, is_mapped_file);
+        return index_->mapping ? kept(index_->mapping->bytes()) : passing(format::read_file(utf8_path));
+    }
+
+    geoidx* memory(std::span<const std::byte> data) {
+        if (!(options_.flags & GEOIDX_OPEN_BORROW)) return passing(data);
+        require(reinterpret_cast<uintptr_t>(data.data()) % alignof(uint64_t) == 0,
+                "data is borrowed, but not aligned to 8 bytes");
+        return kept(data);
+    }
+
+private:
+    // From bytes that are gone after the call.
+    geoidx* passing(std::span<const std::byte> file) {
+        if (!is_mapped_file(file)) return kept(file);
+        auto& copy = index_->file_copy;
+        copy.resize((file.size() + sizeof(uint64_t) - 1) / sizeof(uint64_t));
+        std::memcpy(copy.data(), file.data(), file.size());
+        return kept(std::as_bytes(std::span(copy)).first(file.size()));
+    }
+
+    // From bytes that stay as long as the index, if it is a mapped file.
+    geoidx* kept(std::span<const std::byte> file) {
+        Index& index = index_->index;
+        const auto container = format::Container::parse(file, INDEX_TAGS);
+        check_limits(container, options_);
+        prepare(read_index(container, {thread_count(options_.threads), options_.max_vertices}), index);
+        list_sections(container, index_->sections);
+        check_mesh_matches(options_.expected_mesh, index.description);
+        if (options_.flags & GEOIDX_OPEN_PAIRS) prepare_pairs(index);
+        return index_.release();
+    }
+
+    const geoidx_open_options options_;
+    OwnedIndex index_;
+};
+
+constexpr auto NOT_FOLLOWING = "section HOPS: tables of the same distances contradict each other";
 
 // All problems that can be told apart: those of the container, then, if it has none, the first one of its
 // content.
@@ -77,7 +130,9 @@ std::vector<format::Issue> issues_of(std::span<const std::byte> file) {
     if (!issues.empty()) return issues;
     try {
         Index index(std::pmr::get_default_resource());
-        prepare(read_index(format::Container::parse(file, INDEX_TAGS), thread_count(0)), index);
+        prepare(read_index(format::Container::parse(file, INDEX_TAGS), {.threads = thread_count(0)}), index);
+        if (index.description.codec == GEOIDX_CODEC_MAPPED && !follows_from_tables(index))
+            issues.push_back({GEOIDX_ERROR_CORRUPT, 0, NOT_FOLLOWING});
     } catch (const Error& error) {
         issues.push_back({error.status, 0, error.what()});
     }
@@ -89,9 +144,13 @@ std::vector<std::byte> file_of(const geoidx& index, const geoidx_save_options* g
     StoredIndex stored = restore(index.index);
     if (given) {
         const uint32_t codec = whole(*given, geoidx_save_options_init).codec;
-        require(codec <= GEOIDX_CODEC_LOSSLESS, "codec is not a GEOIDX_CODEC_*");
+        require(codec <= GEOIDX_CODEC_MAPPED, "codec is not a GEOIDX_CODEC_*");
         if (stored.description.engine == GEOIDX_ENGINE_OVERLAY) stored.description.codec = codec;
     }
+    // Other forms hold fewer tables, from which the others must follow.
+    if (index.index.description.codec == GEOIDX_CODEC_MAPPED &&
+        stored.description.codec != GEOIDX_CODEC_MAPPED && !follows_from_tables(index.index))
+        throw Error(GEOIDX_ERROR_CORRUPT, NOT_FOLLOWING);
     return write_index(stored);
 }
 
@@ -141,7 +200,7 @@ geoidx_status geoidx_open(const char* utf8_path, const geoidx_open_options* opti
     return guarded([&] {
         require(out, "out is NULL");
         require(utf8_path, "utf8_path is NULL");
-        open_bytes(format::read_file(utf8_path), options, out);
+        *out = Opening(options).file(utf8_path);
     });
 }
 
@@ -150,13 +209,13 @@ geoidx_status geoidx_open_memory(const void* data, uint64_t size, const geoidx_o
     if (out) *out = nullptr;
     return guarded([&] {
         require(out, "out is NULL");
-        open_bytes(bytes_at(data, size), options, out);
+        *out = Opening(options).memory(bytes_at(data, size));
     });
 }
 
 void geoidx_close(geoidx* index) {
     if (!index) return;
-    CallerMemory memory = index->memory;
+    CallerMemory memory(index->memory.allocator());
     std::pmr::polymorphic_allocator<>(&memory).delete_object(index);
 }
 

@@ -42,7 +42,7 @@ void check_meta(const Description& meta) {
     const auto corrupt = [](const std::string& detail) { refuse_as_corrupt("section META: " + detail); };
     if (meta.engine > GEOIDX_ENGINE_OVERLAY)
         corrupt("engine " + std::to_string(meta.engine) + " is not known");
-    if (meta.codec > GEOIDX_CODEC_LOSSLESS ||
+    if (meta.codec > GEOIDX_CODEC_MAPPED ||
         (meta.codec != GEOIDX_CODEC_LOSSLESS && meta.engine == GEOIDX_ENGINE_GRAPH))
         corrupt("codec " + std::to_string(meta.codec) + " does not go with engine " +
                 std::to_string(meta.engine));
@@ -217,8 +217,13 @@ void write_common(const StoredIndex& stored, format::ContainerWriter& writer) {
     writer.add_bytes(TAG_BORDERS, border_bytes(stored));
 }
 
-void read_common(const format::Container& container, StoredIndex& stored) {
+void read_common(const format::Container& container, uint64_t max_vertices, StoredIndex& stored) {
     read_meta(container, stored.description);
+    if (max_vertices != 0 && stored.description.id_count > max_vertices)
+        throw Error(GEOIDX_ERROR_LIMIT, "the mesh of the index has " +
+                                            std::to_string(stored.description.id_count) +
+                                            " vertices, more than the " + std::to_string(max_vertices) +
+                                            " that max_vertices allows");
     const auto border_bytes = container.read_bytes(TAG_BORDERS, MAX_BYTES);
     const uint32_t leaf_count = read_hierarchy(container, border_bytes.size() / sizeof(uint32_t), stored);
     read_vertices(container, stored);

@@ -1,5 +1,7 @@
 #include "src/file/index_file.h"
 
+#include <initializer_list>
+
 #include "format/error.h"
 #include "src/file/sections.h"
 
@@ -8,11 +10,22 @@ namespace geodesic {
 namespace {
 
 bool is_overlay(const StoredIndex& stored) { return stored.description.engine == GEOIDX_ENGINE_OVERLAY; }
+bool is_mapped(const StoredIndex& stored) { return stored.description.codec == GEOIDX_CODEC_MAPPED; }
 
 void check_tags(const format::Container& container, const StoredIndex& stored) {
-    for (uint32_t tag : {TAG_QUANTA, TAG_SEGMENTS, TAG_OVERLAY_TABLES, TAG_BORDER_TABLES})
-        if (container.has(tag) != (is_overlay(stored) == (tag != TAG_BORDER_TABLES)))
-            refuse_as_corrupt("section " + format::tag_text(tag) + " does not go with the engine");
+    const bool overlay = is_overlay(stored), mapped = is_mapped(stored);
+    const auto expect = [&](std::initializer_list<uint32_t> tags, bool expected) {
+        for (const uint32_t tag : tags)
+            if (container.has(tag) != expected)
+                refuse_as_corrupt("section " + format::tag_text(tag) +
+                                  (expected ? " is missing" : " does not") +
+                                  (expected ? "" : " go with the engine and the codec"));
+    };
+    expect({TAG_BORDER_TABLES}, !overlay);
+    expect({TAG_QUANTA, TAG_SEGMENTS}, overlay);
+    expect({TAG_OVERLAY_TABLES}, overlay && !mapped);
+    expect({TAG_BORDER_INTERNAL_TABLES, TAG_INTERNAL_TABLES}, !mapped);
+    expect({TAG_HOP_CODES}, mapped);
 }
 
 }
@@ -20,17 +33,19 @@ void check_tags(const format::Container& container, const StoredIndex& stored) {
 void refuse_as_corrupt(const std::string& detail) { throw Error(GEOIDX_ERROR_CORRUPT, detail); }
 
 std::vector<std::byte> write_index(const StoredIndex& stored) {
-    format::ContainerWriter writer(stored.description.mesh_fingerprint);
+    format::ContainerWriter writer(stored.description.mesh_fingerprint,
+                                   is_mapped(stored) ? format::Packing::None : format::Packing::Zstd);
     write_common(stored, writer);
     is_overlay(stored) ? write_overlay(stored, writer) : write_graph(stored, writer);
     return writer.finish();
 }
 
-StoredIndex read_index(const format::Container& container, uint32_t threads) {
+StoredIndex read_index(const format::Container& container, const ReadOptions& options) {
     StoredIndex stored;
-    read_common(container, stored);
+    read_common(container, options.max_vertices, stored);
     check_tags(container, stored);
-    is_overlay(stored) ? read_overlay(container, threads, stored) : read_graph(container, threads, stored);
+    is_overlay(stored) ? read_overlay(container, options.threads, stored)
+                       : read_graph(container, options.threads, stored);
     return stored;
 }
 

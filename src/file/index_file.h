@@ -13,8 +13,14 @@ namespace geodesic {
 // The bytes of an index as format/SPEC.md describes them.
 std::vector<std::byte> write_index(const StoredIndex& stored);
 
+struct ReadOptions {
+    uint32_t threads = 1;      // that decode tables, at most
+    uint64_t max_vertices = 0; // that the caller's vertex array may have had; 0: any
+};
+
 // Throws Error if the sections are not those of an index, INDEX_TAGS. prepare() checks what can be checked
-// only with the numbering at hand. Tables are decoded on up to so many threads.
-StoredIndex read_index(const format::Container& container, uint32_t threads);
+// only with the numbering at hand. The tables of a mapped file stay in
+// the file, whose bytes must outlive what is read from it and be aligned as a uint16_t.
+StoredIndex read_index(const format::Container& container, const ReadOptions& options);
 
 }

@@ -62,21 +62,32 @@ void read_segments(const format::Container& container, StoredIndex& stored) {
                               std::to_string(stored.segment_length[i]));
 }
 
-bool is_packed(const StoredIndex& stored) { return stored.description.codec == GEOIDX_CODEC_PACKED; }
-
 }
 
 void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer) {
     writer.add_bytes(TAG_QUANTA, quantum_bytes(stored));
     writer.add_bytes(TAG_SEGMENTS, segment_bytes(stored));
-    is_packed(stored) ? write_packed_tables(stored, writer) : write_lossless_tables(stored, writer);
+    switch (stored.description.codec) {
+    case GEOIDX_CODEC_PACKED:
+        return write_packed_tables(stored, writer);
+    case GEOIDX_CODEC_MAPPED:
+        return write_mapped_tables(stored, writer);
+    default:
+        return write_lossless_tables(stored, writer);
+    }
 }
 
 void read_overlay(const format::Container& container, uint32_t threads, StoredIndex& stored) {
     read_quanta(container, stored);
     read_segments(container, stored);
-    is_packed(stored) ? read_packed_tables(container, threads, stored)
-                      : read_lossless_tables(container, threads, stored);
+    switch (stored.description.codec) {
+    case GEOIDX_CODEC_PACKED:
+        return read_packed_tables(container, threads, stored);
+    case GEOIDX_CODEC_MAPPED:
+        return read_mapped_tables(container, stored);
+    default:
+        return read_lossless_tables(container, threads, stored);
+    }
 }
 
 }

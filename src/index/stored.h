@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "src/index/description.h"
@@ -53,6 +54,9 @@ struct StoredIndex {
                                                  // owned below the diagonal
     std::vector<uint16_t> border_internal_codes; // BVIV: of every leaf, a row for each border vertex
     std::vector<uint16_t> internal_codes;        // IVIV: of every leaf, below the diagonal
+    // HOPS: in a mapped file, in place of the three above: the codes of HopTables, which is what queries
+    // read. They lie in the file, or in the index that is going to be saved.
+    std::span<const uint16_t> hop_codes;
 };
 
 }

@@ -22,8 +22,8 @@ void add_middles(const uint16_t* row, std::span<const float> segment_length, uin
 
 }
 
-void make_middle_tables(OverlayIndex& index) {
-    index.hops.inner_middles.assign(index.hops.inner.size(), TableCode::UNREACHED);
+void make_middle_tables(const OverlayIndex& index, std::span<uint16_t> middles) {
+    std::ranges::fill(middles, TableCode::UNREACHED);
     std::vector<float> length;
     for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) {
         length.assign(index.rings.size(p), 0);
@@ -31,7 +31,7 @@ void make_middle_tables(OverlayIndex& index) {
             length[k] = index.rings.segment_length[index.rings.begin[p] + k] / index.quantum[p];
         for (uint32_t i = 0; i < index.numbering.inner_size(p); ++i)
             add_middles(index.hops.inner.data() + index.inner_row(p, i), length,
-                        index.hops.inner_middles.data() + index.inner_row(p, i));
+                        middles.data() + index.inner_row(p, i));
     }
 }
 

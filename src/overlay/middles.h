@@ -4,7 +4,7 @@
 
 namespace geodesic {
 
-// Fills index.hops.inner_middles from the inner tables and the rings.
-void make_middle_tables(OverlayIndex& index);
+// Fills the codes of HopTables::inner_middles from the inner tables and the rings.
+void make_middle_tables(const OverlayIndex& index, std::span<uint16_t> middles);
 
 }

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "format/error.h"
+#include "geoidx.h"
 #include "src/overlay/middles.h"
 #include "src/overlay/proportion.h"
 
@@ -19,6 +22,44 @@ void measure_segments(OverlayIndex& index) {
             index.longest_segment[p] = std::fmax(index.longest_segment[p], rings.segment_length[k]);
 }
 
+// The codes of all hop tables, by their kinds. Kernels read past the end of a table, so that there are more
+// codes behind each kind, up to a whole block.
+template <class Code>
+struct HopParts {
+    std::span<Code> outer, inner, inner_middles, internal;
+};
+
+uint64_t size_of_part(uint64_t codes) { return SourceCode::whole_blocks(codes + TableCode::PADDING); }
+
+uint64_t hop_code_count(const OverlayIndex& index) {
+    return size_of_part(index.hops.outer_begin.back()) + 2 * size_of_part(index.hops.inner_begin.back()) +
+           size_of_part(index.numbering.internal_table_begin.back());
+}
+
+template <class Code>
+HopParts<Code> parts_of(const OverlayIndex& index, std::span<Code> codes) {
+    const auto take = [&](uint64_t count) {
+        const auto part = codes.first(size_of_part(count));
+        codes = codes.subspan(part.size());
+        return part;
+    };
+    HopParts<Code> parts;
+    parts.outer = take(index.hops.outer_begin.back());
+    parts.inner = take(index.hops.inner_begin.back());
+    parts.inner_middles = take(index.hops.inner_begin.back());
+    parts.internal = take(index.numbering.internal_table_begin.back());
+    return parts;
+}
+
+void view_hop_codes(OverlayIndex& index, std::span<const uint16_t> codes) {
+    const auto parts = parts_of(index, codes);
+    index.hops.codes = codes;
+    index.hops.outer = parts.outer;
+    index.hops.inner = parts.inner;
+    index.hops.inner_middles = parts.inner_middles;
+    index.hops.internal = parts.internal;
+}
+
 void lay_out_hop_tables(OverlayIndex& index) {
     const Numbering& numbering = index.numbering;
     HopTables& hops = index.hops;
@@ -32,8 +73,6 @@ void lay_out_hop_tables(OverlayIndex& index) {
         require_room_for(hops.outer_begin.back());
         require_room_for(hops.inner_begin.back());
     }
-    hops.outer.resize(hops.outer_begin.back() + TableCode::PADDING);
-    hops.inner.resize(hops.inner_begin.back() + TableCode::PADDING);
 }
 
 // ---- From the stored tables to rows along rings
@@ -70,33 +109,36 @@ void write_rows(const OverlayIndex& index, uint32_t patch, uint32_t count, const
         for (uint32_t k = 0; k < places; ++k) *rows++ = code(row, position[k]);
 }
 
-void write_outer_table(const OverlaySquare& of_parent, uint32_t patch, OverlayIndex& index) {
+void write_outer_table(const OverlayIndex& index, const OverlaySquare& of_parent, uint32_t patch,
+                       std::span<uint16_t> outer) {
     const Numbering& numbering = index.numbering;
     const uint32_t* overlay_position = numbering.overlay_position.data() + numbering.border_begin[patch];
     write_rows(
         index, patch, numbering.overlay_size(numbering.parent[patch]),
         [&](uint32_t row, uint32_t position) { return of_parent.at(row, overlay_position[position]); },
-        index.hops.outer.data() + index.outer_row(patch, 0));
+        outer.data() + index.outer_row(patch, 0));
 }
 
-void write_overlay_tables(const StoredIndex& stored, OverlayIndex& index) {
+void write_overlay_tables(const StoredIndex& stored, const OverlayIndex& index,
+                          const HopParts<uint16_t>& parts) {
     const Numbering& numbering = index.numbering;
     const uint16_t* codes = stored.overlay_codes.data();
     for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
         const OverlaySquare square(numbering, p, codes);
         codes += numbering.overlay_entries(p);
         for (uint32_t child = numbering.child_begin[p]; child < numbering.child_begin[p + 1]; ++child)
-            write_outer_table(square, child, index);
+            write_outer_table(index, square, child, parts.outer);
         if (p == 0) continue;
         const size_t border = numbering.border_size(p);
         write_rows(
             index, p, numbering.inner_size(p),
             [&](uint32_t row, uint32_t position) { return square.at(border + row, position); },
-            index.hops.inner.data() + index.inner_row(p, 0));
+            parts.inner.data() + index.inner_row(p, 0));
     }
 }
 
-void write_leaf_tables(const StoredIndex& stored, OverlayIndex& index) {
+void write_leaf_tables(const StoredIndex& stored, const OverlayIndex& index,
+                       const HopParts<uint16_t>& parts) {
     for (uint32_t leaf = index.numbering.first_leaf(); leaf < index.numbering.patch_count(); ++leaf)
         write_rows(
             index, leaf, index.numbering.internal_size(leaf),
@@ -104,8 +146,8 @@ void write_leaf_tables(const StoredIndex& stored, OverlayIndex& index) {
                 return stored
                     .border_internal_codes[index.numbering.border_internal_entry(leaf, position, row)];
             },
-            index.hops.inner.data() + index.inner_row(leaf, 0));
-    index.hops.internal.assign(stored.internal_codes.begin(), stored.internal_codes.end());
+            parts.inner.data() + index.inner_row(leaf, 0));
+    std::ranges::copy(stored.internal_codes, parts.internal.begin());
 }
 
 // The distance of two positions on the border of a patch, from the table of its parent, in steps of the
@@ -120,18 +162,36 @@ uint16_t code_by_parent(const OverlayIndex& index, uint32_t patch, uint32_t i, u
 
 // The distance of two vertices on a patch's border is stored only in the table of the patch's parent. Parents
 // are treated before their children, so that their own tables are complete.
-void take_border_codes_from_parents(OverlayIndex& index) {
+void take_border_codes_from_parents(const OverlayIndex& index, std::span<uint16_t> outer) {
     const Numbering& numbering = index.numbering;
     for (uint32_t child = numbering.child_begin[1]; child < numbering.patch_count(); ++child) {
         const uint32_t patch = numbering.parent[child], border = numbering.border_size(patch);
         const uint32_t* overlay_position = numbering.overlay_position.data() + numbering.border_begin[child];
         const uint32_t* position = index.rings.position.data() + index.rings.begin[child];
-        uint16_t* code = index.hops.outer.data() + index.outer_row(child, 0);
+        uint16_t* code = outer.data() + index.outer_row(child, 0);
         for (uint32_t i = 0; i < border; ++i)
             for (uint32_t k = 0; k < index.rings.size(child); ++k, ++code)
                 if (const uint32_t j = overlay_position[position[k]]; j < border && i != j)
                     *code = code_by_parent(index, patch, std::max(i, j), std::min(i, j));
     }
+}
+
+void make_hop_codes(const StoredIndex& stored, OverlayIndex& index) {
+    index.hops.made.resize(hop_code_count(index));
+    view_hop_codes(index, index.hops.made);
+    const auto parts = parts_of(index, std::span(index.hops.made));
+    write_overlay_tables(stored, index, parts);
+    write_leaf_tables(stored, index, parts);
+    take_border_codes_from_parents(index, parts.outer);
+    make_middle_tables(index, parts.inner_middles);
+}
+
+void take_hop_codes(const StoredIndex& stored, OverlayIndex& index) {
+    const uint64_t needed = hop_code_count(index);
+    if (stored.hop_codes.size() != needed)
+        throw Error(GEOIDX_ERROR_CORRUPT, "section HOPS holds " + std::to_string(stored.hop_codes.size()) +
+                                              " codes, not " + std::to_string(needed));
+    view_hop_codes(index, stored.hop_codes);
 }
 
 }
@@ -144,10 +204,10 @@ void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
     require_proportion(index);
     measure_segments(index);
     lay_out_hop_tables(index);
-    write_overlay_tables(stored, index);
-    write_leaf_tables(stored, index);
-    take_border_codes_from_parents(index);
-    make_middle_tables(index);
+    if (stored.description.codec == GEOIDX_CODEC_MAPPED)
+        take_hop_codes(stored, index);
+    else
+        make_hop_codes(stored, index);
 }
 
 void restore_overlay(const OverlayIndex& index, StoredIndex& stored) {
@@ -169,7 +229,9 @@ void restore_overlay(const OverlayIndex& index, StoredIndex& stored) {
         for (uint32_t i = 0; i < numbering.border_size(leaf); ++i)
             for (uint32_t j = 0; j < numbering.internal_size(leaf); ++j)
                 stored.border_internal_codes.push_back(index.border_internal_code(leaf, i, j));
-    stored.internal_codes.assign(index.hops.internal.begin(), index.hops.internal.end());
+    const auto internal = index.hops.internal.first(numbering.internal_table_begin.back());
+    stored.internal_codes.assign(internal.begin(), internal.end());
+    stored.hop_codes = index.hops.codes;
 }
 
 }

@@ -18,15 +18,16 @@ namespace geodesic {
 // in steps of the parent's quantum; hops up and across read it. Its inner table has a row for each of its own
 // inner vertices, in steps of its own quantum; hops down read it. Beside each row of an inner table lies a
 // row of inner_middles, which has, for each place, the distance to the middle of the segment that begins
-// there.
+// there. All codes lie one table kind after the other, so that a mapped file can hold them as they are.
 struct HopTables {
     explicit HopTables(std::pmr::memory_resource* memory)
-        : outer_begin(memory), inner_begin(memory), outer(memory), inner(memory), inner_middles(memory),
-          internal(memory) {}
+        : outer_begin(memory), inner_begin(memory), made(memory) {}
 
     Array<uint64_t> outer_begin, inner_begin; // per patch
-    Array<uint16_t> outer, inner, inner_middles;
-    Array<uint16_t> internal; // of leaves, below the diagonal, at Numbering::internal_entry()
+    std::span<const uint16_t> codes;          // those of the following four, in this order
+    std::span<const uint16_t> outer, inner, inner_middles;
+    std::span<const uint16_t> internal; // of leaves, below the diagonal, at Numbering::internal_entry()
+    Array<uint16_t> made;               // `codes`, unless they lie in a file
 };
 
 // The samples of all rings, and of the outer tables the rows and columns that belong to samples. SSSD looks

@@ -1,5 +1,8 @@
 #include "src/query/index.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "geoidx.h"
 #include "src/graph/prepare.h"
 #include "src/overlay/pair_tables.h"
@@ -29,6 +32,15 @@ StoredIndex restore(const Index& index) {
     else
         restore_graph(std::get<GraphIndex>(index.engine), stored);
     return stored;
+}
+
+bool follows_from_tables(const Index& index) {
+    StoredIndex stored = restore(index);
+    const auto codes = std::exchange(stored.hop_codes, {});
+    stored.description.codec = GEOIDX_CODEC_PACKED;
+    Index again(std::pmr::get_default_resource());
+    prepare(stored, again);
+    return std::ranges::equal(std::get<OverlayIndex>(again.engine).hops.codes, codes);
 }
 
 uint64_t table_entries(const Index& index) {

@@ -27,7 +27,8 @@ struct Index {
     }
 };
 
-// Fills an empty index from what is stored. Throws Error where what is stored cannot be an index.
+// Fills an empty index from what is stored. Throws Error where what is stored cannot be an index. Hop codes
+// of a mapped file stay where they are.
 void prepare(const StoredIndex& stored, Index& index);
 
 // Makes what only pairs need, if it has not been made: samples and labels of the overlay engine. Any thread
@@ -36,6 +37,10 @@ void prepare_pairs(const Index& index);
 
 // What is stored of an index: the opposite of prepare().
 StoredIndex restore(const Index& index);
+
+// Whether all that queries read of an index that was opened from a mapped file is what prepare() would have
+// made. Opening does not ask, since it takes longer than everything else that opening does.
+bool follows_from_tables(const Index& index);
 
 // Distances that are stored in the tables of an index.
 uint64_t table_entries(const Index& index);

@@ -36,6 +36,9 @@ NUMBER(GEOIDX_ENGINE_GRAPH, 0);
 NUMBER(GEOIDX_ENGINE_OVERLAY, 1);
 NUMBER(GEOIDX_CODEC_PACKED, 0);
 NUMBER(GEOIDX_CODEC_LOSSLESS, 1);
+NUMBER(GEOIDX_CODEC_MAPPED, 2);
+NUMBER(GEOIDX_OPEN_PAIRS, 1);
+NUMBER(GEOIDX_OPEN_BORROW, 2);
 NUMBER(GEOIDX_MAX_LEVELS, 8);
 
 FIELD(geoidx_allocator, allocate, 0);
@@ -89,7 +92,9 @@ FIELD(geoidx_open_options, expected_mesh, 8);
 FIELD(geoidx_open_options, allocator, 16);
 FIELD(geoidx_open_options, threads, 40);
 FIELD(geoidx_open_options, reserved, 44);
-SIZE(geoidx_open_options, 48);
+FIELD(geoidx_open_options, max_vertices, 48);
+FIELD(geoidx_open_options, max_memory, 56);
+SIZE(geoidx_open_options, 64);
 
 FIELD(geoidx_info, struct_size, 0);
 FIELD(geoidx_info, metric, 4);

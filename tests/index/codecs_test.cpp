@@ -12,14 +12,15 @@
 #include "src/overlay/codes.h"
 #include "tests/capi/calls.h"
 #include "tests/capi/refusals.h"
-#include "tests/query/query_cases.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
 
 namespace {
 
-StoredIndex stored_in(const Bytes& file) { return read_index(format::Container::parse(file, INDEX_TAGS), 2); }
+StoredIndex stored_in(const Bytes& file) {
+    return read_index(format::Container::parse(file, INDEX_TAGS), {.threads = 2});
+}
 
 Bytes file_of(StoredIndex stored, uint32_t codec) {
     stored.description.codec = codec;
@@ -47,6 +48,18 @@ void check_same_codes(const StoredIndex& a, const StoredIndex& b) {
     CHECK(a.overlay_codes == b.overlay_codes);
     CHECK(a.border_internal_codes == b.border_internal_codes);
     CHECK(a.internal_codes == b.internal_codes);
+}
+
+constexpr std::array CODECS{uint32_t{GEOIDX_CODEC_PACKED}, uint32_t{GEOIDX_CODEC_LOSSLESS},
+                            uint32_t{GEOIDX_CODEC_MAPPED}};
+
+void check_same_answers(const geoidx* a, const geoidx* b, uint32_t count) {
+    for (uint32_t source : {0u, count / 3, count - 1}) {
+        CHECK(msad(a, source, count) == msad(b, source, count));
+        CHECK(sssd(a, source, count / 2) == sssd(b, source, count / 2));
+    }
+    const std::vector<uint32_t> sources{0, count / 2, count - 1};
+    CHECK(msad(a, sources, count) == msad(b, sources, count));
 }
 
 // The packed file with the raw bytes of one section of tables changed.
@@ -89,21 +102,34 @@ TEST_CASE("codecs: packed and lossless files hold the same codes") {
 }
 
 TEST_CASE("codecs: an index answers the same bits, whatever the form of its file") {
-    for (const QueryCase& test : query_cases()) {
-        CAPTURE(test.name);
-        const geoidx* built = index_of(test);
-        const auto packed = open(save(built, GEOIDX_CODEC_PACKED));
-        const auto lossless = open(save(built, GEOIDX_CODEC_LOSSLESS));
-        CHECK(info_of(lossless.get()).codec == GEOIDX_CODEC_LOSSLESS);
-        CHECK(save(lossless.get(), GEOIDX_CODEC_PACKED) == save(built, GEOIDX_CODEC_PACKED));
-        const uint32_t count = test.mesh.vertex_count();
-        for (uint32_t source : {0u, count / 3, count - 1}) {
-            const auto expected = msad(built, source, count);
-            for (const geoidx* opened : {packed.get(), lossless.get()}) {
-                CHECK(msad(opened, source, count) == expected);
-                CHECK(sssd(opened, source, count / 2) == sssd(built, source, count / 2));
+    for (const auto& [name, mesh] : mesh_zoo())
+        for (uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES})
+            for (uint32_t levels : {0u, 1u, 3u}) {
+                CAPTURE(name);
+                CAPTURE(metric);
+                CAPTURE(levels);
+                auto options = build_options(metric, levels);
+                options.engine = GEOIDX_ENGINE_OVERLAY;
+                const auto built = build(mesh, options);
+                const Bytes packed = save(built.get());
+                for (uint32_t codec : CODECS) {
+                    const Bytes file = save(built.get(), codec);
+                    const auto opened = open(file);
+                    CHECK(info_of(opened.get()).codec == codec);
+                    CHECK(geoidx_verify(file.data(), file.size(), nullptr, nullptr) == GEOIDX_OK);
+                    for (uint32_t other : CODECS)
+                        CHECK(save(opened.get(), other) == save(built.get(), other));
+                    check_same_answers(opened.get(), built.get(), mesh.vertex_count());
+                }
             }
-        }
+}
+
+TEST_CASE("codecs: the graph engine has one form") {
+    const auto built = build(hills(18, 18), build_options(GEOIDX_METRIC_EXACT, 2));
+    CHECK(info_of(built.get()).codec == GEOIDX_CODEC_LOSSLESS);
+    for (uint32_t codec : CODECS) {
+        CHECK(save(built.get(), codec) == save(built.get(), GEOIDX_CODEC_LOSSLESS));
+        CHECK(info_of(open(save(built.get(), codec)).get()).codec == GEOIDX_CODEC_LOSSLESS);
     }
 }
 
@@ -186,7 +212,7 @@ TEST_CASE("codecs: save options are checked, and NULL means the form of the file
     const auto built = build(hills(18, 18), build_options(GEOIDX_METRIC_EXACT, 2));
     geoidx_save_options options;
     geoidx_save_options_init(&options);
-    options.codec = 2;
+    options.codec = 3;
     uint64_t size = 0;
     check_refused(geoidx_save_memory(built.get(), &options, nullptr, 0, &size), GEOIDX_ERROR_INVALID_ARGUMENT,
                   "codec");

@@ -22,7 +22,7 @@ std::vector<unsigned char> bytes_of(const geoidx& index, const geoidx_save_optio
 
 }
 
-const std::vector<std::string> CODEC_NAMES{"packed", "lossless"};
+const std::vector<std::string> CODEC_NAMES{"packed", "lossless", "mapped"};
 
 uint32_t codec_of_name(const std::string& name) {
     return static_cast<uint32_t>(std::ranges::find(CODEC_NAMES, name) - CODEC_NAMES.begin());
@@ -33,7 +33,7 @@ void add_codec_option(CLI::App& command, std::string& codec) {
     command
         .add_option("--codec", codec,
                     "the form of the file: packed is small; lossless has a PNG of floats a table, as in the "
-                    "paper")
+                    "paper; mapped is large, and open at once")
         ->check(CLI::IsMember(CODEC_NAMES))
         ->capture_default_str();
 }

@@ -1,0 +1,39 @@
+// The tables of the overlay engine as they lie in memory, so that queries read them in the file.
+#include <bit>
+#include <string>
+
+#include "src/file/sections.h"
+#include "src/overlay/codes.h"
+
+namespace geodesic {
+
+namespace {
+
+void require_little_endian() {
+    if constexpr (std::endian::native != std::endian::little)
+        throw Error(GEOIDX_ERROR_UNSUPPORTED_VERSION, "mapped files are for little-endian processors");
+}
+
+// Whether no code is over the largest, which is that of no path.
+bool are_codes(std::span<const uint16_t> values) {
+    unsigned all = 0;
+    for (const uint16_t value : values) all |= value;
+    return all <= TableCode::UNREACHED;
+}
+
+}
+
+void write_mapped_tables(const StoredIndex& stored, format::ContainerWriter& writer) {
+    require_little_endian();
+    writer.add_raw(TAG_HOP_CODES, std::as_bytes(stored.hop_codes));
+}
+
+void read_mapped_tables(const format::Container& container, StoredIndex& stored) {
+    require_little_endian();
+    const auto bytes = container.view_bytes(TAG_HOP_CODES);
+    if (bytes.size() % sizeof(uint16_t) != 0) refuse_as_corrupt("section HOPS ends within a code");
+    stored.hop_codes = {reinterpret_cast<const uint16_t*>(bytes.data()), bytes.size() / sizeof(uint16_t)};
+    if (!are_codes(stored.hop_codes)) refuse_as_corrupt("section HOPS holds what is no code of a distance");
+}
+
+}
