@@ -12,8 +12,8 @@ namespace {
 
 // As it was made, without padding.
 uint64_t codes_made(const OverlayIndex& index) {
-    return index.hops.outer.size() + index.hops.inner.size() + index.hops.inner_middles.size() +
-           index.pairs.samples.tables.size() + index.pairs.labels.codes.size() - 4 * TableCode::PADDING;
+    return index.hops.outer_begin.back() + 2 * index.hops.inner_begin.back() +
+           index.pairs.samples.tables.size() + index.pairs.labels.codes.size() - TableCode::PADDING;
 }
 
 uint64_t coarse_codes(const OverlayIndex& index) {

@@ -17,7 +17,7 @@ MAGIC = bytes.fromhex("89474944580D0A1A")
 RAW, ZSTD, PNG, IMAGES = 0, 1, 2, 3
 NONE = 0xFFFFFFFF
 GRAPH, OVERLAY = 0, 1
-PACKED, LOSSLESS = 0, 1
+PACKED, LOSSLESS, MAPPED = 0, 1, 2
 RUN = 1 << 18
 
 
@@ -208,6 +208,8 @@ class Index:
             self._read_overlays()
         if self.codec == PACKED:
             return self._read_packed()
+        if self.codec == MAPPED:
+            return self._read_mapped()
         self._read_leaf_tables()
         if self.engine == GRAPH:
             self._read_border_tables()
@@ -311,6 +313,85 @@ class Index:
         tables = self._packed("IVIV", sum(triangle[p] for p in self.leaves))
         self.internal = {p: self._next_triangle(tables, p) for p in self.leaves}
         tables.require_end()
+
+    # ---- Mapped
+
+    def _read_mapped(self):
+        require(self.sections["HOPS"].codec == RAW, "HOPS is not raw")
+        codes = Fields(self.sections["HOPS"].bytes())
+        places, patches = [self._places(patch) for patch in range(self.patch_count)], range(1, self.patch_count)
+        insides, rings = [len(inside) for inside in self.inside], [len(on) for on, _ in places]
+        outer = self._part(codes, [(len(self.overlay(self.parent[p])), rings[p]) for p in patches])
+        inner = self._part(codes, [(insides[p], rings[p]) for p in patches])
+        middles = self._part(codes, [(insides[p], rings[p]) for p in patches])
+        triangles = self._part(codes, [(1, n * (n - 1) // 2) for n in (insides[p] for p in self.leaves)])
+        require(codes.at == len(codes.content), "HOPS is longer than its tables")
+        self.overlay_table = [self._from_children(patch, places, outer) for patch in range(self.inner_count)]
+        for patch in patches:
+            self._check_repeated(patch, places[patch][0], outer[patch - 1], inner[patch - 1], middles[patch - 1])
+        self.border_internal = {p: inner[p - 1][:, places[p][1]].T for p in self.leaves}
+        self.internal = {p: self._triangle(entries[0], insides[p]) for p, entries in zip(self.leaves, triangles)}
+
+    def _places(self, patch):
+        """The position in the border of each place, and the own place of each position."""
+        ends, places, own, first = self.segment_end[patch], [], [], 0
+        while first < len(ends):
+            last = first
+            while ends[last] == last + 1:
+                last += 1
+            chain = list(range(first, last + 1))
+            closed = ends[last] == first
+            before, after = (chain[-2:], chain[:2]) if closed else (chain[:1] * 2, chain[-1:] * 2)
+            own += range(len(places) + 2, len(places) + 2 + len(chain))
+            places += before + chain + after
+            first = last + 1
+        return numpy.array(places, int), numpy.array(own, int)
+
+    def _part(self, codes, shapes):
+        count = sum(rows * columns for rows, columns in shapes)
+        entries = codes.take("<u2", (count + 32 + 31) // 32 * 32)
+        entries, at, tables = numpy.where(entries == 32767, numpy.inf, entries).astype("f4"), 0, []
+        for rows, columns in shapes:
+            tables.append(entries[at : at + rows * columns].reshape(rows, columns))
+            at += rows * columns
+        return tables
+
+    def _from_children(self, patch, places, outer):
+        position = {number: i for i, number in enumerate(self.overlay(patch))}
+        table = numpy.full((len(position), len(position)), numpy.nan, "f4")
+        for child in self.children[patch]:
+            at = [position[number] for number in self.border[child]]
+            table[:, at] = outer[child - 1][:, places[child][1]]
+        numpy.testing.assert_array_equal(table, table.T)
+        return table
+
+    def _check_repeated(self, patch, on, outer, inner, middles):
+        """Entries that follow from others."""
+        parent = self.parent[patch]
+        position = {number: i for i, number in enumerate(self.overlay(parent))}
+        at = [position[self.border[patch][i]] for i in on]
+        numpy.testing.assert_array_equal(outer, self.overlay_table[parent][:, at])
+        if patch < self.inner_count:
+            size = len(self.border[patch])
+            numpy.testing.assert_array_equal(inner, self.overlay_table[patch][size:][:, on])
+        for place, (i, j) in enumerate(zip(on, on[1:])):
+            if self.segment_end[patch][i] == j:
+                length = self.segment_length[patch][i] / self.quantum[patch]
+                square = 0.5 * (inner[:, place] ** 2 + inner[:, place + 1] ** 2) - 0.25 * length**2
+                expected = numpy.where(square >= 0, numpy.trunc(numpy.sqrt(square) + 0.5), numpy.inf)
+                # Where the sum is rounded otherwise, the root may be, too.
+                off = numpy.abs(middles[:, place] - expected)
+                require(not (off > 1).any(), "a middle is elsewhere")
+            else:
+                require(numpy.isinf(middles[:, place]).all(), "a middle without a segment")
+
+    @staticmethod
+    def _triangle(entries, size):
+        table = numpy.zeros((size, size), "f4")
+        table[numpy.tril_indices(size, -1)] = entries
+        return table + table.T
+
+    # ---- Packed
 
     def _packed(self, tag, entries):
         raw = numpy.frombuffer(self.sections[tag].bytes(), "u1")

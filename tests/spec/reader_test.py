@@ -66,17 +66,18 @@ class Subject:
         self.path = FOLDER / f"{name}.geoidx"
         run("build", mesh, "-o", self.path, *options)
         self.index = Index(self.path)
-        self.require_same_tables_lossless()
+        self.require_same_tables("lossless", 1)
+        self.require_same_tables("mapped", 2)
         self.engine = (OverlayEngine if self.index.engine == OVERLAY else GraphEngine)(self.index)
 
-    def require_same_tables_lossless(self):
-        """The file in its other form holds the same entries."""
+    def require_same_tables(self, codec, number):
+        """The file in another form holds the same entries."""
         if self.index.engine != OVERLAY:
             return
-        lossless = FOLDER / "lossless.geoidx"
-        run("convert", self.path, "-o", lossless, "--codec", "lossless")
-        other = Index(lossless)
-        assert (self.index.codec, other.codec) == (0, 1)
+        converted = FOLDER / f"{codec}.geoidx"
+        run("convert", self.path, "-o", converted, "--codec", codec)
+        other = Index(converted)
+        assert (self.index.codec, other.codec) == (0, number)
         numpy.testing.assert_array_equal(self.index.quantum, other.quantum)
         for mine, others in zip(self.index.overlay_table, other.overlay_table):
             numpy.testing.assert_array_equal(mine, others)
