@@ -127,8 +127,8 @@ void Container::read_matrices(std::uint32_t tag, std::span<const MatrixTarget> m
     if (found.codec == Codec::Png) {
         const auto streams = png_streams(tag, matrices.size());
         share_out(streams.size(), [&](std::size_t i) {
-            const auto& [values, rows, cols] = matrices[i];
-            decode_image(tag, i, [&] { decode_png(streams[i], rows, cols, values); });
+            const MatrixTarget& matrix = matrices[i];
+            decode_image(tag, i, [&] { decode_png(streams[i], matrix.rows, matrix.cols, matrix.values); });
         });
         return;
     }
