@@ -102,15 +102,15 @@ TEST_CASE("codecs: packed and lossless files hold the same codes") {
 }
 
 TEST_CASE("codecs: an index answers the same bits, whatever the form of its file") {
-    for (const auto& [name, mesh] : mesh_zoo())
+    for (const NamedMesh& of : mesh_zoo())
         for (uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES})
             for (uint32_t levels : {0u, 1u, 3u}) {
-                CAPTURE(name);
+                CAPTURE(of.name);
                 CAPTURE(metric);
                 CAPTURE(levels);
                 auto options = build_options(metric, levels);
                 options.engine = GEOIDX_ENGINE_OVERLAY;
-                const auto built = build(mesh, options);
+                const auto built = build(of.mesh, options);
                 const Bytes packed = save(built.get());
                 for (uint32_t codec : CODECS) {
                     const Bytes file = save(built.get(), codec);
@@ -119,7 +119,7 @@ TEST_CASE("codecs: an index answers the same bits, whatever the form of its file
                     CHECK(geoidx_verify(file.data(), file.size(), nullptr, nullptr) == GEOIDX_OK);
                     for (uint32_t other : CODECS)
                         CHECK(save(opened.get(), other) == save(built.get(), other));
-                    check_same_answers(opened.get(), built.get(), mesh.vertex_count());
+                    check_same_answers(opened.get(), built.get(), of.mesh.vertex_count());
                 }
             }
 }
