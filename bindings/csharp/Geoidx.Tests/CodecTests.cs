@@ -19,16 +19,17 @@ namespace Geoidx.Tests
         [Theory]
         [InlineData(GeodesicCodec.Packed)]
         [InlineData(GeodesicCodec.Lossless)]
-        public void AFileOfEitherCodecAnswersTheSameBits(GeodesicCodec codec)
+        [InlineData(GeodesicCodec.Mapped)]
+        public void AFileOfAnyCodecAnswersTheSameBits(GeodesicCodec codec)
         {
             byte[] bytes = built.ToBytes(codec);
             using GeodesicIndex opened = GeodesicIndex.Open(bytes);
             Assert.Equal(codec, opened.Info.Codec);
-            Assert.Equal(built.FromSources(5), opened.FromSources(5));
-            Assert.Equal(built.Distance(0, Side * Side - 1), opened.Distance(0, Side * Side - 1));
+            AnswersAsBuilt(opened);
             Assert.Equal(bytes, opened.ToBytes());
             Assert.Equal(built.ToBytes(GeodesicCodec.Packed), opened.ToBytes(GeodesicCodec.Packed));
             Assert.Equal(built.ToBytes(GeodesicCodec.Lossless), opened.ToBytes(GeodesicCodec.Lossless));
+            Assert.Equal(built.ToBytes(GeodesicCodec.Mapped), opened.ToBytes(GeodesicCodec.Mapped));
             Assert.Empty(GeodesicIndex.Verify(bytes));
         }
 
@@ -47,18 +48,22 @@ namespace Geoidx.Tests
                 Shapes.Plane(9), new BuildOptions { Engine = GeodesicEngine.Graph });
             Assert.Equal(GeodesicCodec.Lossless, graph.Info.Codec);
             Assert.Equal(graph.ToBytes(GeodesicCodec.Lossless), graph.ToBytes(GeodesicCodec.Packed));
+            Assert.Equal(graph.ToBytes(GeodesicCodec.Lossless), graph.ToBytes(GeodesicCodec.Mapped));
             Assert.Equal((0.0, 0.0), (graph.Info.SmallestStep, graph.Info.LargestStep));
         }
 
         [Theory]
         [InlineData(GeodesicCodec.Packed)]
         [InlineData(GeodesicCodec.Lossless)]
+        [InlineData(GeodesicCodec.Mapped)]
         public async Task FilesAndStreamsTakeACodec(GeodesicCodec codec)
         {
             byte[] expected = built.ToBytes(codec);
             using var stream = new MemoryStream();
             built.Save(stream, codec);
             Assert.Equal(expected, stream.ToArray());
+            stream.Position = 0;
+            using (GeodesicIndex opened = GeodesicIndex.Open(stream)) AnswersAsBuilt(opened);
             string path = Path.GetTempFileName();
             try
             {
@@ -67,11 +72,52 @@ namespace Geoidx.Tests
                 File.WriteAllBytes(path, new byte[1]);
                 await built.SaveAsync(path, codec);
                 Assert.Equal(expected, File.ReadAllBytes(path));
+                using GeodesicIndex opened = GeodesicIndex.Open(path);
+                AnswersAsBuilt(opened);
             }
             finally
             {
                 File.Delete(path);
             }
+        }
+
+        [Fact]
+        public void BytesOfAMappedFileAreNotNeededAfterwards()
+        {
+            byte[] bytes = built.ToBytes(GeodesicCodec.Mapped);
+            using GeodesicIndex opened = GeodesicIndex.Open(bytes);
+            Array.Clear(bytes, 0, bytes.Length);
+            AnswersAsBuilt(opened);
+        }
+
+        [Fact]
+        public void TablesOfAMappedFileTakeNoMemoryOfTheIndex()
+        {
+            byte[] bytes = built.ToBytes(GeodesicCodec.Mapped);
+            var copying = new CountingAllocator();
+            var mapping = new CountingAllocator();
+            string path = Path.GetTempFileName();
+            try
+            {
+                File.WriteAllBytes(path, bytes);
+                using GeodesicIndex copied = GeodesicIndex.Open(bytes, new OpenOptions { Allocator = copying });
+                using GeodesicIndex mapped = GeodesicIndex.Open(path, new OpenOptions { Allocator = mapping });
+                Assert.InRange(mapping.Bytes, 1, copying.Bytes - bytes.Length);
+            }
+            finally
+            {
+                File.Delete(path);
+            }
+        }
+
+        [Fact]
+        public void AMappedFileHasItsTablesAsTheyAre()
+        {
+            using GeodesicIndex opened = GeodesicIndex.Open(built.ToBytes(GeodesicCodec.Mapped));
+            GeodesicSection tables = Assert.Single(opened.Sections, section => section.Tag == "HOPS");
+            Assert.Equal(SectionCoding.Raw, tables.Coding);
+            Assert.Equal(tables.RawSize, tables.StoredSize);
+            Assert.DoesNotContain(opened.Sections, section => Tables.Contains(section.Tag));
         }
 
         [Theory]
@@ -116,6 +162,12 @@ namespace Geoidx.Tests
             Assert.InRange(fine.Info.SmallestStep, double.Epsilon, fine.Info.LargestStep);
             Assert.InRange(coarse.Info.SmallestStep, 2 * fine.Info.SmallestStep, coarse.Info.LargestStep);
             Assert.True(coarse.ToBytes().Length < fine.ToBytes().Length);
+        }
+
+        private void AnswersAsBuilt(GeodesicIndex opened)
+        {
+            Assert.Equal(built.FromSources(5), opened.FromSources(5));
+            Assert.Equal(built.Distance(0, Side * Side - 1), opened.Distance(0, Side * Side - 1));
         }
     }
 }

@@ -239,6 +239,15 @@ namespace Geoidx.Tests
             };
             foreach (BuildOptions options in refused)
                 Assert.Throws<ArgumentOutOfRangeException>(() => GeodesicIndex.Build(Shapes.Square(), options));
+            OpenOptions[] refusedToOpen =
+            {
+                new OpenOptions { Threads = -1 },
+                new OpenOptions { MaxVertices = -1 },
+                new OpenOptions { MaxMemory = long.MinValue },
+            };
+            byte[] bytes = SquareBytes();
+            foreach (OpenOptions options in refusedToOpen)
+                Assert.Throws<ArgumentOutOfRangeException>(() => GeodesicIndex.Open(bytes, options));
             using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
             using GeodesicQuery query = index.CreateQuery();
             Assert.Throws<ArgumentOutOfRangeException>(() => query.SetThreads(-1));
@@ -307,6 +316,44 @@ namespace Geoidx.Tests
             byte[] bytes = SquareBytes();
             for (int i = 0; i < 4; i++) bytes[SectionCountOffset + i] = 0xff;
             Fails<GeodesicLimitException>(GeodesicStatus.Limit, "", () => GeodesicIndex.Open(bytes));
+        }
+
+        [Theory]
+        [InlineData(GeodesicCodec.Packed)]
+        [InlineData(GeodesicCodec.Lossless)]
+        [InlineData(GeodesicCodec.Mapped)]
+        public void MoreThanTheOptionsAllowIsALimit(GeodesicCodec codec)
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(20));
+            byte[] bytes = index.ToBytes(codec);
+            void Refused(string detail, OpenOptions options) => Fails<GeodesicLimitException>(
+                GeodesicStatus.Limit, detail, () => GeodesicIndex.Open(bytes, options));
+            Refused("399 that MaxVertices allows", new OpenOptions { MaxVertices = 399 });
+            Refused("MaxMemory allows", new OpenOptions { MaxMemory = 1000 });
+            var enough = new OpenOptions { MaxVertices = 400, MaxMemory = 1L << 40 };
+            using GeodesicIndex opened = GeodesicIndex.Open(bytes, enough);
+            Assert.Equal(index.Distance(0, 399), opened.Distance(0, 399));
+        }
+
+        [Fact]
+        public void AQueryThatNeedsMoreThanMaxMemoryIsALimit()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(40));
+            byte[] bytes = index.ToBytes();
+            var allocator = new CountingAllocator();
+            long withFields, withPairs;
+            using (GeodesicIndex opened = GeodesicIndex.Open(bytes, new OpenOptions { Allocator = allocator }))
+            {
+                opened.FromSources(0);
+                withFields = allocator.Bytes;
+                opened.Distance(0, 1599);
+                withPairs = allocator.Bytes;
+            }
+            var options = new OpenOptions { MaxMemory = (withFields + withPairs) / 2 };
+            using GeodesicIndex limited = GeodesicIndex.Open(bytes, options);
+            float[] field = limited.FromSources(0);
+            Fails<GeodesicLimitException>(GeodesicStatus.Limit, "MaxMemory", () => limited.Distance(0, 1599));
+            Assert.Equal(field, limited.FromSources(0));
         }
 
         [Fact]

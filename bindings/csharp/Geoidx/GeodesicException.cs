@@ -68,7 +68,7 @@ namespace Geoidx
         internal GeodesicMeshMismatchException(string detail) : base(GeodesicStatus.MeshMismatch, detail) { }
     }
 
-    /// <summary>A count is over what the format or the library can hold.</summary>
+    /// <summary>A count is over what the format, the library or <see cref="OpenOptions"/> allow.</summary>
     public sealed class GeodesicLimitException : GeodesicException
     {
         internal GeodesicLimitException(string detail) : base(GeodesicStatus.Limit, detail) { }

@@ -18,6 +18,7 @@ namespace Geoidx
         /// <exception cref="GeodesicMeshMismatchException">
         /// It belongs to another mesh than the expected one.
         /// </exception>
+        /// <exception cref="GeodesicLimitException">It asks for more than the options allow.</exception>
         public static GeodesicIndex Open(string path, OpenOptions? options = null)
         {
             string checkedPath = NativeText.CheckedPath(path);

@@ -18,6 +18,19 @@ namespace Geoidx
         /// <summary>Threads that decode tables. Default: 0, one per processor.</summary>
         public int Threads { get; set; }
 
+        /// <summary>
+        /// The most vertices, counted as <see cref="GeodesicInfo.VertexCount"/>, that an index may have; one with more
+        /// is a <see cref="GeodesicLimitException"/>. Default: 0, any number.
+        /// </summary>
+        public long MaxVertices { get; set; }
+
+        /// <summary>
+        /// The most bytes that the decoded sections of the file may take, and the most that the index with its queries
+        /// may; what needs more is a <see cref="GeodesicLimitException"/>. This holds as long as the index is open, so
+        /// that a query can be refused, too. Default: 0, in proportion to the file.
+        /// </summary>
+        public long MaxMemory { get; set; }
+
         /// <summary>Where the index and its queries get memory. Default: the global heap.</summary>
         public IGeodesicAllocator? Allocator { get; set; }
     }

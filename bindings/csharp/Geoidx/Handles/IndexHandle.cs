@@ -48,9 +48,12 @@ namespace Geoidx
         private static NativeOpenOptions NativeOptions(OpenOptions? options, NativeMesh* expected)
         {
             NativeOpenOptions native = NativeDefaults.OpenOptions();
-            if (options != null && options.Pairs) native.flags |= (uint)OpenFlags.Pairs;
-            if (options != null) native.threads = Arguments.NotNegative(options.Threads, nameof(options.Threads));
             native.expected_mesh = expected;
+            if (options == null) return native;
+            if (options.Pairs) native.flags |= (uint)OpenFlags.Pairs;
+            native.threads = Arguments.NotNegative(options.Threads, nameof(options.Threads));
+            native.max_vertices = Arguments.NotNegative(options.MaxVertices, nameof(options.MaxVertices));
+            native.max_memory = Arguments.NotNegative(options.MaxMemory, nameof(options.MaxMemory));
             return native;
         }
 

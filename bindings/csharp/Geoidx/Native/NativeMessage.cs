@@ -17,6 +17,7 @@ namespace Geoidx
         private static readonly Regex Name = new Regex(@"\b[a-z]+(_[a-z]+)+\b");
         private static readonly Regex Missing = new Regex(@"\b(\w+) is NULL\b");
         private static readonly Regex FirstLetter = new Regex(@"(?<=^|_)[a-z]");
+        private static readonly Regex OptionOfOpening = new Regex(@"\bmax_(memory|vertices)\b");
         private static readonly Regex OptionOfOneWord = new Regex(@"^(delta|engine|metric|rounding|threads)(?= -?\d| is )");
 
         private static readonly Dictionary<string, string> Enums = new Dictionary<string, string>
@@ -48,6 +49,10 @@ namespace Geoidx
         /// <summary>Of a call that takes <see cref="BuildOptions"/>.</summary>
         internal static string OfOptions(string detail) =>
             OptionOfOneWord.Replace(OfArguments(detail), name => Capitalised(name.Value));
+
+        /// <summary>Of a file that asks for more than <see cref="OpenOptions"/> allow.</summary>
+        internal static string OfLimits(string detail) =>
+            OptionOfOpening.Replace(detail, name => Capitalised(name.Value));
 
         private static string Signed(string number) =>
             uint.TryParse(number, NumberStyles.None, CultureInfo.InvariantCulture, out uint bits)

@@ -59,9 +59,11 @@ namespace Geoidx
         internal double rounding;
     }
 
+    // Borrow is never passed: it is for memory that stays in place until the index is closed, which a span is not.
     internal enum OpenFlags
     {
         Pairs = 1,
+        Borrow = 2,
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -73,6 +75,8 @@ namespace Geoidx
         internal NativeAllocator allocator;
         internal uint threads;
         internal uint reserved;
+        internal ulong max_vertices;
+        internal ulong max_memory;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -13,8 +13,9 @@ namespace Geoidx
         internal static Exception ToException(this GeodesicStatus status)
         {
             string detail = LatestDetail();
-            return GeodesicException.For(
-                status, IsOfArguments(status) ? NativeMessage.OfArguments(detail) : detail);
+            if (IsOfArguments(status)) detail = NativeMessage.OfArguments(detail);
+            if (status == GeodesicStatus.Limit) detail = NativeMessage.OfLimits(detail);
+            return GeodesicException.For(status, detail);
         }
 
         /// <summary>After a call that takes <see cref="BuildOptions"/>.</summary>
