@@ -11,7 +11,7 @@ import geoidx
 from geoidx import Codec, Coding
 
 TABLES = ["OVOV", "BVIV", "IVIV"]
-NAMES = {"packed": Codec.PACKED, "lossless": Codec.LOSSLESS}
+NAMES = {"packed": Codec.PACKED, "lossless": Codec.LOSSLESS, "mapped": Codec.MAPPED}
 
 
 class Codecs(unittest.TestCase):
@@ -22,7 +22,8 @@ class Codecs(unittest.TestCase):
     def test_names(self):
         for name, codec in NAMES.items():
             self.assertEqual(self.index.to_bytes(codec=name), self.index.to_bytes(codec=codec))
-        self.assertLess(len(self.index.to_bytes(codec="packed")), len(self.index.to_bytes(codec="lossless")))
+        for larger in ("lossless", "mapped"):
+            self.assertLess(len(self.index.to_bytes(codec="packed")), len(self.index.to_bytes(codec=larger)))
 
     def test_the_default_is_that_of_the_index(self):
         self.assertIs(self.index.info.codec, Codec.PACKED)
@@ -33,11 +34,14 @@ class Codecs(unittest.TestCase):
             self.assertIs(opened.info.codec, codec)
             self.assertEqual(opened.to_bytes(), data)
 
+    def assert_answers(self, opened):
+        np.testing.assert_array_equal(opened.ssad([5, 99]), self.index.ssad([5, 99]))
+        self.assertEqual(opened.sssd(0, 575), self.index.sssd(0, 575))
+
     def test_answers_are_the_same_bits(self):
         for name in NAMES:
             opened = geoidx.Index.from_bytes(self.index.to_bytes(codec=name))
-            np.testing.assert_array_equal(opened.ssad([5, 99]), self.index.ssad([5, 99]))
-            self.assertEqual(opened.sssd(0, 575), self.index.sssd(0, 575))
+            self.assert_answers(opened)
             for other in NAMES:
                 self.assertEqual(opened.to_bytes(codec=other), self.index.to_bytes(codec=other))
 
@@ -48,6 +52,47 @@ class Codecs(unittest.TestCase):
                 self.index.save(path, codec=codec)
                 self.assertEqual(path.read_bytes(), self.index.to_bytes(codec=codec))
                 self.assertEqual(geoidx.verify(path), [])
+                self.assert_answers(geoidx.Index.open(path))
+
+    def test_a_mapped_file_that_is_replaced_while_it_is_open(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "index")
+            self.index.save(path, codec="mapped")
+            opened = geoidx.Index.open(path)
+            opened.save(path, codec="packed")
+            self.assertEqual(path.read_bytes(), self.index.to_bytes())
+            self.assert_answers(opened)
+
+    def test_the_buffer_of_a_mapped_file_is_not_needed_afterwards(self):
+        data = bytearray(self.index.to_bytes(codec="mapped"))
+        opened = geoidx.Index.from_bytes(data)
+        data[:] = bytes(len(data))
+        self.assert_answers(opened)
+
+    def test_borrowed_bytes(self):
+        for name in NAMES:
+            for pairs in (False, True):
+                data = self.index.to_bytes(codec=name)
+                opened = geoidx.Index.from_bytes(data, borrow=True, pairs=pairs)
+                self.assert_answers(opened)
+                self.assertEqual(opened.to_bytes(), data)
+
+    def test_only_bytes_are_borrowed(self):
+        class Subclass(bytes):
+            pass
+
+        data = self.index.to_bytes(codec="mapped")
+        for other in (bytearray(data), memoryview(data), np.frombuffer(data, np.uint8), Subclass(data)):
+            with self.assertRaisesRegex(TypeError, f"not {type(other).__name__}"):
+                geoidx.Index.from_bytes(other, borrow=True)
+            self.assert_answers(geoidx.Index.from_bytes(other))
+
+    def test_a_mapped_file_has_its_tables_as_they_are(self):
+        sections = geoidx.Index.from_bytes(self.index.to_bytes(codec="mapped")).sections
+        (tables,) = [section for section in sections if section.tag == "HOPS"]
+        self.assertIs(tables.coding, Coding.RAW)
+        self.assertEqual(tables.stored_size, tables.raw_size)
+        self.assertFalse({section.tag for section in sections} & set(TABLES))
 
     def test_a_codec_that_is_none(self):
         for codec in ("PACKED", "", "none", 7):

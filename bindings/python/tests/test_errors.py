@@ -97,6 +97,27 @@ class Statuses(unittest.TestCase):
             metric=lambda source, targets: np.where(targets == source, 0, 1e300),
         )
 
+    def test_limits_of_opening(self):
+        index = geoidx.Index.build(*hills(20, 20))
+        for codec in geoidx.Codec:
+            data = index.to_bytes(codec=codec)
+            for limit in ({"max_vertices": 399}, {"max_memory": 1000}):
+                self.raised(
+                    Status.LIMIT, geoidx.LimitError, OverflowError, geoidx.Index.from_bytes, data, **limit
+                )
+            opened = geoidx.Index.from_bytes(data, max_vertices=400, max_memory=1 << 40)
+            self.assertEqual(opened.sssd(0, 399), index.sssd(0, 399))
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "index")
+            index.save(path, codec="mapped")
+            for limit in ({"max_vertices": 399}, {"max_memory": 1000}):
+                with self.assertRaisesRegex(geoidx.LimitError, *limit):
+                    geoidx.Index.open(path, **limit)
+            geoidx.Index.open(path, max_vertices=400, max_memory=1 << 40).close()
+        for limit in ({"max_vertices": -1}, {"max_memory": 1 << 64}):
+            with self.assertRaisesRegex(geoidx.InvalidArgumentError, *limit):
+                geoidx.Index.from_bytes(data, **limit)
+
     def test_out_of_memory(self):
         refusing = geoidx.Allocator(geoidx.AllocateFn(lambda *_: None), geoidx.ReleaseFn(lambda *_: None))
         for call, arguments in ((geoidx.Index.build, SQUARE), (geoidx.Index.from_bytes, (self.data,))):

@@ -124,6 +124,45 @@ class Closing(unittest.TestCase):
         self.assertIsNone(gone())
         self.assertFalse(self.memory.blocks)
 
+    def test_borrowed_bytes_live_as_long_as_the_index_and_its_queries(self):
+        data = geoidx.Index.build(*hills(24, 24)).to_bytes(codec="mapped")
+        unborrowed = sys.getrefcount(data)
+        copied = geoidx.Index.from_bytes(data)
+        self.assertEqual(sys.getrefcount(data), unborrowed)
+        borrowed = geoidx.Index.from_bytes(data, borrow=True)
+        query = borrowed.query()
+        borrowed.close()
+        del borrowed
+        gc.collect()
+        self.assertGreater(sys.getrefcount(data), unborrowed)
+        np.testing.assert_array_equal(query.msad(0), copied.msad(0))
+        query.close()
+        self.assertEqual(sys.getrefcount(data), unborrowed)
+
+    def test_tables_of_a_mapped_file_take_no_memory_of_the_index(self):
+        data = geoidx.Index.build(*hills(24, 24)).to_bytes(codec="mapped")
+        sizes = []
+        for borrow in (False, True):
+            memory = Memory()
+            with geoidx.Index.from_bytes(data, borrow=borrow, allocator=memory.allocator):
+                sizes.append(sum(memory.blocks.values()))
+            self.assertFalse(memory.blocks)
+        self.assertGreaterEqual(sizes[0], sizes[1] + len(data))
+
+    def test_the_limit_of_memory_holds_for_queries(self):
+        data = geoidx.Index.build(*hills(40, 40)).to_bytes()
+        memory = Memory()
+        with geoidx.Index.from_bytes(data, allocator=memory.allocator) as opened:
+            opened.msad(0)
+            with_fields = sum(memory.blocks.values())
+            opened.sssd(0, 1599)
+            with_pairs = sum(memory.blocks.values())
+        limited = geoidx.Index.from_bytes(data, max_memory=(with_fields + with_pairs) // 2)
+        field = limited.msad(0)
+        with self.assertRaisesRegex(geoidx.LimitError, "max_memory"):
+            limited.sssd(0, 1599)
+        np.testing.assert_array_equal(limited.msad(0), field)
+
     def test_failures_leak_nothing(self):
         self.index.close()
 
@@ -135,6 +174,12 @@ class Closing(unittest.TestCase):
             with self.assertRaises((LookupError, geoidx.Error)):
                 geoidx.Index.build(*SQUARE, allocator=self.memory.allocator, **options)
             self.assertFalse(self.memory.blocks)
+        data = geoidx.Index.build(*SQUARE).to_bytes(codec="mapped")
+        references = sys.getrefcount(data)
+        with self.assertRaises(geoidx.LimitError):
+            geoidx.Index.from_bytes(data, borrow=True, max_vertices=1, allocator=self.memory.allocator)
+        self.assertFalse(self.memory.blocks)
+        self.assertEqual(sys.getrefcount(data), references)
 
 
 class Cycles(unittest.TestCase):

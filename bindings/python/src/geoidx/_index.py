@@ -36,6 +36,18 @@ def _mesh_of(expected_mesh: tuple[ArrayLike, ArrayLike]) -> MeshView:
     return MeshView(*expected_mesh)
 
 
+def _open_options(
+    expected_mesh: tuple[ArrayLike, ArrayLike] | None,
+    allocator: Allocator | None,
+    pairs: bool,
+    threads: int,
+    max_vertices: int,
+    max_memory: int,
+) -> OpenOptions:
+    mesh = None if expected_mesh is None else _mesh_of(expected_mesh)
+    return OpenOptions(mesh, allocator, pairs, threads, max_vertices, max_memory)
+
+
 def _read_info(handle: Handle) -> Info:
     struct = _native.Info(struct_size=sizeof(_native.Info))
     check(library.geoidx_get_info(handle, byref(struct)))
@@ -133,6 +145,8 @@ class Index(Closable):
         allocator: Allocator | None = None,
         pairs: bool = False,
         threads: int = 0,
+        max_vertices: int = 0,
+        max_memory: int = 0,
     ) -> Index:
         """Opens a file: str, bytes or os.PathLike of either. Everything in it is checked before it is believed.
 
@@ -141,12 +155,19 @@ class Index(Closable):
         pairs: makes ready what distances between two vertices need. Otherwise the first one that is asked for does;
             where only fields are asked for, it is never made and takes no memory.
         threads: that decode tables. 0: one per processor.
+        max_vertices: the most vertices that the index may have, else LimitError. 0: any number.
+        max_memory: the most bytes that the decoded sections of the file may take, and the most that the index with its
+            queries may, else LimitError, also of a query while the index is open. 0: in proportion to the file.
+
+        A mapped file is not read, but mapped: as long as the index is open, nobody may write into it or cut it short.
+        Saving over it replaces it, which does no harm.
 
         Raises FileError, which is an OSError (MissingFileError, a FileNotFoundError, where there is no such file),
         and FormatError, which is a ValueError. A path that no file can have is an InvalidArgumentError.
         """
         name = native_path(path)
-        return cls._opened(expected_mesh, allocator, pairs, threads, lambda *rest: library.geoidx_open(name, *rest), path)
+        options = _open_options(expected_mesh, allocator, pairs, threads, max_vertices, max_memory)
+        return cls._opened(options, lambda *rest: library.geoidx_open(name, *rest), path)
 
     @classmethod
     def from_bytes(
@@ -157,42 +178,41 @@ class Index(Closable):
         allocator: Allocator | None = None,
         pairs: bool = False,
         threads: int = 0,
+        max_vertices: int = 0,
+        max_memory: int = 0,
+        borrow: bool = False,
     ) -> Index:
-        """Opens an index in memory: bytes, or any other contiguous buffer, which is neither copied nor kept.
+        """Opens an index in memory: bytes, or any other contiguous buffer. The other options are those of `open`.
 
-        Raises FormatError, and InvalidArgumentError for buffers that are not contiguous, or closed.
+        borrow: keeps `data`, which must be bytes, as long as the index and its queries, so that the tables of a mapped
+            file are not copied. Otherwise these are, and `data` is not needed after the call.
+
+        Raises FormatError, InvalidArgumentError for buffers that are not contiguous, or closed, and TypeError for
+        what cannot be borrowed.
         """
+        # Only bytes never change; a subclass may have a buffer of its own.
+        if borrow and type(data) is not bytes:
+            raise TypeError(f"only bytes can be borrowed, not {type(data).__name__}")
         view = bytes_of_buffer(data)
-        return cls._opened(
-            expected_mesh,
-            allocator,
-            pairs,
-            threads,
-            lambda *rest: library.geoidx_open_memory(address(view), view.size, *rest),
-        )
+        options = _open_options(expected_mesh, allocator, pairs, threads, max_vertices, max_memory)
+        if borrow:
+            options.borrow(view)
+        return cls._opened(options, lambda *rest: library.geoidx_open_memory(address(view), view.size, *rest))
 
     @classmethod
-    def _opened(
-        cls,
-        expected_mesh: tuple[ArrayLike, ArrayLike] | None,
-        allocator: Allocator | None,
-        pairs: bool,
-        threads: int,
-        call: Callable[..., int],
-        path: Path | None = None,
-    ) -> Index:
-        options = OpenOptions(None if expected_mesh is None else _mesh_of(expected_mesh), allocator, pairs, threads)
+    def _opened(cls, options: OpenOptions, call: Callable[..., int], path: Path | None = None) -> Index:
         out = c_void_p()
         status = call(byref(options.struct), byref(out))
-        handle = Handle(out, library.geoidx_close, kept=allocator)
+        handle = Handle(out, library.geoidx_close, kept=(options.allocator, options.borrowed))
         check(status, path)
         return cls(handle)
 
     def save(self, path: Path, *, codec: Codec | str | None = None) -> None:
         """Writes the index to a file, replacing what is there at once or, on failure (FileError), not at all.
 
-        codec: "packed", the smallest file, or "lossless", with a PNG of float32 for each table; None: `info.codec`. An
-            index of the graph engine is always lossless. Answers are the same bits.
+        codec: "packed", the smallest file, "lossless", with a PNG of float32 for each table, or "mapped", more than
+            ten times as large as packed, but opened at once; None: `info.codec`. An index of the graph engine is
+            always lossless. Answers are the same bits.
         """
         options = SaveOptions(codec)
         check(library.geoidx_save(self._handle, native_path(path), options.struct), path)

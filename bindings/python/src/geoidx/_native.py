@@ -30,6 +30,7 @@ POSITION_FLOAT = 0
 POSITION_DOUBLE = 1
 METRIC_UNFOLDABLE = 1
 OPEN_PAIRS = 1
+OPEN_BORROW = 2
 
 AllocateFn = CFUNCTYPE(c_void_p, c_void_p, c_uint64, c_uint64)
 ReleaseFn = CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint64)
@@ -103,6 +104,8 @@ class OpenOptions(Structure):
         ("allocator", Allocator),
         ("threads", c_uint32),
         ("reserved", c_uint32),
+        ("max_vertices", c_uint64),
+        ("max_memory", c_uint64),
     ]
 
 

@@ -7,7 +7,7 @@ from enum import IntEnum
 from typing import Sequence, TypeVar
 
 from . import _native
-from ._arrays import whole_number
+from ._arrays import UINT64_MAX, whole_number
 from ._callbacks import Callbacks, Progress
 from ._errors import InvalidArgumentError
 from ._mesh import MeshView
@@ -28,10 +28,13 @@ class Codec(IntEnum):
     PACKED: the smallest file: what is left of distances when they are predicted from the positions of their vertices
         and from each other, as gray PNG images.
     LOSSLESS: a PNG of float32 for each table. Indices of the graph engine are always saved like this.
+    MAPPED: the tables as queries read them, uncompressed: more than ten times as large as packed, but nothing is left
+        to do when the file is opened. `Index.open` maps it instead of reading it.
     """
 
     PACKED = 0
     LOSSLESS = 1
+    MAPPED = 2
 
 
 class BuildOptions:
@@ -57,18 +60,33 @@ class OpenOptions:
     """The options of opening an index."""
 
     def __init__(
-        self, expected_mesh: MeshView | None, allocator: Allocator | None, pairs: bool, threads: int
+        self,
+        expected_mesh: MeshView | None,
+        allocator: Allocator | None,
+        pairs: bool,
+        threads: int,
+        max_vertices: int,
+        max_memory: int,
     ) -> None:
         self.struct = _native.OpenOptions()
         library.geoidx_open_options_init_sized(byref(self.struct), sizeof(self.struct))
         if pairs:
-            self.struct.flags = _native.OPEN_PAIRS
+            self.struct.flags |= _native.OPEN_PAIRS
         self.struct.threads = whole_number(threads, "threads")
+        self.struct.max_vertices = whole_number(max_vertices, "max_vertices", UINT64_MAX)
+        self.struct.max_memory = whole_number(max_memory, "max_memory", UINT64_MAX)
         if expected_mesh:
             self._mesh = expected_mesh
             self.struct.expected_mesh = pointer(expected_mesh.struct)
+        self.allocator = allocator
         if allocator:
             self.struct.allocator = allocator
+        self.borrowed: object = None
+
+    def borrow(self, data: object) -> None:
+        """The index reads the tables of a mapped file in `data`, which must be kept as long as the native handle."""
+        self.struct.flags |= _native.OPEN_BORROW
+        self.borrowed = data
 
 
 class SaveOptions:
