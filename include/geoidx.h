@@ -278,10 +278,10 @@ static inline void geoidx_open_options_init(geoidx_open_options* options) {
  * GEOIDX_CODEC_PACKED (default): what is left of them when they are predicted from the positions of their
  * vertices and from each other, as gray PNG images. GEOIDX_CODEC_LOSSLESS: a PNG of float32 for each table,
  * as the paper has it; what indices of GEOIDX_ENGINE_GRAPH are always saved as. GEOIDX_CODEC_MAPPED: the
- * tables as queries read them, uncompressed: more than ten times as large as packed, but nothing is left to
- * do when it is opened. geoidx_open maps such a file instead of reading it, so that processes share one copy
- * in memory; as long as an index is open, nobody may write into the file or cut it short (geoidx_save
- * replaces a file, which is no harm except on Windows, where it fails). */
+ * tables as queries read them, uncompressed: ten times as large as packed or more on large meshes, but
+ * nothing is left to do when it is opened. geoidx_open maps such a file instead of reading it, so that
+ * processes share one copy in memory; as long as an index is open, nobody may write into the file or cut it
+ * short (geoidx_save replaces a file, which is no harm except on Windows, where it fails). */
 enum { GEOIDX_CODEC_PACKED = 0, GEOIDX_CODEC_LOSSLESS = 1, GEOIDX_CODEC_MAPPED = 2 };
 
 typedef struct geoidx_save_options {
@@ -357,7 +357,8 @@ GEOIDX_API geoidx_status geoidx_build(const geoidx_mesh* mesh, const geoidx_buil
 
 /* Writes the index to a file, replacing what is there: a sibling file is written, synced and renamed, so that
  * a failure leaves neither a partial file nor a damaged old one. `options` may be NULL: the file then has the
- * codec that geoidx_info names. */
+ * codec that geoidx_info names. GEOIDX_ERROR_CORRUPT if the index came from a mapped file whose tables
+ * contradict each other, and another codec is asked for. */
 GEOIDX_API geoidx_status geoidx_save(const geoidx* index, const char* utf8_path,
                                      const geoidx_save_options* options);
 
@@ -367,7 +368,9 @@ GEOIDX_API geoidx_status geoidx_save(const geoidx* index, const char* utf8_path,
 GEOIDX_API geoidx_status geoidx_save_memory(const geoidx* index, const geoidx_save_options* options,
                                             void* buffer, uint64_t capacity, uint64_t* needed);
 
-/* Opens an index. Everything in the file is checked before it is believed. The index, its queries and the
+/* Opens an index. Everything in the file is checked before it is believed, but for whether the tables of a
+ * mapped file agree with each other, which only geoidx_verify looks at: where they do not, distances are
+ * wrong, and nothing worse. The index, its queries and the
  * temporary memory of opening take at most 256 times the raw size of the file's sections, table entries
  * counted as 4 bytes, and 32 MiB; what would take more is GEOIDX_ERROR_LIMIT before memory is taken. A small
  * file can hold raw sections 1032 times its size. `options` may be NULL. */

@@ -9,6 +9,8 @@ struct MeasuredError {
     uint32_t sources = 0;
     double mean = 0, signed_mean = 0, p99 = 0, p999 = 0, max = 0;
     double mean_at_vertices = 0; // if paths crossed borders at vertices only
+
+    bool operator==(const MeasuredError&) const = default;
 };
 
 // Describes the mesh and the options that an index was built with, and what was measured. A file
@@ -25,6 +27,8 @@ struct Description {
     uint32_t metric_flags = 0;       // GEOIDX_METRIC_UNFOLDABLE or 0
     uint32_t engine = 0;             // GEOIDX_ENGINE_*
     uint32_t codec = 0;              // GEOIDX_CODEC_*: the form of the tables in the file
+
+    bool operator==(const Description&) const = default;
 };
 
 }

@@ -2,7 +2,6 @@
 #include "src/overlay/prepare.h"
 
 #include <cmath>
-#include <cstring>
 #include <random>
 
 #include "src/overlay/ssad.h"
@@ -41,7 +40,7 @@ void shuffle_tables(StoredIndex& stored, uint32_t seed) {
 }
 
 void check_same(const StoredIndex& a, const StoredIndex& b) {
-    CHECK(std::memcmp(&a.description, &b.description, sizeof a.description) == 0);
+    CHECK(a.description == b.description);
     CHECK(a.level_count == b.level_count);
     CHECK(a.child_count == b.child_count);
     CHECK(a.number_of_id == b.number_of_id);
