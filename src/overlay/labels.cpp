@@ -22,7 +22,8 @@ void lay_out_labels(const OverlayIndex& index, Labels& labels) {
     uint64_t size = 0;
     for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) {
         const uint32_t parent = index.numbering.parent[p];
-        if (parent != 0) labels.offset[p] = labels.offset[parent] + Labels::HEAD + index.label_size(parent);
+        labels.offset[p] = labels.offset[parent];
+        if (index.is_labelled(parent)) labels.offset[p] += Labels::HEAD + index.label_size(parent);
         labels.begin[p] = size;
         size += uint64_t{index.numbering.inner_size(p)} * labels.offset[p];
     }
@@ -118,7 +119,7 @@ private:
 void make_labels(const OverlayIndex& index, Labels& labels) {
     lay_out_labels(index, labels);
     LabelSweep sweep(index, labels);
-    for (uint32_t p = 1; p < index.numbering.first_leaf(); ++p) sweep.label(p);
+    for (uint32_t p = 1; index.is_labelled(p); ++p) sweep.label(p);
 }
 
 }

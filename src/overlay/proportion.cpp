@@ -39,10 +39,10 @@ public:
     // children.
     uint64_t labels(uint32_t patch) {
         const uint32_t parent = numbering_.parent[patch];
-        if (parent == 0) return 0;
         const uint32_t size = numbering_.border_size(parent);
-        label_size_[patch] =
-            label_size_[parent] + Labels::HEAD + (size <= Labels::WHOLE ? size : samples_[parent].samples);
+        label_size_[patch] = label_size_[parent];
+        if (index_.is_labelled(parent))
+            label_size_[patch] += Labels::HEAD + (size <= Labels::WHOLE ? size : samples_[parent].samples);
         return uint64_t{numbering_.inner_size(patch)} * label_size_[patch];
     }
 

@@ -63,12 +63,12 @@ struct Samples {
 };
 
 // The labels of all vertices. The label of a vertex holds its distances to the borders of all patches that
-// contain it, but for the whole mesh and for the patch that it is an inner vertex of
-// (Numbering::innermost_patch()); the outermost patch comes first. For each border, in steps of the quantum
-// of the patch's parent, it has HEAD numbers, which are the low and the high half of the distance of the
-// nearest vertex, a float, and then a code for each labelled vertex that says by how many steps it is farther
-// (see StepsOf). All vertices of a border are labelled, in its order, if it has at most WHOLE of them;
-// otherwise its samples are.
+// contain it, but for the whole mesh, for the patch that it is an inner vertex of
+// (Numbering::innermost_patch()), and for parents of leaves, which are one hop away; the outermost patch
+// comes first. For each border, in steps of the quantum of the patch's parent, it has HEAD numbers, which are
+// the low and the high half of the distance of the nearest vertex, a float, and then a code for each labelled
+// vertex that says by how many steps it is farther (see StepsOf). All vertices of a border are labelled, in
+// its order, if it has at most WHOLE of them; otherwise its samples are.
 struct Labels {
     explicit Labels(std::pmr::memory_resource* memory) : offset(memory), begin(memory), codes(memory) {}
 
@@ -130,12 +130,18 @@ struct OverlayIndex {
         return hops.internal[numbering.internal_entry(leaf, i, j)];
     }
 
-    // How many distances to the border of a patch a label holds.
+    // Whether labels hold distances to the border of a patch.
+    bool is_labelled(uint32_t patch) const {
+        return patch > 0 && patch < numbering.level_begin[numbering.level_count() - 1];
+    }
+    // How many distances to the border of a labelled patch a label holds.
     uint32_t label_size(uint32_t patch) const {
         const uint32_t size = numbering.border_size(patch);
         return size <= Labels::WHOLE ? size : static_cast<uint32_t>(pairs.samples.of(patch).size());
     }
-    bool is_labelled_whole(uint32_t patch) const { return label_size(patch) == numbering.border_size(patch); }
+    bool is_labelled_whole(uint32_t patch) const {
+        return is_labelled(patch) && label_size(patch) == numbering.border_size(patch);
+    }
 };
 
 }

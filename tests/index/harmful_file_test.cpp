@@ -157,12 +157,12 @@ TEST_CASE("harmful file: the same border around many leaves, gigabytes from a fe
 TEST_CASE("harmful file: labels to a border that nothing else is stored of") {
     std::vector<Leaf> leaves(70000, {{}, 1});
     leaves[0] = {first_numbers(400), 0};
-    check_limit(content_of(400, 2, leaves, true, [](size_t, size_t) { return 1.f; }));
+    check_limit(content_of(400, 3, leaves, true, [](size_t, size_t) { return 1.f; }));
 }
 
 TEST_CASE("harmful file: labels in proportion are fine, however few the tables") {
     std::vector<Leaf> leaves(3000, {{}, 1});
     leaves[0] = {first_numbers(10), 0};
-    const auto content = content_of(10, 2, leaves, true, [](size_t, size_t) { return 1.f; });
+    const auto content = content_of(10, 3, leaves, true, [](size_t, size_t) { return 1.f; });
     CHECK(sssd(opened(content).get(), 10, 11) == INFINITE);
 }

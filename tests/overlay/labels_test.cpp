@@ -84,13 +84,17 @@ double steps_between(const OverlayIndex& index, uint32_t patch, uint32_t labelle
     return sum + std::ldexp(double{index.quantum[outer]}, index.shift[outer]);
 }
 
+uint32_t first_parent_of_leaves(const Numbering& numbering) {
+    return numbering.parent[numbering.first_leaf()];
+}
+
 // Calls check(distance of the i-th labelled vertex, inner vertex, i) for each patch and what lies deeper.
 template <class Check>
 uint64_t for_each_label(const Labelled& made, const Check& check) {
     const OverlayIndex& index = made.overlay();
     const Numbering& numbering = index.numbering;
     uint64_t count = 0;
-    for (uint32_t labelled = 1; labelled < numbering.first_leaf(); ++labelled) {
+    for (uint32_t labelled = 1; labelled < first_parent_of_leaves(numbering); ++labelled) {
         const auto vertices = labelled_vertices(index, labelled);
         for (uint32_t i = 0; i < vertices.size(); i += 1 + static_cast<uint32_t>(vertices.size()) / 12)
             for (uint32_t p = labelled + 1; p < numbering.patch_count(); ++p) {
@@ -143,7 +147,7 @@ TEST_CASE("labels: to all of a border of up to 400 vertices, to the samples of a
     uint32_t whole = 0, sampled = 0;
     for (const Labelled& made : on_planes()) {
         const OverlayIndex& index = made.overlay();
-        for (uint32_t p = 1; p < index.numbering.first_leaf(); ++p) {
+        for (uint32_t p = 1; p < first_parent_of_leaves(index.numbering); ++p) {
             const uint32_t size = index.numbering.border_size(p);
             const auto expected =
                 size <= 400 ? size : static_cast<uint32_t>(index.pairs.samples.of(p).size());
@@ -156,6 +160,16 @@ TEST_CASE("labels: to all of a border of up to 400 vertices, to the samples of a
     }
     CHECK(whole > 0);
     CHECK(sampled > 0);
+}
+
+TEST_CASE("labels: none to the borders of the whole mesh and of parents of leaves") {
+    for (const Labelled& made : on_planes()) {
+        const Numbering& numbering = made.overlay().numbering;
+        const auto& offset = made.overlay().pairs.labels.offset;
+        for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf)
+            CHECK(offset[leaf] == offset[numbering.parent[leaf]]);
+        for (uint32_t p = 1; numbering.parent[p] == 0; ++p) CHECK(offset[p] == 0);
+    }
 }
 
 TEST_CASE("labels: on a plane, straight lines that cross borders between vertices") {

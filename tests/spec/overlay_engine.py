@@ -216,13 +216,17 @@ class OverlayEngine:
         index, entry = self.index, int(self.index.entry[number])
         if patch == entry:
             return decoded(self.rows_down(patch)[number - index.inside[patch].start], self.quantum[patch])
-        if len(self.borders[patch].vertices) <= WHOLE:
+        if self.is_labelled(patch):
             return self.label(number, patch)
         for before in index.ways_up(entry):
             if index.parent[before] == patch:
                 break
         rows = self.rows_up(before)[: len(self.borders[patch].vertices)]
         return self.hop_up(before, self.from_inside(number, before), rows, self.quantum[patch])
+
+    def is_labelled(self, patch):
+        has_leaves = self.index.children[patch][0] >= self.index.inner_count
+        return not has_leaves and len(self.borders[patch].vertices) <= WHOLE
 
     def label(self, number, patch):
         """Down from each vertex of the border, rounded to the quantum of the patch's parent."""
@@ -273,7 +277,7 @@ class OverlayEngine:
         border, target = self.borders[patch], self.from_inside(high, patch)
         if low_child is None:
             at = numpy.flatnonzero(border.vertices == low)
-            is_known = patch == int(self.index.entry[high]) or len(border.vertices) <= WHOLE
+            is_known = patch == int(self.index.entry[high]) or self.is_labelled(patch)
             if at.size and is_known and target[at[0]] < INFINITE:
                 return target[at[0]]
             source = decoded(self.rows_up(patch)[self.position[top][low]], self.quantum[top])

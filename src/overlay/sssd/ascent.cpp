@@ -25,15 +25,8 @@ RingRow inner_row_of(const OverlayIndex& index, uint32_t vertex) {
             index.rings.begin[patch], index.quantum[patch]};
 }
 
-size_t largest_sample_count(const OverlayIndex& index) {
-    size_t largest = 0;
-    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p)
-        largest = std::max(largest, index.pairs.samples.of(p).size());
-    return largest;
-}
-
 Ascent::Ascent(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : patches(memory), sample_distances(memory) {
+    : patches(memory), sample_distances(memory), around_leaf(index, memory) {
     patches.reserve(index.numbering.level_count());
     sample_distances.reserve(largest_sample_count(index));
 }
@@ -48,14 +41,25 @@ void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Ascent& asc
     }
 }
 
-void read_samples(const OverlayIndex& index, Ascent& ascent) {
+void read_samples(const OverlayIndex& index, BorderCrossing& crossing, Ascent& ascent) {
     const uint32_t vertex = ascent.vertex, patch = ascent.last_patch();
-    const auto samples = index.pairs.samples.of(patch);
-    ascent.sample_distances.resize(samples.size());
-    if (patch == index.numbering.innermost_patch(vertex)) {
-        read_samples(index, patch, inner_row_of(index, vertex), ascent.sample_distances);
+    const uint32_t innermost = index.numbering.innermost_patch(vertex);
+    const auto read_innermost = [&](Array<float>& out) {
+        out.resize(index.pairs.samples.of(innermost).size());
+        read_samples(index, innermost, inner_row_of(index, vertex), out);
+    };
+    if (patch == innermost) return read_innermost(ascent.sample_distances);
+    if (ascent.patches.front() == innermost && !index.is_labelled(ascent.patches[1])) {
+        read_innermost(ascent.sample_distances);
+        hop_to_parent(index, innermost, ascent.sample_distances, crossing, ascent.around_leaf);
+    }
+    if (!index.is_labelled(patch)) {
+        ascent.sample_distances.assign(ascent.around_leaf.distance.begin(),
+                                       ascent.around_leaf.distance.end());
         return;
     }
+    const auto samples = index.pairs.samples.of(patch);
+    ascent.sample_distances.resize(samples.size());
     const BorderLabel label = label_of(index, vertex, patch);
     for (uint32_t i = 0; i < samples.size(); ++i)
         ascent.sample_distances[i] = label.distance(label.is_whole ? samples[i] : i);

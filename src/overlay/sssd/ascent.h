@@ -3,6 +3,7 @@
 #include <memory_resource>
 #include <span>
 
+#include "src/overlay/sssd/coarse_hop.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic {
@@ -20,7 +21,7 @@ struct BorderLabel {
     }
 };
 
-// Reads the label of a vertex for a patch around it other than the innermost one.
+// Reads the label of a vertex for a labelled patch around it other than the innermost one.
 BorderLabel label_of(const OverlayIndex& index, uint32_t vertex, uint32_t patch);
 
 // The distances that a row of a table holds, one for each place of a ring. Places are counted over all rings.
@@ -60,9 +61,6 @@ void read_samples(const OverlayIndex& index, uint32_t patch, const DistanceTo& d
         out[index.pairs.samples.sample_of_place[k]] = distance_to(index.pairs.samples.full_place[k]);
 }
 
-// The largest number of samples that a border has.
-size_t largest_sample_count(const OverlayIndex& index);
-
 // One end of a path and the borders around it that the path crosses, up to the patch where the ends meet.
 struct Ascent {
     Ascent(const OverlayIndex& index, std::pmr::memory_resource* memory);
@@ -75,13 +73,17 @@ struct Ascent {
     // ends meet. Each is the parent of the one before it.
     Array<uint32_t> patches;
     Array<float> sample_distances; // From the vertex to the samples of the last patch's border, once read.
+    // To the samples of the second patch's border, once read, if that is a parent of leaves: no label has
+    // these.
+    ReachedSamples around_leaf;
 };
 
 // Climbs from a vertex up to a child of `top`. The borders begin with the outermost one for which the index
 // holds the distances to all vertices: those inside of it need not be crossed.
 void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Ascent& ascent);
 
-// Reads the distances of the vertex from the samples of the last border.
-void read_samples(const OverlayIndex& index, Ascent& ascent);
+// Reads the distances of the vertex from the samples of the last border, and of the one around its leaf if
+// the path crosses it.
+void read_samples(const OverlayIndex& index, BorderCrossing& crossing, Ascent& ascent);
 
 }

@@ -79,11 +79,13 @@ bool BorderRanges::find(const Ascent& ascent, SampleRange samples) {
 }
 
 bool BorderRanges::take_whole(const Ascent& ascent) {
-    const uint32_t first = index_.rings.begin[ascent.last_patch()];
-    const uint32_t end = index_.rings.begin[ascent.last_patch() + 1];
-    if (first == end) return false;
-    ranges_.assign(1, {first, end - 1});
-    prefetch_tables(ascent, 0);
+    ranges_.clear();
+    for (const uint32_t patch : ascent.patches) {
+        const uint32_t first = index_.rings.begin[patch], end = index_.rings.begin[patch + 1];
+        if (first == end) return false;
+        ranges_.push_back({first, end - 1});
+    }
+    for (size_t b = 0; b < ranges_.size(); ++b) prefetch_tables(ascent, b);
     return true;
 }
 
@@ -92,14 +94,18 @@ bool BorderRanges::take_whole(const Ascent& ascent) {
 void BorderRanges::read_codes(const Ascent& ascent, uint32_t patch, std::span<int16_t> out) {
     const Rings& rings = index_.pairs.samples.rings;
     const uint32_t* sample_of_place = index_.pairs.samples.sample_of_place.data();
-    if (patch != index_.numbering.innermost_patch(ascent.vertex)) {
+    const bool is_innermost = patch == index_.numbering.innermost_patch(ascent.vertex);
+    if (!is_innermost && index_.is_labelled(patch)) {
         const BorderLabel label = label_of(index_, ascent.vertex, patch);
         spread_codes(rings, patch, label.codes, label.is_whole ? rings.position.data() : sample_of_place,
                      out);
         return;
     }
     const auto distances = std::span(sample_distances_).first(index_.pairs.samples.of(patch).size());
-    read_samples(index_, patch, inner_row_of(index_, ascent.vertex), distances);
+    if (is_innermost)
+        read_samples(index_, patch, inner_row_of(index_, ascent.vertex), distances);
+    else
+        std::ranges::copy(ascent.around_leaf.distance, distances.begin());
     const StepsOf steps(distances, index_.quantum[index_.numbering.parent[patch]]);
     for (size_t i = 0; i < distances.size(); ++i) sample_codes_[i] = steps.code(distances[i]);
     spread_codes(rings, patch, sample_codes_.data(), sample_of_place, out);

@@ -50,8 +50,8 @@ public:
     // Returns whether such paths exist; otherwise, ranges() says nothing.
     bool find(const Ascent& ascent, SampleRange samples);
 
-    // Takes the whole of the only border that the end has climbed to. Returns whether it has any vertex:
-    // around a separate part there may be none.
+    // Takes the whole of all borders of the ascent. Returns whether each has any vertex: around a separate
+    // part there may be none.
     bool take_whole(const Ascent& ascent);
 
     // There is one range for each patch of the ascent.

@@ -65,42 +65,6 @@ uint32_t place_beside_an_end(SamplesBetween samples, float spacing) {
     return beside;
 }
 
-// Gathers the rows of a patch's coarse table that lead to the samples of a sibling's border.
-void gather_rows(const OverlayIndex& index, uint32_t patch, uint32_t sibling, size_t count,
-                 Array<const uint16_t*>& rows) {
-    rows.resize(count);
-    for (uint32_t i = 0; i < count; ++i) {
-        rows[i] = coarse_row(index, patch, index.pairs.samples.first_row[sibling] + i);
-        prefetch(rows[i], index.pairs.samples.rings.size(patch));
-    }
-}
-
-}
-
-SamplesAcross::SamplesAcross(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : distance(memory), winner(memory) {
-    distance.reserve(largest_sample_count(index));
-    winner.reserve(largest_sample_count(index));
-}
-
-void cross_samples(const OverlayIndex& index, const Ascent& ascent, uint32_t sibling,
-                   BorderCrossing& crossing, SamplesAcross& out) {
-    const uint32_t patch = ascent.last_patch();
-    const Rings& rings = index.pairs.samples.rings;
-    const size_t count = index.pairs.samples.of(sibling).size();
-    out.distance.resize(count);
-    out.winner.resize(count);
-    gather_rows(index, patch, sibling, count, crossing.rows);
-    const uint32_t* sample = index.pairs.samples.sample_of_place.data() + rings.begin[patch];
-    for (float& d : crossing.field.begin(rings, rings.begin[patch], rings.size(patch),
-                                         index.quantum[index.numbering.parent[patch]]))
-        d = ascent.sample_distances[*sample++];
-    if (crossing.field.finish()) {
-        crossing.field.cross(crossing.rows, out.distance.data(), out.winner.data());
-    } else {
-        std::ranges::fill(out.distance, INFINITE);
-        std::ranges::fill(out.winner, BorderFromSource::NO_PLACE);
-    }
 }
 
 Candidates find_candidates(const OverlayIndex& index, uint32_t patch, std::span<const float> from,

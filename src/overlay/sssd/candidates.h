@@ -3,27 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory_resource>
 #include <span>
 
-#include "src/overlay/sssd/ascent.h"
-#include "src/overlay/sssd/border_crossing.h"
+#include "src/overlay/tables.h"
 
 namespace geodesic {
-
-// What one end knows about the samples of a border that lies across from its own last border.
-struct SamplesAcross {
-    SamplesAcross(const OverlayIndex& index, std::pmr::memory_resource* memory);
-
-    Array<float> distance;
-    Array<uint16_t> winner; // The place, in the coarse ring of the end's last border, that the way comes
-                            // over, or BorderFromSource::NO_PLACE if there is no way.
-};
-
-// Crosses from the samples of the last border of an end to those of a sibling's border. Fills distances and
-// winners. The ascent's sample_distances must have been read.
-void cross_samples(const OverlayIndex& index, const Ascent& ascent, uint32_t sibling,
-                   BorderCrossing& crossing, SamplesAcross& out);
 
 // The candidates of a pair of ends: a few samples of one border that the shortest path may pass near. Each is
 // given by its own place in the coarse ring, counted from the ring's first place.

@@ -41,6 +41,14 @@ uint32_t child_around(const Numbering& numbering, uint32_t top, uint32_t patch) 
     return patch;
 }
 
+// Whether the borders of an ascent are so short that all of each may be crossed.
+bool has_few_pairs(const Rings& rings, const Ascent& ascent) {
+    for (size_t b = 1; b < ascent.patches.size(); ++b)
+        if (size_t{rings.size(ascent.patches[b - 1])} * rings.size(ascent.patches[b]) > FEW_PAIRS)
+            return false;
+    return true;
+}
+
 // Distances by vertex number, read by place.
 struct KnownDistances {
     std::span<const float> of_vertex;
@@ -61,8 +69,8 @@ void OverlaySssd::End::climb(const OverlayIndex& index, uint32_t vertex, uint32_
     measured.begin();
 }
 
-void OverlaySssd::End::read_samples(const OverlayIndex& index) {
-    geodesic::read_samples(index, ascent);
+void OverlaySssd::End::read_samples(const OverlayIndex& index, BorderCrossing& crossing) {
+    geodesic::read_samples(index, crossing, ascent);
     ranges.begin(ascent);
 }
 
@@ -71,8 +79,9 @@ struct OverlaySssd::Climber {
     End& end;
 
     void read_samples() const {
-        end.read_samples(search.index_);
-        cross_samples(search.index_, end.ascent, search.meeting_patch(), search.crossing_, search.samples_);
+        end.read_samples(search.index_, search.crossing_);
+        hop_to_sibling(search.index_, end.ascent.last_patch(), end.ascent.sample_distances,
+                       search.meeting_patch(), search.crossing_, search.samples_);
     }
 
     // Finds the ranges of paths to a sample and to its two neighbours.
@@ -90,7 +99,7 @@ struct OverlaySssd::Climber {
     // Whether the border that the other end climbs to is to be crossed as a whole from that of this end.
     bool crosses_whole() const {
         const Rings& rings = search.index_.rings;
-        return end.ascent.patches.size() == 1 &&
+        return has_few_pairs(rings, end.ascent) &&
                size_t{rings.size(search.meeting_patch())} * rings.size(end.ascent.last_patch()) <= FEW_PAIRS;
     }
     bool take_whole() const { return end.ranges.take_whole(end.ascent); }
@@ -193,9 +202,9 @@ float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, 
 //   distances to its places on the border where `to_` ends its climb.
 template <class From>
 float OverlaySssd::meet(const From& from) {
-    if (to_.ascent.patches.size() == 1 && from.crosses_whole())
+    if (has_few_pairs(index_.rings, to_.ascent) && from.crosses_whole())
         return from.take_whole() && to_.ranges.take_whole(to_.ascent) ? measure(from) : INFINITE;
-    to_.read_samples(index_);
+    to_.read_samples(index_, crossing_);
     from.read_samples();
     const uint32_t patch = meeting_patch();
     float shortest = INFINITE;

@@ -32,7 +32,7 @@ private:
         End(const OverlayIndex& index, std::pmr::memory_resource* memory)
             : ascent(index, memory), ranges(index, memory), measured(index, memory) {}
         void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top);
-        void read_samples(const OverlayIndex& index);
+        void read_samples(const OverlayIndex& index, BorderCrossing& crossing);
 
         Ascent ascent;
         BorderRanges ranges;
@@ -62,7 +62,7 @@ private:
     BorderCrossing crossing_;
     End from_, to_;
     // The other end's distances to the samples of the meeting border.
-    SamplesAcross samples_;
+    ReachedSamples samples_;
     Array<float> from_distances_;
 };
 
