@@ -11,7 +11,7 @@ namespace geodesic {
 
 Numbering::Numbering(std::pmr::memory_resource* memory)
     : level_begin(memory), parent(memory), child_begin(memory), positions(memory), owned_begin(memory),
-      internal_begin(memory), border_begin(memory), border(memory), leaf_of_internal(memory), owner(memory),
+      internal_begin(memory), border_begin(memory), border(memory), owner(memory), leaf_of_block(memory),
       overlay_position(memory), patch_of_slot(memory), overlay_begin(memory), slot_begin(memory),
       slots(memory), vertex_borders_begin(memory), vertex_borders(memory), border_internal_begin(memory),
       internal_table_begin(memory) {}
@@ -136,11 +136,14 @@ void derive_vertex_borders(Numbering& numbering) {
 }
 
 void derive_leaves(Numbering& numbering) {
-    numbering.leaf_of_internal.resize(numbering.vertex_count() - numbering.border_vertex_count());
-    for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf)
-        std::fill_n(numbering.leaf_of_internal.begin() + numbering.first_internal(leaf) -
-                        numbering.border_vertex_count(),
-                    numbering.internal_size(leaf), leaf);
+    const uint32_t first = numbering.border_vertex_count(), count = numbering.vertex_count() - first;
+    uint32_t leaf = numbering.first_leaf();
+    numbering.leaf_of_block.clear();
+    for (uint32_t i = 0; i < count; i += Numbering::LEAF_BLOCK) {
+        while (numbering.first_internal(leaf) + numbering.internal_size(leaf) <= first + i) ++leaf;
+        numbering.leaf_of_block.push_back(leaf);
+    }
+    numbering.leaf_of_block.push_back(numbering.patch_count() - 1);
 }
 
 void lay_out_leaf_tables(Numbering& numbering) {

@@ -47,8 +47,10 @@ struct Numbering {
                                     // number of border vertices
     Array<uint32_t> border_begin;   // patch p has border[border_begin[p]] .. border[border_begin[p + 1] - 1]
     Array<uint32_t> border;         // the vertices' numbers
-    Array<uint32_t> leaf_of_internal; // [number - border_vertex_count()]
-    Array<uint32_t> owner;            // per border vertex
+    Array<uint32_t> owner;          // per border vertex
+    // Of every LEAF_BLOCK-th internal vertex, the leaf; the last leaf at the end.
+    Array<uint32_t> leaf_of_block;
+    static constexpr uint32_t LEAF_BLOCK = 16;
 
     // A *slot* is an index in `border`: it stands for one vertex on the border of one patch.
     Array<uint32_t> overlay_position; // per slot: position in the overlay of the patch's parent
@@ -69,7 +71,14 @@ struct Numbering {
     uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size()); }
     uint32_t border_vertex_count() const { return internal_begin[0]; }
     bool is_border(uint32_t number) const { return number < border_vertex_count(); }
-    uint32_t leaf_of(uint32_t internal) const { return leaf_of_internal[internal - border_vertex_count()]; }
+    uint32_t leaf_of(uint32_t internal) const {
+        const uint32_t* near = leaf_of_block.data() + (internal - border_vertex_count()) / LEAF_BLOCK;
+        if (near[0] == near[1]) return near[0];
+        const uint32_t* begin = internal_begin.data();
+        const uint32_t* next =
+            std::upper_bound(begin + near[0] - first_leaf(), begin + near[1] - first_leaf() + 1, internal);
+        return first_leaf() + static_cast<uint32_t>(next - begin) - 1;
+    }
     bool is_within(uint32_t patch, uint32_t ancestor) const {
         while (patch != NONE && patch > ancestor) patch = parent[patch];
         return patch == ancestor;

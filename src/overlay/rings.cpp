@@ -14,13 +14,11 @@ namespace {
 constexpr uint32_t REACH = Rings::REACH;
 constexpr float GAP = Rings::GAP;
 
-void add_place(Rings& rings, uint32_t position, uint32_t vertex, float length, bool own) {
+void add_place(Rings& rings, uint32_t position, float length, bool own) {
     rings.position.push_back(position);
-    rings.vertex.push_back(vertex);
     rings.segment_length.push_back(length);
     rings.half_inverse.push_back(0.5f / length);
     rings.is_own.push_back(own ? -1 : 0);
-    rings.chain.push_back(static_cast<uint32_t>(rings.chains.size()));
 }
 
 [[noreturn]] void refuse_segment(uint32_t patch, uint32_t from, uint32_t to) {
@@ -42,9 +40,12 @@ uint32_t end_of_chain(uint32_t first, std::span<const uint32_t> segment_end, uin
 
 }
 
-void RingWriter::begin() { rings_.begin.assign(1, 0); }
+void RingWriter::begin() {
+    rings_.begin.assign(1, 0);
+    rings_.chain_begin.assign(1, 0);
+}
 
-void RingWriter::add_chain(const Chain& chain, std::span<const uint32_t> border) {
+void RingWriter::add_chain(const Chain& chain) {
     const auto count = static_cast<uint32_t>(chain.positions.size());
     for (uint32_t step = 0; step < count + 2 * REACH; ++step) {
         const bool own = step >= REACH && step < count + REACH;
@@ -52,7 +53,7 @@ void RingWriter::add_chain(const Chain& chain, std::span<const uint32_t> border)
         const uint32_t along = std::clamp(step, REACH, count + REACH - 1) - REACH;
         const uint32_t i = chain.is_closed ? around : along;
         const bool gap = chain.is_closed ? step + 1 == count + 2 * REACH : !own || i + 1 == count;
-        add_place(rings_, chain.positions[i], border[chain.positions[i]], gap ? GAP : chain.lengths[i], own);
+        add_place(rings_, chain.positions[i], gap ? GAP : chain.lengths[i], own);
     }
     const auto end = static_cast<uint32_t>(rings_.position.size()) - REACH;
     rings_.chains.push_back({end - count, end - 1, chain.is_closed});
@@ -65,24 +66,23 @@ void RingWriter::end_ring() {
                                             " has " + std::to_string(end - rings_.begin.back()) +
                                             " vertices or so, more than the overlay engine can take");
     rings_.begin.push_back(end);
+    rings_.chain_begin.push_back(static_cast<uint32_t>(rings_.chains.size()));
 }
 
 void RingWriter::end() {
-    for (size_t i = 0; i < Rings::PADDING; ++i) add_place(rings_, 0, 0, GAP, false);
+    for (size_t i = 0; i < Rings::PADDING; ++i) add_place(rings_, 0, GAP, false);
     const auto shrink = [](auto&... arrays) { (arrays.shrink_to_fit(), ...); };
-    shrink(rings_.begin, rings_.position, rings_.vertex, rings_.segment_length, rings_.half_inverse,
-           rings_.is_own, rings_.chain, rings_.chains);
+    shrink(rings_.begin, rings_.position, rings_.segment_length, rings_.half_inverse, rings_.is_own,
+           rings_.chain_begin, rings_.chains);
 }
 
 std::vector<Chain> chains_of_ring(const Rings& rings, uint32_t patch) {
     std::vector<Chain> chains;
-    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1];) {
-        const auto& [first, last, is_closed] = rings.chains[rings.chain[k]];
+    for (const auto& [first, last, is_closed] : rings.chains_of(patch)) {
         const uint32_t size = last - first + 1;
         chains.push_back({{rings.position.data() + first, size},
                           {rings.segment_length.data() + first, size},
                           is_closed != 0});
-        k = last + REACH + 1;
     }
     return chains;
 }
@@ -100,8 +100,7 @@ void lay_out_rings(std::span<const uint32_t> segment_end, std::span<const float>
         for (uint32_t i = 0, end; i < size; i = end) {
             end = end_of_chain(i, ends, p);
             writer.add_chain({std::span(positions).subspan(i, end - i), lengths.subspan(i, end - i),
-                              ends[end - 1] != NONE},
-                             numbering.border_of(p));
+                              ends[end - 1] != NONE});
         }
         writer.end_ring();
     }
@@ -111,6 +110,10 @@ void lay_out_rings(std::span<const uint32_t> segment_end, std::span<const float>
             if (rings.is_own[k])
                 rings.place_of_slot[numbering.border_begin[p] + rings.position[k]] = k - rings.begin[p];
     writer.end();
+    rings.vertex.assign(rings.position.size(), 0);
+    for (uint32_t p = 0; p < numbering.patch_count(); ++p)
+        for (uint32_t k = rings.begin[p]; k < rings.begin[p + 1]; ++k)
+            rings.vertex[k] = numbering.border_of(p)[rings.position[k]];
 }
 
 BorderSegments segments_of_rings(const BorderRings& rings, const Numbering& numbering) {

@@ -26,8 +26,8 @@ struct Rings {
     static constexpr float GAP = std::numeric_limits<float>::quiet_NaN();
 
     explicit Rings(std::pmr::memory_resource* memory)
-        : begin(memory), position(memory), vertex(memory), segment_length(memory), half_inverse(memory),
-          is_own(memory), chain(memory), chains(memory) {}
+        : begin(memory), position(memory), segment_length(memory), half_inverse(memory), is_own(memory),
+          chain_begin(memory), chains(memory) {}
 
     // The first and the last own place of a chain's vertices, counted over all rings.
     struct ChainPlaces {
@@ -38,14 +38,17 @@ struct Rings {
     Array<uint32_t> begin; // per patch
     // Per place.
     Array<uint32_t> position;    // the vertex's position in the border
-    Array<uint32_t> vertex;      // the vertex's number
     Array<float> segment_length; // of the segment to the next place; GAP if there is none
     Array<float> half_inverse;   // 0.5 / segment_length
     Array<int32_t> is_own;       // -1 at the vertex's own place, 0 where it is repeated
-    Array<uint32_t> chain;       // an index into `chains`
+    Array<uint32_t> chain_begin; // per patch: where its chains begin
     Array<ChainPlaces> chains;
 
     uint32_t size(uint32_t patch) const { return begin[patch + 1] - begin[patch]; }
+    // In the order of their places.
+    std::span<const ChainPlaces> chains_of(uint32_t patch) const {
+        return {chains.data() + chain_begin[patch], chains.data() + chain_begin[patch + 1]};
+    }
     uint32_t largest_size() const {
         uint32_t largest = 0;
         for (size_t p = 0; p + 1 < begin.size(); ++p) largest = std::max(largest, begin[p + 1] - begin[p]);
@@ -55,8 +58,10 @@ struct Rings {
 
 // Rings in which every vertex of every border has a place.
 struct BorderRings : Rings {
-    explicit BorderRings(std::pmr::memory_resource* memory) : Rings(memory), place_of_slot(memory) {}
+    explicit BorderRings(std::pmr::memory_resource* memory)
+        : Rings(memory), vertex(memory), place_of_slot(memory) {}
 
+    Array<uint32_t> vertex;        // per place: the vertex's number
     Array<uint32_t> place_of_slot; // the vertex's own place in the ring of its patch
 };
 
@@ -84,7 +89,7 @@ public:
     explicit RingWriter(Rings& rings) : rings_(rings) {}
 
     void begin();
-    void add_chain(const Chain& chain, std::span<const uint32_t> border);
+    void add_chain(const Chain& chain);
     void end_ring(); // throws Error LIMIT if the ring has too many places
     void end();
 

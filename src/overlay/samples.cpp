@@ -58,7 +58,7 @@ void sample_ring(const OverlayIndex& index, uint32_t patch, RingWriter& writer) 
         std::vector<float> lengths;
         for (size_t i = 0; i < samples.size(); ++i)
             lengths.push_back(segment_between(index, patch, samples[i], samples[(i + 1) % samples.size()]));
-        writer.add_chain({samples, lengths, chain.is_closed}, index.numbering.border_of(patch));
+        writer.add_chain({samples, lengths, chain.is_closed});
     }
     writer.end_ring();
 }
@@ -171,12 +171,10 @@ SampleCount count_samples(const OverlayIndex& index, uint32_t patch) {
     const Rings& rings = index.rings;
     const uint32_t step = step_of(index, patch);
     SampleCount count;
-    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1];) {
-        const auto& [first, last, is_closed] = rings.chains[rings.chain[k]];
+    for (const auto& [first, last, is_closed] : rings.chains_of(patch)) {
         const uint32_t samples = sample_count(last - first + 1, is_closed != 0, step);
         count.samples += samples;
         count.places += samples + 2 * Rings::REACH;
-        k = last + Rings::REACH + 1;
     }
     return count;
 }

@@ -1,5 +1,7 @@
 #include "src/overlay/sssd/border_range.h"
 
+#include <algorithm>
+
 #include "src/overlay/codes.h"
 #include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/sssd/border_crossing.h"
@@ -27,7 +29,10 @@ BorderRange range_around(const OverlayIndex& index, uint32_t patch, SampleRange 
     const uint32_t* place = index.pairs.samples.full_place.data() + index.pairs.samples.rings.begin[patch];
     const uint32_t first = place[samples.first - REACH], last = place[samples.last + REACH];
     if (first <= place[samples.first] && place[samples.last] <= last) return {first, last};
-    const auto chain = [&](uint32_t k) { return index.rings.chains[index.rings.chain[place[k]]]; };
+    const auto chain = [&](uint32_t k) {
+        return *std::ranges::lower_bound(index.rings.chains_of(patch), place[k], {},
+                                         &Rings::ChainPlaces::last);
+    };
     return {chain(samples.first).first - REACH, chain(samples.last).last + REACH};
 }
 
