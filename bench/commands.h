@@ -11,5 +11,6 @@ void add_metric(CLI::App& app);
 void add_error(CLI::App& app);
 void add_several(CLI::App& app);
 void add_open(CLI::App& app);
+void add_files(CLI::App& app);
 
 }

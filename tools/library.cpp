@@ -50,6 +50,17 @@ geoidx_info info_of(const geoidx& index, const std::string& path) {
     return info;
 }
 
+std::vector<unsigned char> saved_bytes(const geoidx& index, uint32_t codec, const std::string& path) {
+    geoidx_save_options options;
+    geoidx_save_options_init(&options);
+    options.codec = codec;
+    uint64_t size = 0;
+    require_ok(geoidx_save_memory(&index, &options, nullptr, 0, &size), path);
+    std::vector<unsigned char> bytes(size);
+    require_ok(geoidx_save_memory(&index, &options, bytes.data(), size, &size), path);
+    return bytes;
+}
+
 Solver make_solver(const TriangleMesh& mesh, const std::string& path, const geoidx_build_options& options) {
     const geoidx_mesh view = view_of(mesh);
     geoidx_solver* solver = nullptr;
@@ -79,5 +90,7 @@ uint32_t metric_of_name(const std::string& name) {
 uint32_t engine_of_name(const std::string& name) {
     return name == ENGINE_NAMES[GEOIDX_ENGINE_OVERLAY] ? GEOIDX_ENGINE_OVERLAY : GEOIDX_ENGINE_GRAPH;
 }
+
+const std::vector<std::string> CODEC_NAMES{"packed", "lossless", "mapped"};
 
 }

@@ -31,6 +31,9 @@ Index open_index(const std::string& path, const TriangleMesh* expected);
 geoidx_info info_of(const geoidx& index, const std::string& path);
 std::vector<geoidx_section> sections_of(const geoidx& index, const std::string& path);
 
+// The bytes of the file that the index is saved as.
+std::vector<unsigned char> saved_bytes(const geoidx& index, uint32_t codec, const std::string& path);
+
 Solver make_solver(const TriangleMesh& mesh, const std::string& path, const geoidx_build_options& options);
 
 const char* metric_name(uint32_t metric);
@@ -38,5 +41,7 @@ uint32_t metric_of_name(const std::string& name);
 
 inline constexpr std::array<const char*, 2> ENGINE_NAMES{"graph", "overlay"}; // by GEOIDX_ENGINE_*
 uint32_t engine_of_name(const std::string& name);
+
+extern const std::vector<std::string> CODEC_NAMES; // by GEOIDX_CODEC_*
 
 }

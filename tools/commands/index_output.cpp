@@ -9,21 +9,6 @@
 
 namespace geodesic::tools {
 
-namespace {
-
-std::vector<unsigned char> bytes_of(const geoidx& index, const geoidx_save_options& options,
-                                    const std::string& path) {
-    uint64_t size = 0;
-    require_ok(geoidx_save_memory(&index, &options, nullptr, 0, &size), path);
-    std::vector<unsigned char> bytes(size);
-    require_ok(geoidx_save_memory(&index, &options, bytes.data(), size, &size), path);
-    return bytes;
-}
-
-}
-
-const std::vector<std::string> CODEC_NAMES{"packed", "lossless", "mapped"};
-
 uint32_t codec_of_name(const std::string& name) {
     return static_cast<uint32_t>(std::ranges::find(CODEC_NAMES, name) - CODEC_NAMES.begin());
 }
@@ -46,10 +31,10 @@ void require_index_output(const std::string& output, const std::string& input) {
 }
 
 void save_index(const geoidx& index, uint32_t codec, const std::string& path) {
+    if (path == STANDARD_OUTPUT) return write_file(path, saved_bytes(index, codec, path));
     geoidx_save_options options;
     geoidx_save_options_init(&options);
     options.codec = codec;
-    if (path == STANDARD_OUTPUT) return write_file(path, bytes_of(index, options, path));
     const SignalsHeldBack until_renamed;
     require_ok(geoidx_save(&index, behind_links(path).c_str(), &options), path);
 }

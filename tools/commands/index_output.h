@@ -1,16 +1,12 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "geoidx.h"
 
 namespace geodesic::tools {
-
-// The names of GEOIDX_CODEC_*, in their order.
-extern const std::vector<std::string> CODEC_NAMES;
 
 uint32_t codec_of_name(const std::string& name);
 // --codec, whose default is the first of the names.
