@@ -12,7 +12,7 @@ namespace geodesic::format {
 namespace {
 
 [[noreturn]] void fail_corrupt(std::uint32_t tag, const std::string& what) {
-    throw Error(GEOIDX_ERROR_CORRUPT, "section " + tag_text(tag) + ": " + what);
+    throw Error(GEOIDX_ERROR_CORRUPT, "section " + tag_text(tag) + ": " + what, tag);
 }
 
 std::uint64_t raw_size_of(std::span<const MatrixTarget> matrices) {
@@ -21,15 +21,30 @@ std::uint64_t raw_size_of(std::span<const MatrixTarget> matrices) {
     return size;
 }
 
+// Returns what decode() returns. An error of it that names no section is one of this section's stored bytes.
+template <class Decode>
+decltype(auto) decode_section(std::uint32_t tag, const Decode& decode) {
+    try {
+        return decode();
+    } catch (Error& error) {
+        if (error.section != 0) throw;
+        error.section = tag;
+        error.is_undecodable = true;
+        throw;
+    }
+}
+
 // Runs decode(), and says in its error which image of which section is meant.
 template <class Decode>
 void decode_image(std::uint32_t tag, std::size_t index, const Decode& decode) {
-    try {
-        decode();
-    } catch (const Error& error) {
-        throw Error(error.status,
-                    "section " + tag_text(tag) + ", image " + std::to_string(index) + ": " + error.what());
-    }
+    decode_section(tag, [&] {
+        try {
+            decode();
+        } catch (const Error& error) {
+            throw Error(error.status, "section " + tag_text(tag) + ", image " + std::to_string(index) + ": " +
+                                          error.what());
+        }
+    });
 }
 
 }
@@ -93,7 +108,8 @@ std::vector<std::byte> Container::read_bytes(std::uint32_t tag, std::uint64_t ma
     const auto stored = stored_bytes(found);
     if (found.codec == Codec::Raw) return {stored.begin(), stored.end()};
     if (found.codec == Codec::Zstd)
-        return decompress_zstd(stored, found.raw_size, "section " + tag_text(tag));
+        return decode_section(
+            tag, [&] { return decompress_zstd(stored, found.raw_size, "section " + tag_text(tag)); });
     if (found.codec == Codec::ByteImages) return read_images(found, share_out);
     fail_corrupt(tag, "it holds matrices, expected bytes");
 }
@@ -141,17 +157,19 @@ std::vector<std::span<const std::byte>> Container::png_streams(std::uint32_t tag
     const Section& found = section(tag);
     if (found.codec != Codec::Png && found.codec != Codec::ByteImages)
         fail_corrupt(tag, "it does not hold images");
-    ByteReader reader(stored_bytes(found), "section " + tag_text(tag));
-    const std::uint32_t stored_count = reader.u32();
-    if (stored_count != count) {
-        fail_corrupt(tag, std::to_string(stored_count) + " images, expected " + std::to_string(count));
-    }
-    ByteReader lengths(reader.bytes(8 * std::uint64_t{stored_count}), "section " + tag_text(tag));
-    std::vector<std::span<const std::byte>> streams;
-    streams.reserve(stored_count);
-    for (std::uint32_t i = 0; i < stored_count; ++i) streams.push_back(reader.bytes(lengths.u64()));
-    reader.expect_end();
-    return streams;
+    return decode_section(tag, [&] {
+        ByteReader reader(stored_bytes(found), "section " + tag_text(tag));
+        const std::uint32_t stored_count = reader.u32();
+        if (stored_count != count) {
+            fail_corrupt(tag, std::to_string(stored_count) + " images, expected " + std::to_string(count));
+        }
+        ByteReader lengths(reader.bytes(8 * std::uint64_t{stored_count}), "section " + tag_text(tag));
+        std::vector<std::span<const std::byte>> streams;
+        streams.reserve(stored_count);
+        for (std::uint32_t i = 0; i < stored_count; ++i) streams.push_back(reader.bytes(lengths.u64()));
+        reader.expect_end();
+        return streams;
+    });
 }
 
 }

@@ -98,8 +98,10 @@ private:
     std::vector<std::vector<std::byte>> stored_;
 };
 
-// A problem of a file: what, where (bytes from the start of the file), and one line of text.
+// A problem of a file: which rule it breaks (GEOIDX_ISSUE_*), where (bytes from the start of the file), and
+// one line of text.
 struct Issue {
+    std::uint32_t number;
     geoidx_status status;
     std::uint64_t offset;
     std::string message;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -11,9 +12,23 @@ namespace geodesic {
 
 // The one exception type of the library; capi turns it into a status and geoidx_last_error().
 struct Error : std::runtime_error {
-    Error(geoidx_status status, const std::string& detail) : std::runtime_error(detail), status(status) {}
+    Error(geoidx_status status, const std::string& detail, std::uint32_t section = 0)
+        : std::runtime_error(detail), status(status), section(section) {}
 
     geoidx_status status;
+    std::uint32_t section;       // the tag of the section of a file that is at fault; 0: no single one
+    bool is_undecodable = false; // that section's stored bytes are at fault, not what they hold
 };
+
+// Returns what body() returns. An Error of it that names no section names this one.
+template <class Body>
+decltype(auto) about_section(std::uint32_t tag, const Body& body) {
+    try {
+        return body();
+    } catch (Error& error) {
+        if (error.section == 0) error.section = tag;
+        throw;
+    }
+}
 
 }

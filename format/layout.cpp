@@ -65,8 +65,8 @@ public:
     }
 
 private:
-    bool fail(geoidx_status status, std::uint64_t offset, std::string message) const {
-        report_({status, offset, std::move(message)});
+    bool fail(std::uint32_t number, geoidx_status status, std::uint64_t offset, std::string message) const {
+        report_({number, status, offset, std::move(message)});
         return false;
     }
 
@@ -75,12 +75,12 @@ private:
         const std::size_t length = std::min(file_.size(), magic.size());
         if (!std::ranges::equal(file_.first(length), magic.first(length))) {
             const bool is_text = length == magic.size() && std::ranges::equal(file_.first(5), magic.first(5));
-            return fail(GEOIDX_ERROR_NOT_AN_INDEX, 0,
+            return fail(GEOIDX_ISSUE_MAGIC, GEOIDX_ERROR_NOT_AN_INDEX, 0,
                         is_text ? "the line ends in the magic are changed: the file was transferred as text"
                                 : "the first " + std::to_string(length) + " bytes are not those of an index");
         }
         if (file_.size() >= HEADER_SIZE) return true;
-        return fail(GEOIDX_ERROR_TRUNCATED, file_.size(),
+        return fail(GEOIDX_ISSUE_HEADER_TRUNCATED, GEOIDX_ERROR_TRUNCATED, file_.size(),
                     "the file ends after " + std::to_string(file_.size()) + " bytes, within the header of " +
                         std::to_string(HEADER_SIZE));
     }
@@ -88,13 +88,13 @@ private:
     bool check_version() const {
         const Header& header = layout_.header;
         if (header.version_major != FORMAT_MAJOR) {
-            return fail(GEOIDX_ERROR_UNSUPPORTED_VERSION, MAJOR_OFFSET,
+            return fail(GEOIDX_ISSUE_VERSION, GEOIDX_ERROR_UNSUPPORTED_VERSION, MAJOR_OFFSET,
                         "the file has format version " + std::to_string(header.version_major) + "." +
                             std::to_string(header.version_minor) + ", known is " +
                             std::to_string(FORMAT_MAJOR));
         }
         if (header.incompatible_flags == 0) return true;
-        return fail(GEOIDX_ERROR_UNSUPPORTED_VERSION, INCOMPATIBLE_FLAGS_OFFSET,
+        return fail(GEOIDX_ISSUE_FEATURE_FLAGS, GEOIDX_ERROR_UNSUPPORTED_VERSION, INCOMPATIBLE_FLAGS_OFFSET,
                     "the file needs features unknown here, flags " +
                         std::to_string(header.incompatible_flags));
     }
@@ -104,15 +104,17 @@ private:
         const Header& header = layout_.header;
         const std::string sizes = "the file has " + std::to_string(file_.size()) +
                                   " bytes, its header says " + std::to_string(header.file_size);
-        if (file_.size() < header.file_size) fail(GEOIDX_ERROR_TRUNCATED, file_.size(), sizes);
-        if (file_.size() > header.file_size) fail(GEOIDX_ERROR_CORRUPT, FILE_SIZE_OFFSET, sizes);
+        if (file_.size() < header.file_size)
+            fail(GEOIDX_ISSUE_FILE_TRUNCATED, GEOIDX_ERROR_TRUNCATED, file_.size(), sizes);
+        if (file_.size() > header.file_size)
+            fail(GEOIDX_ISSUE_FILE_TOO_LONG, GEOIDX_ERROR_CORRUPT, FILE_SIZE_OFFSET, sizes);
         const std::string count = std::to_string(header.section_count) + " sections";
         if (header.section_count > MAX_SECTIONS) {
-            return fail(GEOIDX_ERROR_LIMIT, SECTION_COUNT_OFFSET,
+            return fail(GEOIDX_ISSUE_SECTION_COUNT, GEOIDX_ERROR_LIMIT, SECTION_COUNT_OFFSET,
                         count + ", the limit is " + std::to_string(MAX_SECTIONS));
         }
         if (table_end(header.section_count) > header.file_size) {
-            return fail(GEOIDX_ERROR_CORRUPT, SECTION_COUNT_OFFSET,
+            return fail(GEOIDX_ISSUE_SECTION_TABLE, GEOIDX_ERROR_CORRUPT, SECTION_COUNT_OFFSET,
                         count + " do not fit into " + std::to_string(header.file_size) + " bytes");
         }
         return table_end(header.section_count) <= file_.size();
@@ -131,7 +133,7 @@ private:
             layout_.sections.push_back(record.section);
         }
         if (end != layout_.header.file_size) {
-            fail(GEOIDX_ERROR_CORRUPT, std::min<std::uint64_t>(end, file_.size()),
+            fail(GEOIDX_ISSUE_FILE_END, GEOIDX_ERROR_CORRUPT, std::min<std::uint64_t>(end, file_.size()),
                  "the last section ends at offset " + std::to_string(end) + ", the file at " +
                      std::to_string(layout_.header.file_size));
         }
@@ -139,12 +141,12 @@ private:
 
     void check_place(const Section& section, std::uint64_t previous_end, std::uint64_t at) const {
         if (!is_inside(section, layout_.header.file_size)) {
-            fail(GEOIDX_ERROR_CORRUPT, at,
+            fail(GEOIDX_ISSUE_SECTION_OUTSIDE, GEOIDX_ERROR_CORRUPT, at,
                  section_text(section) + " with " + std::to_string(section.stored_size) +
                      " bytes is not inside the file of " + std::to_string(layout_.header.file_size));
         }
         if (section.offset != align_section(previous_end)) {
-            fail(GEOIDX_ERROR_CORRUPT, at,
+            fail(GEOIDX_ISSUE_SECTION_PLACE, GEOIDX_ERROR_CORRUPT, at,
                  section_text(section) + " must stand at offset " +
                      std::to_string(align_section(previous_end)));
         }
@@ -154,22 +156,24 @@ private:
         const Section& section = record.section;
         const auto same_tag = [&](const Section& other) { return other.tag == section.tag; };
         if (std::ranges::any_of(layout_.sections, same_tag)) {
-            fail(GEOIDX_ERROR_CORRUPT, at, section_text(section) + " is there twice");
+            fail(GEOIDX_ISSUE_SECTION_TWICE, GEOIDX_ERROR_CORRUPT, at,
+                 section_text(section) + " is there twice");
         }
         if ((section.flags & ~SECTION_OPTIONAL) != 0) {
-            fail(GEOIDX_ERROR_CORRUPT, at,
+            fail(GEOIDX_ISSUE_SECTION_FLAGS, GEOIDX_ERROR_CORRUPT, at,
                  section_text(section) + " has undefined flags " + std::to_string(section.flags));
         }
         if (record.reserved != 0) {
-            fail(GEOIDX_ERROR_CORRUPT, at,
+            fail(GEOIDX_ISSUE_SECTION_FLAGS, GEOIDX_ERROR_CORRUPT, at,
                  section_text(section) + " has " + std::to_string(record.reserved) +
                      " in the reserved field, not 0");
         }
         if (!is_known(section) && (section.flags & SECTION_OPTIONAL) == 0) {
-            fail(GEOIDX_ERROR_UNSUPPORTED_VERSION, at, section_text(section) + " is needed and unknown here");
+            fail(GEOIDX_ISSUE_SECTION_UNKNOWN, GEOIDX_ERROR_UNSUPPORTED_VERSION, at,
+                 section_text(section) + " is needed and unknown here");
         }
         if (is_known(section) && section.codec > Codec::ByteImages) {
-            fail(GEOIDX_ERROR_UNSUPPORTED_VERSION, at,
+            fail(GEOIDX_ISSUE_SECTION_CODEC, GEOIDX_ERROR_UNSUPPORTED_VERSION, at,
                  section_text(section) + " has codec " +
                      std::to_string(static_cast<std::uint32_t>(section.codec)) + ", unknown here");
         }
@@ -181,7 +185,7 @@ private:
                                   ? section.raw_size != section.stored_size
                                   : section.raw_size / MAX_PACKING > section.stored_size;
         if (!is_wrong || !is_known(section)) return;
-        fail(GEOIDX_ERROR_CORRUPT, at,
+        fail(GEOIDX_ISSUE_SECTION_SIZE, GEOIDX_ERROR_CORRUPT, at,
              section_text(section) + " cannot hold " + std::to_string(section.raw_size) + " raw bytes in " +
                  std::to_string(section.stored_size));
     }
@@ -189,7 +193,7 @@ private:
     void check_header_checksum() const {
         const auto covered = file_.first(table_end(layout_.header.section_count));
         if (header_checksum(covered) == layout_.header.checksum) return;
-        fail(GEOIDX_ERROR_CHECKSUM, CHECKSUM_OFFSET,
+        fail(GEOIDX_ISSUE_HEADER_CHECKSUM, GEOIDX_ERROR_CHECKSUM, CHECKSUM_OFFSET,
              "the checksum of the header and the section table does not match");
     }
 
@@ -208,7 +212,8 @@ private:
         const auto padding = file_.subspan(begin, end - begin);
         const auto wrong = std::ranges::find_if(padding, [](std::byte byte) { return byte != std::byte{0}; });
         if (wrong == padding.end()) return;
-        fail(GEOIDX_ERROR_CORRUPT, begin + static_cast<std::uint64_t>(wrong - padding.begin()),
+        fail(GEOIDX_ISSUE_PADDING, GEOIDX_ERROR_CORRUPT,
+             begin + static_cast<std::uint64_t>(wrong - padding.begin()),
              "the padding before " + section_text(section) + " is " +
                  std::to_string(std::to_integer<int>(*wrong)) + ", not 0");
     }
@@ -216,7 +221,7 @@ private:
     void check_section_checksum(const Section& section) const {
         if (!is_inside(section, file_.size())) return;
         if (checksum(file_.subspan(section.offset, section.stored_size)) == section.checksum) return;
-        fail(GEOIDX_ERROR_CHECKSUM, section.offset,
+        fail(GEOIDX_ISSUE_SECTION_CHECKSUM, GEOIDX_ERROR_CHECKSUM, section.offset,
              "the checksum of " + section_text(section) + " with " + std::to_string(section.stored_size) +
                  " bytes does not match");
     }

@@ -391,13 +391,72 @@ GEOIDX_API geoidx_status geoidx_get_info(const geoidx* index, geoidx_info* info)
 GEOIDX_API geoidx_status geoidx_get_sections(const geoidx* index, geoidx_section* sections, uint32_t capacity,
                                              uint32_t* count);
 
-/* Told once for each problem found: its status, the byte offset it concerns, and one line of text that is
- * valid during the call. Return 0 to stop. */
-typedef int32_t (*geoidx_issue_fn)(void* user, geoidx_status status, uint64_t offset, const char* message);
+/* What is wrong with a file: the number of the rule that it breaks. format/SPEC.md, "What a reader must
+ * refuse", has the rules. Once released, a number never changes and is never used for another rule; later
+ * versions may add numbers. */
+enum {
+    /* The container: header, section table, padding and checksums. */
+    GEOIDX_ISSUE_MAGIC = 1,             /* the data does not begin like a geoidx file */
+    GEOIDX_ISSUE_HEADER_TRUNCATED = 2,  /* the data ends within the header */
+    GEOIDX_ISSUE_VERSION = 3,           /* another major version of the format */
+    GEOIDX_ISSUE_FEATURE_FLAGS = 4,     /* an incompatible feature flag that is unknown here */
+    GEOIDX_ISSUE_FILE_TRUNCATED = 5,    /* shorter than the file size in the header */
+    GEOIDX_ISSUE_FILE_TOO_LONG = 6,     /* longer than the file size in the header */
+    GEOIDX_ISSUE_SECTION_COUNT = 7,     /* more sections than the format allows */
+    GEOIDX_ISSUE_SECTION_TABLE = 8,     /* the section table does not fit into the file */
+    GEOIDX_ISSUE_SECTION_OUTSIDE = 9,   /* a section is not inside the file */
+    GEOIDX_ISSUE_SECTION_PLACE = 10,    /* a section does not stand right behind the one before it */
+    GEOIDX_ISSUE_SECTION_TWICE = 11,    /* two sections have one tag */
+    GEOIDX_ISSUE_SECTION_FLAGS = 12,    /* an undefined flag of a section, or its reserved field is not 0 */
+    GEOIDX_ISSUE_SECTION_UNKNOWN = 13,  /* a section that is needed and unknown here */
+    GEOIDX_ISSUE_SECTION_CODEC = 14,    /* a section with a codec that is unknown here */
+    GEOIDX_ISSUE_SECTION_SIZE = 15,     /* a raw size that the stored bytes of a section cannot hold */
+    GEOIDX_ISSUE_FILE_END = 16,         /* the file does not end with the last section */
+    GEOIDX_ISSUE_HEADER_CHECKSUM = 17,  /* the checksum of header and section table does not match */
+    GEOIDX_ISSUE_PADDING = 18,          /* a byte between sections is not 0 */
+    GEOIDX_ISSUE_SECTION_CHECKSUM = 19, /* the checksum of a section does not match */
+
+    /* The stored bytes of a section are not what its codec makes. */
+    GEOIDX_ISSUE_DECODING = 100,
+    /* The content of one section, by its tag: it is missing, has the wrong size or form, or contradicts the
+     * format or the sections before it. */
+    GEOIDX_ISSUE_META = 101,
+    GEOIDX_ISSUE_HIER = 102,
+    GEOIDX_ISSUE_VERT = 103,
+    GEOIDX_ISSUE_POSI = 104,
+    GEOIDX_ISSUE_BORD = 105,
+    GEOIDX_ISSUE_BVBV = 106,
+    GEOIDX_ISSUE_BVIV = 107,
+    GEOIDX_ISSUE_IVIV = 108,
+    GEOIDX_ISSUE_QUAN = 109,
+    GEOIDX_ISSUE_SEGM = 110,
+    GEOIDX_ISSUE_OVOV = 111,
+    GEOIDX_ISSUE_HOPS = 112,
+
+    /* No single section is at fault: the index as a whole is over a limit, takes memory out of proportion to
+     * its file, or cannot be read on this machine. */
+    GEOIDX_ISSUE_WHOLE_INDEX = 200
+};
+
+/* A problem of a file. The library makes these; later versions may add fields at the end. */
+typedef struct geoidx_issue {
+    uint32_t number; /* GEOIDX_ISSUE_*, or of a later version */
+    geoidx_status status;
+    /* Where the problem is, in bytes from the start of the data. The container's problems are at the field,
+     * the record of the section table or the stored byte that is wrong, or at the end of data that is too
+     * short. Those of 100 .. 199 are at the first stored byte of their section, or at 0 if it is missing;
+     * those of 200 and more are at 0. */
+    uint64_t offset;
+    const char* message; /* one line of UTF-8 */
+} geoidx_issue;
+
+/* Told once for each problem found, which is valid during the call. Return 0 to stop. */
+typedef int32_t (*geoidx_issue_fn)(void* user, const geoidx_issue* issue);
 
 /* Checks an index in memory as geoidx_open_memory does, and accepts what that accepts, but goes on after a
- * problem where it can: each section's checksum and contents are looked at. Returns GEOIDX_OK when there is
- * none, otherwise the first problem's status. `issue` may be NULL. */
+ * problem where it can: all problems of the container are told, and if there are none, the first one of what
+ * the sections hold. Returns GEOIDX_OK when there is none, otherwise the first problem's status. `issue` may
+ * be NULL. */
 GEOIDX_API geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user);
 
 /* ---- Queries (paper section 3.4)

@@ -1,4 +1,4 @@
-// The handle of an index: built, saved, opened, verified, closed.
+// The handle of an index: built, saved, opened, closed.
 #include <cstring>
 
 #include "format/file_io.h"
@@ -121,24 +121,6 @@ private:
     OwnedIndex index_;
 };
 
-constexpr auto NOT_FOLLOWING = "section HOPS: tables of the same distances contradict each other";
-
-// All problems that can be told apart: those of the container, then, if it has none, the first one of its
-// content.
-std::vector<format::Issue> issues_of(std::span<const std::byte> file) {
-    auto issues = format::inspect(file, INDEX_TAGS);
-    if (!issues.empty()) return issues;
-    try {
-        Index index(std::pmr::get_default_resource());
-        prepare(read_index(format::Container::parse(file, INDEX_TAGS), {.threads = thread_count(0)}), index);
-        if (index.description.codec == GEOIDX_CODEC_MAPPED && !follows_from_tables(index))
-            issues.push_back({GEOIDX_ERROR_CORRUPT, 0, NOT_FOLLOWING});
-    } catch (const Error& error) {
-        issues.push_back({error.status, 0, error.what()});
-    }
-    return issues;
-}
-
 // The bytes of a file of the index, with the codec that is asked for.
 std::vector<std::byte> file_of(const geoidx& index, const geoidx_save_options* given) {
     StoredIndex stored = restore(index.index);
@@ -149,14 +131,9 @@ std::vector<std::byte> file_of(const geoidx& index, const geoidx_save_options* g
     }
     // Other forms hold fewer tables, from which the others must follow.
     if (index.index.description.codec == GEOIDX_CODEC_MAPPED &&
-        stored.description.codec != GEOIDX_CODEC_MAPPED && !follows_from_tables(index.index))
-        throw Error(GEOIDX_ERROR_CORRUPT, NOT_FOLLOWING);
+        stored.description.codec != GEOIDX_CODEC_MAPPED)
+        require_hops_follow(index.index);
     return write_index(stored);
-}
-
-std::span<const std::byte> bytes_at(const void* data, uint64_t size) {
-    require(data || size == 0, "data is NULL");
-    return {static_cast<const std::byte*>(data), static_cast<size_t>(size)};
 }
 
 }
@@ -228,15 +205,4 @@ geoidx_status geoidx_get_sections(const geoidx* index, geoidx_section* sections,
         *count = static_cast<uint32_t>(index->sections.size());
         std::copy_n(index->sections.begin(), std::min(*count, capacity), sections);
     });
-}
-
-geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user) {
-    geoidx_status first = GEOIDX_OK;
-    const geoidx_status failure = guarded([&] {
-        for (const auto& found : issues_of(bytes_at(data, size))) {
-            if (first == GEOIDX_OK) first = fail(found.status, found.message.c_str());
-            if (issue && !issue(user, found.status, found.offset, found.message.c_str())) break;
-        }
-    });
-    return failure == GEOIDX_OK ? first : failure;
 }

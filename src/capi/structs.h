@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 #include <string>
 
 #include "format/error.h"
+#include "src/capi/status.h"
 
 namespace geodesic {
 
@@ -36,6 +38,12 @@ Struct whole_or_default(const Struct* given, void (*init)(Struct*)) {
     Struct result;
     init(&result);
     return result;
+}
+
+// The caller's bytes.
+inline std::span<const std::byte> bytes_at(const void* data, uint64_t size) {
+    require(data || size == 0, "data is NULL");
+    return {static_cast<const std::byte*>(data), static_cast<size_t>(size)};
 }
 
 }

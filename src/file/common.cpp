@@ -218,17 +218,19 @@ void write_common(const StoredIndex& stored, format::ContainerWriter& writer) {
 }
 
 void read_common(const format::Container& container, uint64_t max_vertices, StoredIndex& stored) {
-    read_meta(container, stored.description);
+    about_section(TAG_META, [&] { read_meta(container, stored.description); });
     if (max_vertices != 0 && stored.description.id_count > max_vertices)
         throw Error(GEOIDX_ERROR_LIMIT, "the mesh of the index has " +
                                             std::to_string(stored.description.id_count) +
                                             " vertices, more than the " + std::to_string(max_vertices) +
                                             " that max_vertices allows");
     const auto border_bytes = container.read_bytes(TAG_BORDERS, MAX_BYTES);
-    const uint32_t leaf_count = read_hierarchy(container, border_bytes.size() / sizeof(uint32_t), stored);
-    read_vertices(container, stored);
-    read_positions(container, stored);
-    read_borders(border_bytes, leaf_count, stored);
+    const uint64_t patch_room = border_bytes.size() / sizeof(uint32_t);
+    const uint32_t leaf_count =
+        about_section(TAG_HIERARCHY, [&] { return read_hierarchy(container, patch_room, stored); });
+    about_section(TAG_VERTICES, [&] { read_vertices(container, stored); });
+    about_section(TAG_POSITIONS, [&] { read_positions(container, stored); });
+    about_section(TAG_BORDERS, [&] { read_borders(border_bytes, leaf_count, stored); });
 }
 
 }

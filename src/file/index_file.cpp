@@ -17,9 +17,10 @@ void check_tags(const format::Container& container, const StoredIndex& stored) {
     const auto expect = [&](std::initializer_list<uint32_t> tags, bool expected) {
         for (const uint32_t tag : tags)
             if (container.has(tag) != expected)
-                refuse_as_corrupt("section " + format::tag_text(tag) +
-                                  (expected ? " is missing" : " does not") +
-                                  (expected ? "" : " go with the engine and the codec"));
+                throw Error(GEOIDX_ERROR_CORRUPT,
+                            "section " + format::tag_text(tag) +
+                                (expected ? " is missing" : " does not go with the engine and the codec"),
+                            tag);
     };
     expect({TAG_BORDER_TABLES}, !overlay);
     expect({TAG_QUANTA, TAG_SEGMENTS}, overlay);

@@ -78,8 +78,8 @@ void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer) {
 }
 
 void read_overlay(const format::Container& container, uint32_t threads, StoredIndex& stored) {
-    read_quanta(container, stored);
-    read_segments(container, stored);
+    about_section(TAG_QUANTA, [&] { read_quanta(container, stored); });
+    about_section(TAG_SEGMENTS, [&] { read_segments(container, stored); });
     switch (stored.description.codec) {
     case GEOIDX_CODEC_PACKED:
         return read_packed_tables(container, threads, stored);

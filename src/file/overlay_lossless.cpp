@@ -61,13 +61,14 @@ void write_lossless_tables(const StoredIndex& stored, format::ContainerWriter& w
 }
 
 void read_lossless_tables(const format::Container& container, uint32_t threads, StoredIndex& stored) {
-    const auto& shift = stored.shift;
-    stored.overlay_codes =
-        codes_of(overlay_section(stored).read(container, threads), shift, overlay_tables(stored));
-    stored.border_internal_codes = codes_of(border_internal_section(stored).read(container, threads), shift,
-                                            border_internal_tables(stored));
-    stored.internal_codes =
-        codes_of(internal_section(stored).read(container, threads), shift, internal_tables(stored));
+    const auto read = [&](uint32_t tag, const TableSection& section, std::span<const CodeTable> tables) {
+        return about_section(
+            tag, [&] { return codes_of(section.read(container, threads), stored.shift, tables); });
+    };
+    stored.overlay_codes = read(TAG_OVERLAY_TABLES, overlay_section(stored), overlay_tables(stored));
+    stored.border_internal_codes =
+        read(TAG_BORDER_INTERNAL_TABLES, border_internal_section(stored), border_internal_tables(stored));
+    stored.internal_codes = read(TAG_INTERNAL_TABLES, internal_section(stored), internal_tables(stored));
 }
 
 }

@@ -21,6 +21,13 @@ bool are_codes(std::span<const uint16_t> values) {
     return all <= TableCode::UNREACHED;
 }
 
+void read_hop_codes(const format::Container& container, StoredIndex& stored) {
+    const auto bytes = container.view_bytes(TAG_HOP_CODES);
+    if (bytes.size() % sizeof(uint16_t) != 0) refuse_as_corrupt("section HOPS ends within a code");
+    stored.hop_codes = {reinterpret_cast<const uint16_t*>(bytes.data()), bytes.size() / sizeof(uint16_t)};
+    if (!are_codes(stored.hop_codes)) refuse_as_corrupt("section HOPS holds what is no code of a distance");
+}
+
 }
 
 void write_mapped_tables(const StoredIndex& stored, format::ContainerWriter& writer) {
@@ -30,10 +37,7 @@ void write_mapped_tables(const StoredIndex& stored, format::ContainerWriter& wri
 
 void read_mapped_tables(const format::Container& container, StoredIndex& stored) {
     require_little_endian();
-    const auto bytes = container.view_bytes(TAG_HOP_CODES);
-    if (bytes.size() % sizeof(uint16_t) != 0) refuse_as_corrupt("section HOPS ends within a code");
-    stored.hop_codes = {reinterpret_cast<const uint16_t*>(bytes.data()), bytes.size() / sizeof(uint16_t)};
-    if (!are_codes(stored.hop_codes)) refuse_as_corrupt("section HOPS holds what is no code of a distance");
+    about_section(TAG_HOP_CODES, [&] { read_hop_codes(container, stored); });
 }
 
 }

@@ -106,7 +106,7 @@ void read_tables(uint32_t tag, const format::Container& container, uint32_t thre
                  const StoredIndex& stored, std::span<const CodeTable> tables, std::vector<uint16_t>& codes) {
     const uint64_t entries = entry_count(tables), size = container.section(tag).raw_size;
     const auto refuse = [&](const std::string& detail) {
-        refuse_as_corrupt("section " + format::tag_text(tag) + " " + detail);
+        throw Error(GEOIDX_ERROR_CORRUPT, "section " + format::tag_text(tag) + " " + detail, tag);
     };
     if (size < entries || size > entries * (1 + sizeof(uint16_t)))
         refuse("does not hold " + std::to_string(entries) + " table entries");

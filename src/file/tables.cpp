@@ -43,6 +43,10 @@ void TableSection::write(std::span<const float> values, format::ContainerWriter&
 }
 
 std::vector<float> TableSection::read(const format::Container& container, uint32_t threads) const {
+    return about_section(tag_, [&] { return read_values(container, threads); });
+}
+
+std::vector<float> TableSection::read_values(const format::Container& container, uint32_t threads) const {
     if (container.section(tag_).raw_size != entries_ * sizeof(float))
         refuse_as_corrupt("section " + format::tag_text(tag_) + " does not hold " + std::to_string(entries_) +
                           " table entries");

@@ -27,6 +27,8 @@ public:
     std::vector<float> read(const format::Container& container, uint32_t threads) const;
 
 private:
+    std::vector<float> read_values(const format::Container& container, uint32_t threads) const;
+
     struct Table {
         uint32_t rows, cols; // of the matrix
         uint32_t size;       // of the triangle that it folds, or 0

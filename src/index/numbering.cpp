@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "format/error.h"
+#include "src/index/section_tags.h"
 #include "src/index/stored.h"
 
 namespace geodesic {
@@ -72,8 +73,10 @@ void derive_overlay_positions(Numbering& numbering) {
              i < numbering.border_begin[numbering.child_begin[p + 1]]; ++i) {
             numbering.overlay_position[i] = position[numbering.border[i]];
             if (numbering.overlay_position[i] == NONE)
-                throw Error(GEOIDX_ERROR_CORRUPT, "border vertex " + std::to_string(numbering.border[i]) +
-                                                      " is not in the overlay of patch " + std::to_string(p));
+                throw Error(GEOIDX_ERROR_CORRUPT,
+                            "border vertex " + std::to_string(numbering.border[i]) +
+                                " is not in the overlay of patch " + std::to_string(p),
+                            TAG_BORDERS);
         }
         for (uint32_t v : outer) position[v] = NONE;
         for (uint32_t v = numbering.owned_begin[p]; v < numbering.owned_begin[p + 1]; ++v) position[v] = NONE;
@@ -86,9 +89,11 @@ void require_children_around(const Numbering& numbering) {
     uint64_t positions = 0;
     for (uint32_t p = 0; p < numbering.first_leaf(); ++p) positions += numbering.overlay_size(p);
     if (positions > numbering.border.size())
-        throw Error(GEOIDX_ERROR_CORRUPT, "the overlays have " + std::to_string(positions) +
-                                              " positions, but the borders of children only " +
-                                              std::to_string(numbering.border.size()));
+        throw Error(GEOIDX_ERROR_CORRUPT,
+                    "the overlays have " + std::to_string(positions) +
+                        " positions, but the borders of children only " +
+                        std::to_string(numbering.border.size()),
+                    TAG_BORDERS);
 }
 
 void derive_slots(Numbering& numbering) {
@@ -118,7 +123,8 @@ void derive_slots(Numbering& numbering) {
             if (numbering.slots_of(p, i).empty())
                 throw Error(GEOIDX_ERROR_CORRUPT,
                             "border vertex " + std::to_string(numbering.overlay_number(p, i)) +
-                                " is on the border of no child of patch " + std::to_string(p));
+                                " is on the border of no child of patch " + std::to_string(p),
+                            TAG_BORDERS);
 }
 
 void derive_vertex_borders(Numbering& numbering) {

@@ -7,6 +7,7 @@
 
 #include "format/error.h"
 #include "geoidx.h"
+#include "src/index/section_tags.h"
 #include "src/overlay/middles.h"
 #include "src/overlay/proportion.h"
 
@@ -189,8 +190,10 @@ void make_hop_codes(const StoredIndex& stored, OverlayIndex& index) {
 void take_hop_codes(const StoredIndex& stored, OverlayIndex& index) {
     const uint64_t needed = hop_code_count(index);
     if (stored.hop_codes.size() != needed)
-        throw Error(GEOIDX_ERROR_CORRUPT, "section HOPS holds " + std::to_string(stored.hop_codes.size()) +
-                                              " codes, not " + std::to_string(needed));
+        throw Error(GEOIDX_ERROR_CORRUPT,
+                    "section HOPS holds " + std::to_string(stored.hop_codes.size()) + " codes, not " +
+                        std::to_string(needed),
+                    TAG_HOP_CODES);
     view_hop_codes(index, stored.hop_codes);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "format/error.h"
+#include "src/index/section_tags.h"
 
 namespace geodesic {
 
@@ -22,9 +23,10 @@ void add_place(Rings& rings, uint32_t position, float length, bool own) {
 }
 
 [[noreturn]] void refuse_segment(uint32_t patch, uint32_t from, uint32_t to) {
-    throw Error(GEOIDX_ERROR_CORRUPT, "a segment joins positions " + std::to_string(from) + " and " +
-                                          std::to_string(to) + " on the border of patch " +
-                                          std::to_string(patch));
+    throw Error(GEOIDX_ERROR_CORRUPT,
+                "a segment joins positions " + std::to_string(from) + " and " + std::to_string(to) +
+                    " on the border of patch " + std::to_string(patch),
+                TAG_SEGMENTS);
 }
 
 // The end of the chain that begins at position `first` of a patch's border: one more than its last position.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "format/error.h"
 #include "geoidx.h"
 #include "src/graph/prepare.h"
+#include "src/index/section_tags.h"
 #include "src/overlay/pair_tables.h"
 #include "src/overlay/prepare.h"
 
@@ -34,13 +36,15 @@ StoredIndex restore(const Index& index) {
     return stored;
 }
 
-bool follows_from_tables(const Index& index) {
+void require_hops_follow(const Index& index) {
     StoredIndex stored = restore(index);
     const auto codes = std::exchange(stored.hop_codes, {});
     stored.description.codec = GEOIDX_CODEC_PACKED;
     Index again(std::pmr::get_default_resource());
     prepare(stored, again);
-    return std::ranges::equal(std::get<OverlayIndex>(again.engine).hops.codes, codes);
+    if (!std::ranges::equal(std::get<OverlayIndex>(again.engine).hops.codes, codes))
+        throw Error(GEOIDX_ERROR_CORRUPT, "section HOPS: tables of the same distances contradict each other",
+                    TAG_HOP_CODES);
 }
 
 uint64_t table_entries(const Index& index) {

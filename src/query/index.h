@@ -38,9 +38,10 @@ void prepare_pairs(const Index& index);
 // What is stored of an index: the opposite of prepare().
 StoredIndex restore(const Index& index);
 
-// Whether all that queries read of an index that was opened from a mapped file is what prepare() would have
-// made. Opening does not ask, since it takes longer than everything else that opening does.
-bool follows_from_tables(const Index& index);
+// Throws Error CORRUPT unless all that queries read of an index that was opened from a mapped file is what
+// prepare() would have made. Opening does not ask, since it takes longer than everything else that opening
+// does.
+void require_hops_follow(const Index& index);
 
 // Distances that are stored in the tables of an index.
 uint64_t table_entries(const Index& index);

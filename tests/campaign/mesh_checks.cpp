@@ -57,9 +57,9 @@ double longest_of(std::span<const Truth> truths) {
     return longest;
 }
 
-int32_t tell(void* user, geoidx_status status, uint64_t offset, const char* message) {
-    *static_cast<std::string*>(user) +=
-        formatted("%d at %llu: %s; ", status, static_cast<unsigned long long>(offset), message);
+int32_t tell(void* user, const geoidx_issue* issue) {
+    *static_cast<std::string*>(user) += formatted(
+        "%u at %llu: %s; ", issue->number, static_cast<unsigned long long>(issue->offset), issue->message);
     return 1;
 }
 

@@ -93,9 +93,8 @@ static void make_grid(geoidx_mesh* mesh) {
     mesh->triangle_count = TRIANGLES;
 }
 
-static int32_t count_issue(void* user, geoidx_status status, uint64_t offset, const char* message) {
-    (void)offset;
-    if (status < 0 && message) ++*(int*)user;
+static int32_t count_issue(void* user, const geoidx_issue* issue) {
+    if (issue->number > 0 && issue->status < 0 && issue->message) ++*(int*)user;
     return 1;
 }
 

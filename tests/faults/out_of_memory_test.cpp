@@ -226,7 +226,7 @@ TEST_CASE("out of memory while opening a file") {
 
 TEST_CASE("out of memory while verifying") {
     for_each_file([](const Bytes& file) {
-        const auto count = [](void* user, geoidx_status, uint64_t, const char*) {
+        const auto count = [](void* user, const geoidx_issue*) {
             ++*static_cast<uint32_t*>(user);
             return 1;
         };

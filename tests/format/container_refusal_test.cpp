@@ -280,3 +280,91 @@ TEST_CASE("inspection goes on after a problem and reports every damaged section"
     CHECK(issues[2].message.find("'HEAD'") != std::string::npos);
     CHECK(issues[3].offset == last);
 }
+
+// Numbers and statuses are those of the table in SPEC.md.
+TEST_CASE("every rule has its number, and what breaks it its place") {
+    const Bytes file = sample();
+    const auto check = [](const Bytes& damaged, std::uint32_t number, geoidx_status status,
+                          std::uint64_t offset) {
+        CAPTURE(number);
+        const auto issues = inspect(damaged, KNOWN);
+        REQUIRE_FALSE(issues.empty());
+        CHECK(issues[0].number == number);
+        CHECK(issues[0].status == status);
+        CHECK(issues[0].offset == offset);
+    };
+    check(text("v 0 0 0\nv 1 0 0\n"), 1, GEOIDX_ERROR_NOT_AN_INDEX, 0);
+    for (const std::size_t length : {std::size_t{0}, std::size_t{7}, std::size_t{8}, std::size_t{47}})
+        check(cut(file, length), 2, GEOIDX_ERROR_TRUNCATED, length);
+    check(patched(file, MAJOR, 3, 2), 3, GEOIDX_ERROR_UNSUPPORTED_VERSION, 8);
+    check(patched(file, INCOMPATIBLE, 1, 4), 4, GEOIDX_ERROR_UNSUPPORTED_VERSION, 12);
+    for (const std::size_t length : {std::size_t{48}, file.size() - 1})
+        check(cut(file, length), 5, GEOIDX_ERROR_TRUNCATED, length);
+    Bytes longer = file;
+    longer.push_back(std::byte{0});
+    check(longer, 6, GEOIDX_ERROR_CORRUPT, 24);
+    check(patched(file, SECTION_COUNT, 1025, 4), 7, GEOIDX_ERROR_LIMIT, 20);
+    check(patched(file, SECTION_COUNT, 1000, 4), 8, GEOIDX_ERROR_CORRUPT, 20);
+
+    const std::size_t first = record(FIRST), second = record(SECOND), last = record(UNKNOWN_OPTIONAL);
+    check(patched(file, last + STORED_SIZE, file.size(), 8), 9, GEOIDX_ERROR_CORRUPT, last);
+    const std::uint64_t place = get(file, second + OFFSET, 8);
+    check(patched(file, second + OFFSET, place + 1, 8), 10, GEOIDX_ERROR_CORRUPT, second);
+    check(patched(file, second, HEAD, 4), 11, GEOIDX_ERROR_CORRUPT, second);
+    check(patched(file, last + FLAGS, 3, 4), 12, GEOIDX_ERROR_CORRUPT, last);
+    check(patched(file, first + RESERVED, 1, 4), 12, GEOIDX_ERROR_CORRUPT, first);
+    check(patched(file, last + FLAGS, 0, 4), 13, GEOIDX_ERROR_UNSUPPORTED_VERSION, last);
+    check(patched(file, first + CODEC, 4, 4), 14, GEOIDX_ERROR_UNSUPPORTED_VERSION, first);
+    check(patched(file, second + RAW_SIZE, std::uint64_t{1} << 40, 8), 15, GEOIDX_ERROR_CORRUPT, second);
+    check(patched(longer, FILE_SIZE, longer.size(), 8), 16, GEOIDX_ERROR_CORRUPT, file.size());
+
+    Bytes header = file;
+    header[HEADER_CHECKSUM] ^= std::byte{1};
+    check(header, 17, GEOIDX_ERROR_CHECKSUM, 40);
+    Bytes padded = file;
+    padded[place - 1] = std::byte{9};
+    check(padded, 18, GEOIDX_ERROR_CORRUPT, place - 1);
+    Bytes changed = file;
+    changed[place + 2] ^= std::byte{1};
+    check(changed, 19, GEOIDX_ERROR_CHECKSUM, place);
+}
+
+TEST_CASE("an error of decoding says whether the stored bytes or what they should hold is at fault") {
+    const auto error_of = [](const Bytes& file, auto&& read) {
+        try {
+            read(Container::parse(file, KNOWN));
+        } catch (const Error& error) {
+            return std::pair(error.section, error.is_undecodable);
+        }
+        return std::pair(std::uint32_t{0}, false);
+    };
+    const auto read_head = [](const Container& container) { container.read_bytes(HEAD, 50); };
+    const auto read_table = [](const Container& container) {
+        std::vector<float> entries(24);
+        const MatrixTarget targets[] = {{std::span(entries).first(12), 3, 4},
+                                        {std::span(entries).last(12), 2, 6}};
+        container.read_matrices(TABL, targets);
+    };
+    const Bytes file = sample();
+    CHECK(error_of(file, read_head) == std::pair(std::uint32_t{0}, false));
+    CHECK(error_of(file, read_table) == std::pair(std::uint32_t{0}, false));
+
+    const auto with_stored_byte = [&](std::size_t index, std::uint64_t at) {
+        Bytes damaged = file;
+        const std::uint64_t begin = get(file, record(index) + OFFSET, 8);
+        const std::uint64_t size = get(file, record(index) + STORED_SIZE, 8);
+        damaged[begin + at] ^= std::byte{0x01};
+        return patched(damaged, record(index) + CHECKSUM, XXH3_64bits(damaged.data() + begin, size), 8);
+    };
+    constexpr std::uint64_t LENGTH_OF_STREAM = 4, SIGNATURE = 4 + 2 * 8;
+    CHECK(error_of(with_stored_byte(FIRST, 0), read_head) == std::pair(HEAD, true)); // zstd's magic
+    CHECK(error_of(with_stored_byte(SECOND, LENGTH_OF_STREAM), read_table) == std::pair(TABL, true));
+    CHECK(error_of(with_stored_byte(SECOND, SIGNATURE), read_table) == std::pair(TABL, true));
+    CHECK(error_of(with_stored_byte(SECOND, 0), read_table) == std::pair(TABL, false)); // the count
+
+    CHECK(error_of(file, [](const Container& container) { container.read_bytes(HEAD, 49); }) ==
+          std::pair(HEAD, false));
+    CHECK(error_of(file, [](const Container& container) { container.read_bytes(TABL, 1000); }) ==
+          std::pair(TABL, false));
+    CHECK(error_of(ContainerWriter(0).finish(), read_head) == std::pair(HEAD, false));
+}

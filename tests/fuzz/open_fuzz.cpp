@@ -99,11 +99,30 @@ void query(const geoidx& index) {
     }
 }
 
+// What geoidx_verify told first.
+struct FirstIssue {
+    size_t file_size;
+    geoidx_status status = GEOIDX_OK;
+
+    static int32_t take(void* user, const geoidx_issue* issue) {
+        auto& first = *static_cast<FirstIssue*>(user);
+        if (first.status == GEOIDX_OK) first.status = issue->status;
+        fuzz::require(issue->offset <= first.file_size, "an issue is inside the file");
+        fuzz::require(issue->number != 0, "an issue has a number");
+        fuzz::require(issue->number != GEOIDX_ISSUE_WHOLE_INDEX || issue->status == GEOIDX_ERROR_LIMIT,
+                      "what contradicts the format is in a section");
+        return 1;
+    }
+};
+
 void open(const void* data, size_t size) {
     geoidx* index = nullptr;
     const geoidx_status status = geoidx_open_memory(data, size, nullptr, &index);
     fuzz::require((status == GEOIDX_OK) == (index != nullptr), "there is an index or an error");
-    fuzz::require(geoidx_verify(data, size, nullptr, nullptr) == status, "verify says what open says");
+    FirstIssue first{size};
+    fuzz::require(geoidx_verify(data, size, FirstIssue::take, &first) == status,
+                  "verify says what open says");
+    fuzz::require(first.status == status, "verify returns what it tells first");
     if (index) query(*index);
     geoidx_close(index);
 }

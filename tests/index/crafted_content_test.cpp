@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
+#include <tuple>
 
 #include "tests/capi/counting_allocator.h"
 #include "tests/format/helpers.h"
 #include "tests/index/taken_apart.h"
+#include "tests/index/told_issues.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -340,5 +343,91 @@ TEST_CASE("tables of nonsense distances give answers without NaN") {
                 CHECK(there == sssd(index.get(), b, a));
             }
         }
+    }
+}
+
+// Numbers are those of SPEC.md.
+TEST_CASE("wrong content is told by the number of its section, where the section begins") {
+    const auto vertices = static_cast<uint32_t>(original().parts.vertex_count);
+    check_told(with([](TakenApart& parts) { parts.meta.bound_scale = 2; }), 101, "META");
+    check_told(with([](TakenApart& parts) { parts.level_count = 9; }), 102, "HIER");
+    check_told(with([&](TakenApart& parts) { parts.number_of_id[0] = vertices; }), 103, "VERT");
+    check_told(with([](TakenApart& parts) { parts.position_step = -1; }), 104, "POSI");
+    check_told(with([&](TakenApart& parts) { parts.border[0] = vertices; }), 105, "BORD");
+    const std::tuple<uint32_t, uint32_t, const char*> tables[] = {
+        {TAG_BORDER_TABLES, 106, "BVBV"},
+        {TAG_BORDER_INTERNAL_TABLES, 107, "BVIV"},
+        {TAG_INTERNAL_TABLES, 108, "IVIV"},
+    };
+    for (const auto& [tag, number, name] : tables)
+        check_told(with([tag = tag](TakenApart& parts) { parts.tables.at(tag)[0] = -1; }), number, name);
+}
+
+TEST_CASE("a section that is too long or too short is told by its number") {
+    const std::tuple<uint32_t, uint32_t, const char*> sections[] = {
+        {TAG_META, 101, "META"},      {TAG_HIERARCHY, 102, "HIER"}, {TAG_VERTICES, 103, "VERT"},
+        {TAG_POSITIONS, 104, "POSI"}, {TAG_BORDERS, 105, "BORD"},
+    };
+    for (const auto& [tag, number, name] : sections)
+        check_told(with([tag = tag](TakenApart& parts) { parts.extra_bytes[tag] = Bytes(1); }), number, name);
+    check_told(with([](TakenApart& parts) { parts.children.pop_back(); }), 102, "HIER");
+    check_told(with([](TakenApart& parts) { parts.number_of_id.pop_back(); }), 103, "VERT");
+    check_told(with([](TakenApart& parts) { parts.coordinates.pop_back(); }), 104, "POSI");
+    check_told(with([](TakenApart& parts) { parts.border.pop_back(); }), 105, "BORD");
+}
+
+TEST_CASE("borders that contradict the hierarchy are told by the number of BORD") {
+    // The last border vertex belongs to the last inner patch, so that it cannot be on the border of patch 1.
+    const TakenApart& good = original().parts;
+    const auto border_vertices = std::accumulate(good.owned.begin(), good.owned.end(), 0u);
+    REQUIRE(good.owned.back() > 0);
+    check_told(with([&](TakenApart& parts) { parts.border[0] = border_vertices - 1; }), 105, "BORD");
+    // The last vertex of the root is said to be patch 1's, although it is on a border of the root's children.
+    const auto moved = with([](TakenApart& parts) {
+        --parts.owned[0];
+        ++parts.owned[1];
+    });
+    check_told(moved, 105, "BORD");
+}
+
+TEST_CASE("a section that is missing is told by its number, at the beginning") {
+    const std::tuple<uint32_t, uint32_t> sections[] = {
+        {TAG_META, 101},
+        {TAG_HIERARCHY, 102},
+        {TAG_VERTICES, 103},
+        {TAG_POSITIONS, 104},
+        {TAG_BORDERS, 105},
+        {TAG_BORDER_TABLES, 106},
+        {TAG_BORDER_INTERNAL_TABLES, 107},
+        {TAG_INTERNAL_TABLES, 108},
+    };
+    for (const auto& [tag, number] : sections) {
+        const auto told = told_issues(with([tag = tag](TakenApart& parts) { parts.missing_tag = tag; }));
+        REQUIRE(told.size() == 1);
+        CHECK(told[0].number == number);
+        CHECK(told[0].offset == 0);
+    }
+}
+
+TEST_CASE("stored bytes that cannot be decoded are told by one number, where the section begins") {
+    const auto unchanged = [](uint32_t, Bytes bytes) { return bytes; };
+    for (const auto& [tag, size, name] :
+         {std::tuple(TAG_META, 120, "META"), std::tuple(TAG_BORDERS, 4000, "BORD")})
+        check_told(with_hollow_section(tag, static_cast<uint64_t>(size), unchanged), 100, name);
+
+    // The signature of the first PNG, behind the count and the lengths.
+    for (const char* name : {"BVBV", "BVIV", "IVIV"}) {
+        Bytes file = original().file;
+        const uint64_t begin = begin_of_section(file, name);
+        const uint64_t count = format::test::get(file, begin, 4);
+        file[begin + 4 + 8 * count] ^= std::byte{1};
+        for (size_t i = 0; i < 8; ++i) {
+            const size_t record = format::test::record(i);
+            if (format::test::get(file, record + format::test::OFFSET, 8) != begin) continue;
+            const uint64_t size = format::test::get(file, record + format::test::STORED_SIZE, 8);
+            const uint64_t checksum = XXH3_64bits(file.data() + begin, size);
+            file = format::test::patched(file, record + format::test::CHECKSUM, checksum, 8);
+        }
+        check_told(file, 100, name);
     }
 }

@@ -9,6 +9,7 @@
 #include "src/file/folded_triangle.h"
 #include "src/file/sections.h"
 #include "tests/capi/calls.h"
+#include "tests/index/told_issues.h"
 #include "tests/support/copied_matrices.h"
 
 using namespace geodesic;
@@ -123,4 +124,23 @@ TEST_CASE("crafted OVOV") {
         }
     CHECK(open_status(with(TAG_OVERLAY_TABLES, set(0, 32766.0f))) == GEOIDX_OK);
     CHECK(open_status(with(TAG_OVERLAY_TABLES, set(0, INFINITE))) == GEOIDX_OK);
+}
+
+// Numbers are those of SPEC.md.
+TEST_CASE("crafted overlay: wrong content is told by the number of its section, where the section begins") {
+    check_told(with(TAG_QUANTA, set(0, -1.0f)), 109, "QUAN");
+    check_told(with(TAG_QUANTA, [](Bytes& raw) { raw.pop_back(); }), 109, "QUAN");
+    check_told(with(TAG_QUANTA, [](Bytes& raw) { raw.push_back(std::byte{0}); }), 109, "QUAN");
+    const auto container = format::Container::parse(original(), INDEX_TAGS);
+    const size_t slots = raw_bytes(container, TAG_SEGMENTS, 0).size() / 8;
+    check_told(with(TAG_SEGMENTS, set(slots, 0.0f)), 110, "SEGM");
+    check_told(with(TAG_SEGMENTS, set(0, uint32_t{0})), 110, "SEGM"); // a segment to itself
+    check_told(with(TAG_SEGMENTS, [](Bytes& raw) { raw.pop_back(); }), 110, "SEGM");
+    check_told(with(TAG_OVERLAY_TABLES, set(0, 0.5f)), 111, "OVOV");
+    check_told(with(TAG_OVERLAY_TABLES, set(0, -1.0f)), 111, "OVOV");
+    check_told(with(TAG_OVERLAY_TABLES, [](Bytes& raw) { raw.resize(raw.size() - 4); }), 111, "OVOV");
+    const auto missing = told_issues(with(TAG_SEGMENTS, [](Bytes& raw) { raw.clear(); }));
+    REQUIRE(missing.size() == 1);
+    CHECK(missing[0].number == 110);
+    CHECK(missing[0].offset == 0);
 }

@@ -20,11 +20,11 @@ struct Issues {
     geoidx_status first = GEOIDX_OK;
     uint64_t count = 0, stop_after = UINT64_MAX, file_size = 0, misplaced = 0, unnamed = 0;
 
-    static int32_t add(void* user, geoidx_status status, uint64_t offset, const char* message) {
+    static int32_t add(void* user, const geoidx_issue* issue) {
         auto& issues = *static_cast<Issues*>(user);
-        if (issues.count++ == 0) issues.first = status;
-        issues.misplaced += offset > issues.file_size;
-        issues.unnamed += !message || std::strlen(message) == 0;
+        if (issues.count++ == 0) issues.first = issue->status;
+        issues.misplaced += issue->offset > issues.file_size;
+        issues.unnamed += issue->number == 0 || !issue->message || std::strlen(issue->message) == 0;
         return issues.count < issues.stop_after;
     }
 };

@@ -6,6 +6,7 @@
 #include "tests/campaign/file_content.h"
 #include "tests/capi/calls.h"
 #include "tests/capi/counting_allocator.h"
+#include "tests/index/told_issues.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -93,7 +94,11 @@ void check_limit(const FileContent& content) {
     geoidx* index = nullptr;
     CHECK(geoidx_open_memory(file.data(), file.size(), &options, &index) == GEOIDX_ERROR_LIMIT);
     CHECK(index == nullptr);
-    CHECK(geoidx_verify(file.data(), file.size(), nullptr, nullptr) == GEOIDX_ERROR_LIMIT);
+    const auto told = told_issues(file);
+    REQUIRE(told.size() == 1);
+    CHECK(told[0].number == 200);
+    CHECK(told[0].status == GEOIDX_ERROR_LIMIT);
+    CHECK(told[0].offset == 0);
 }
 
 IndexHandle opened(const FileContent& content) { return open(file_campaign::write_content(content).bytes); }

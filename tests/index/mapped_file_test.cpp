@@ -13,6 +13,7 @@
 #include "tests/capi/calls.h"
 #include "tests/capi/counting_allocator.h"
 #include "tests/capi/refusals.h"
+#include "tests/index/told_issues.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -184,7 +185,7 @@ TEST_CASE("mapped: tables of another size, or with what is no code, are refused"
     const auto status_with = [](const std::function<void(Bytes&)>& change) {
         const Bytes file = with_section(TAG_HOP_CODES, change);
         const geoidx_status status = open_status(file);
-        if (status != GEOIDX_OK) CHECK(geoidx_verify(file.data(), file.size(), nullptr, nullptr) == status);
+        if (status != GEOIDX_OK) check_told(file, 112, "HOPS");
         return status;
     };
     CHECK(status_with([](Bytes&) {}) == GEOIDX_OK);
@@ -233,7 +234,7 @@ TEST_CASE("mapped: verifying finds the code that does not follow") {
             set_code(raw, index, code ^ 1);
         });
         CAPTURE(index);
-        CHECK(geoidx_verify(file.data(), file.size(), nullptr, nullptr) == GEOIDX_ERROR_CORRUPT);
+        check_told(file, 112, "HOPS");
     }
 }
 
@@ -247,14 +248,18 @@ TEST_CASE("mapped: sections that do not go together are refused") {
             const Bytes raw = rest.read_bytes(section.tag, UINT64_MAX);
             writer.add_raw(section.tag, section.tag == TAG_META ? meta : raw);
         }
-        CHECK(open_status(writer.finish()) == GEOIDX_ERROR_CORRUPT);
+        const Bytes file = writer.finish();
+        CHECK(open_status(file) == GEOIDX_ERROR_CORRUPT);
+        check_told(file, 111, "OVOV"); // missing, or there and not to be
     }
     // Compressed, it could not be read where it lies.
     const auto container = format::Container::parse(mapped(), INDEX_TAGS);
     format::ContainerWriter writer(container.mesh_fingerprint());
     for (const format::Section& section : container.sections())
         writer.add_bytes(section.tag, container.read_bytes(section.tag, UINT64_MAX));
-    CHECK(open_status(writer.finish()) == GEOIDX_ERROR_CORRUPT);
+    const Bytes compressed = writer.finish();
+    CHECK(open_status(compressed) == GEOIDX_ERROR_CORRUPT);
+    check_told(compressed, 112, "HOPS");
 }
 
 TEST_CASE("open limits: vertices and memory") {

@@ -255,9 +255,10 @@ class Outputs(unittest.TestCase):
         bad = strict_json(done.stdout)
         self.assertEqual((done.returncode, bad["ok"]), (1, False))
         self.assertEqual(done.stderr.count(b"\n"), 1)
-        self.assertTrue(bad["problems"])
-        for problem in bad["problems"]:
-            self.assertEqual(list(problem), ["byte", "kind", "message"])
+        (problem,) = bad["problems"]
+        self.assertEqual(list(problem), ["number", "byte", "kind", "message"])
+        self.assertEqual((problem["number"], problem["byte"]), (5, cut.stat().st_size))  # ends too early, there
+        self.assertIn(f"issue 5, byte {cut.stat().st_size}: ", run("verify", cut).stdout.decode())
 
     def test_json_of_bench(self):
         shown = strict_json(output_of("bench", self.index, "--queries", "3", "--seed", "9", "--json"))

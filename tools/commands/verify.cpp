@@ -17,27 +17,30 @@ struct VerifyArguments {
 };
 
 struct Problem {
+    uint32_t number;
     geoidx_status status;
     uint64_t byte;
     std::string message;
 };
 
-int32_t on_issue(void* user, geoidx_status status, uint64_t offset, const char* message) {
-    static_cast<std::vector<Problem>*>(user)->push_back({status, offset, message});
+int32_t on_issue(void* user, const geoidx_issue* issue) {
+    static_cast<std::vector<Problem>*>(user)->push_back(
+        {issue->number, issue->status, issue->offset, issue->message});
     return 1;
 }
 
 void print_text(const std::string& path, const std::vector<Problem>& problems, bool ok) {
     for (const Problem& problem : problems)
-        std::printf("byte %llu: %s\n", static_cast<unsigned long long>(problem.byte),
-                    problem.message.c_str());
+        std::printf("issue %u, byte %llu: %s\n", problem.number,
+                    static_cast<unsigned long long>(problem.byte), problem.message.c_str());
     if (ok) std::printf("%s: ok\n", path.c_str());
 }
 
 void print_json(const std::string& path, const std::vector<Problem>& problems, bool ok) {
     std::string list;
     for (const Problem& problem : problems)
-        list += (list.empty() ? "" : ",") + ("\n    {\"byte\": " + std::to_string(problem.byte)) +
+        list += (list.empty() ? "" : ",") + ("\n    {\"number\": " + std::to_string(problem.number)) +
+                ", \"byte\": " + std::to_string(problem.byte) +
                 ", \"kind\": " + json_text(geoidx_status_string(problem.status)) +
                 ", \"message\": " + json_text(problem.message) + "}";
     JsonObject().text("index", path).truth("ok", ok).json("problems", "[" + list + "]").print();

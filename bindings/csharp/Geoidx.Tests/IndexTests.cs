@@ -128,8 +128,8 @@ namespace Geoidx.Tests
                 Assert.Equal("triangle 5 (0.25, 0.5, 0.25)", new SurfacePoint(5, 0.25, 0.5, 0.25).ToString());
                 Assert.Equal("13 % tables", new BuildStage(0.125f, "tables").ToString());
                 Assert.Equal(
-                    "Corrupt at byte 12: a problem",
-                    new GeodesicIssue(GeodesicStatus.Corrupt, 12, "a problem").ToString());
+                    "issue 104, Corrupt at byte 12: a problem",
+                    new GeodesicIssue(GeodesicIssueNumber.Posi, GeodesicStatus.Corrupt, 12, "a problem").ToString());
             }
             finally
             {
@@ -233,7 +233,8 @@ namespace Geoidx.Tests
             Assert.Contains(issues, issue => issue.Status == GeodesicStatus.Corrupt);
             GeodesicIssue wrong = Assert.Single(issues, issue => issue.Status == GeodesicStatus.Checksum);
             Assert.NotEmpty(wrong.Message);
-            Assert.InRange(wrong.Offset, 1, bytes.Length);
+            Assert.Equal(GeodesicIssueNumber.SectionChecksum, wrong.Number);
+            Assert.Equal((long)BitConverter.ToUInt64(bytes, LastRecord(bytes) + 16), wrong.Offset);
 
             var visited = new List<GeodesicIssue>();
             GeodesicStatus first = GeodesicIndex.Verify(bytes, issue =>
@@ -244,6 +245,20 @@ namespace Geoidx.Tests
             Assert.Equal(issues[0].Status, first);
             Assert.Single(visited);
         }
+
+        [Fact]
+        public void AProblemHasItsNumberAndItsPlace()
+        {
+            byte[] bytes = plane.ToBytes();
+            bytes[8] = 77;
+            GeodesicIssue issue = Assert.Single(GeodesicIndex.Verify(bytes));
+            Assert.Equal(
+                (GeodesicIssueNumber.Version, GeodesicStatus.UnsupportedVersion, 8L),
+                (issue.Number, issue.Status, issue.Offset));
+        }
+
+        /// <summary>Where the record of the last section stands: format/SPEC.md, section table.</summary>
+        private static int LastRecord(byte[] bytes) => 48 * (int)BitConverter.ToUInt32(bytes, 20);
 
         [Fact]
         public void AnUnusedVertexIsUnreachable()

@@ -320,6 +320,8 @@ class Verify(unittest.TestCase):
     def test_issues(self):
         (issue,) = geoidx.verify(self.data[:-1])
         self.assertEqual(issue.status, Status.TRUNCATED)
+        self.assertEqual(issue.number, geoidx.IssueNumber.FILE_TRUNCATED)
+        self.assertEqual(issue.offset, len(self.data) - 1)
         self.assertTrue(issue.message)
         damaged = bytearray(self.data)
         for offset in range(len(damaged) // 2, len(damaged), 64):
@@ -331,6 +333,12 @@ class Verify(unittest.TestCase):
         self.assertLessEqual(statuses, {Status.CHECKSUM, Status.CORRUPT})  # of data, of what says where it is
         self.assertTrue(all(0 < issue.offset < len(damaged) for issue in issues))
         self.assertEqual(geoidx.verify(damaged, most=1), issues[:1])
+
+    def test_number_and_place(self):
+        other_version = bytearray(self.data)
+        other_version[8] = 77
+        (issue,) = geoidx.verify(other_version)
+        self.assertEqual((issue.number, issue.offset), (geoidx.IssueNumber.VERSION, 8))
 
 
 if __name__ == "__main__":

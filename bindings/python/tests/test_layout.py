@@ -23,6 +23,7 @@ ENUMS = {
     "GEOIDX_METRIC_": geoidx.MetricKind,
     "GEOIDX_ENGINE_": geoidx.Engine,
     "GEOIDX_CODEC_": geoidx.Codec,
+    "GEOIDX_ISSUE_": geoidx.IssueNumber,
 }
 
 
@@ -106,6 +107,10 @@ class Layout(unittest.TestCase):
     def test_every_status_is_there(self):
         text = (INCLUDE / "geoidx.h").read_text()
         self.assertEqual(len(re.findall(r"^ +GEOIDX_ERROR_\w+ = ", text, re.MULTILINE)), len(geoidx.Status) - 1)
+
+    def test_every_issue_number_is_there(self):
+        text = (INCLUDE / "geoidx.h").read_text()
+        self.assertEqual(len(re.findall(r"^ +GEOIDX_ISSUE_\w+ = ", text, re.MULTILINE)), len(geoidx.IssueNumber))
 
     def test_functions(self):
         declared = prototypes()

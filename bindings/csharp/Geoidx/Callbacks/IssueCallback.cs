@@ -5,7 +5,7 @@ namespace Geoidx
 {
     internal sealed class IssueCallback : UserCallback
     {
-        private static readonly IssueFunction Entry = OnIssue;
+        private static readonly unsafe IssueFunction Entry = OnIssue;
 
         private readonly Func<GeodesicIssue, bool> visit;
         private GeodesicStatus first = GeodesicStatus.Ok;
@@ -15,14 +15,18 @@ namespace Geoidx
         internal static IntPtr Function => Marshal.GetFunctionPointerForDelegate(Entry);
 
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-        private delegate int IssueFunction(IntPtr user, GeodesicStatus status, ulong offset, IntPtr message);
+        private unsafe delegate int IssueFunction(IntPtr user, NativeIssue* issue);
 
         [MonoPInvokeCallback(typeof(IssueFunction))]
-        private static int OnIssue(IntPtr user, GeodesicStatus status, ulong offset, IntPtr message) =>
-            !CallsInFlight.IsEnding &&
-            Of<IssueCallback>(user).Visit(status, (long)offset, NativeText.FromUtf8(message))
-                ? 1
-                : 0;
+        private static unsafe int OnIssue(IntPtr user, NativeIssue* issue) =>
+            !CallsInFlight.IsEnding && Of<IssueCallback>(user).Visit(Copy(*issue)) ? 1 : 0;
+
+        private static GeodesicIssue Copy(in NativeIssue issue) =>
+            new GeodesicIssue(
+                (GeodesicIssueNumber)issue.number,
+                (GeodesicStatus)issue.status,
+                (long)issue.offset,
+                NativeText.FromUtf8(issue.message));
 
         /// <summary>
         /// Throws what the visitor threw, or what the status says, unless it is that of the first problem.
@@ -35,13 +39,13 @@ namespace Geoidx
             throw status.ToException();
         }
 
-        private bool Visit(GeodesicStatus status, long offset, string message)
+        private bool Visit(GeodesicIssue issue)
         {
-            if (first == GeodesicStatus.Ok) first = status;
+            if (first == GeodesicStatus.Ok) first = issue.Status;
             using CallsInFlight.Callback scope = CallsInFlight.BeginCallback();
             try
             {
-                return visit(new GeodesicIssue(status, offset, message));
+                return visit(issue);
             }
             catch (Exception e)
             {

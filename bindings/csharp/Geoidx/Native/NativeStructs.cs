@@ -130,4 +130,13 @@ namespace Geoidx
         internal ulong stored_size;
         internal ulong raw_size;
     }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal struct NativeIssue
+    {
+        internal uint number;
+        internal int status;
+        internal ulong offset;
+        internal IntPtr message;
+    }
 }

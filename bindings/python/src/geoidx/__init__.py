@@ -36,7 +36,7 @@ from ._options import Codec, Engine
 from ._query import Query
 from ._sections import Coding, Section
 from ._solver import SURFACE_POINT, Solver, surface_points
-from ._verify import Issue, verify
+from ._verify import Issue, IssueNumber, verify
 
 __version__ = version_text(HEADER_VERSION)
 library_version = version_text(version_of(library))
@@ -65,6 +65,7 @@ __all__ = [
     "InternalError",
     "InvalidArgumentError",
     "Issue",
+    "IssueNumber",
     "LimitError",
     "MeshMismatchError",
     "Metric",

@@ -36,7 +36,6 @@ AllocateFn = CFUNCTYPE(c_void_p, c_void_p, c_uint64, c_uint64)
 ReleaseFn = CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint64)
 MetricFn = CFUNCTYPE(c_int32, c_void_p, c_uint32, c_void_p, c_uint32, c_void_p)
 ProgressFn = CFUNCTYPE(c_int32, c_void_p, c_float, c_char_p)
-IssueFn = CFUNCTYPE(c_int32, c_void_p, c_int32, c_uint64, c_char_p)
 
 
 class Allocator(Structure):
@@ -156,6 +155,13 @@ class Section(Structure):
         ("stored_size", c_uint64),
         ("raw_size", c_uint64),
     ]
+
+
+class Issue(Structure):
+    _fields_ = [("number", c_uint32), ("status", c_int32), ("offset", c_uint64), ("message", c_char_p)]
+
+
+IssueFn = CFUNCTYPE(c_int32, c_void_p, POINTER(Issue))
 
 
 class SurfacePoint(Structure):
