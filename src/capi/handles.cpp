@@ -8,17 +8,24 @@
 namespace geodesic {
 
 void* CallerMemory::do_allocate(size_t size, size_t alignment) {
+    take_share(size);
+    try {
+        if (!allocator_.allocate) return ::operator new (size, std::align_val_t{alignment});
+        void* memory = allocator_.allocate(allocator_.user, size, alignment);
+        if (!memory) throw std::bad_alloc();
+        return memory;
+    } catch (const std::bad_alloc&) {
+        used_.fetch_sub(size, std::memory_order_relaxed);
+        throw;
+    }
+}
+
+void CallerMemory::take_share(uint64_t size) {
     const uint64_t before = used_.fetch_add(size, std::memory_order_relaxed);
-    void* memory = nullptr;
-    if (before <= limit_ && size <= limit_ - before)
-        memory = allocator_.allocate ? allocator_.allocate(allocator_.user, size, alignment)
-                                     : ::operator new (size, std::align_val_t{alignment}, std::nothrow);
-    if (memory) return memory;
+    if (before <= limit_ && size <= limit_ - before) return;
     used_.fetch_sub(size, std::memory_order_relaxed);
-    if (before > limit_ || size > limit_ - before)
-        throw Error(GEOIDX_ERROR_LIMIT, "the index would take more than " + std::to_string(limit_) +
-                                            " bytes, which max_memory allows");
-    throw std::bad_alloc();
+    throw Error(GEOIDX_ERROR_LIMIT, "the index would take more than " + std::to_string(limit_) +
+                                        " bytes, which max_memory allows");
 }
 
 void CallerMemory::do_deallocate(void* memory, size_t size, size_t alignment) {

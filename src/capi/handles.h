@@ -31,6 +31,8 @@ private:
     void do_deallocate(void* memory, size_t size, size_t alignment) override;
     bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 
+    void take_share(uint64_t size); // throws Error LIMIT where that is more than is left
+
     geoidx_allocator allocator_;
     uint64_t limit_ = std::numeric_limits<uint64_t>::max();
     std::atomic<uint64_t> used_ = 0;
