@@ -27,12 +27,19 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-std::vector<std::byte> saved(const geoidx& index) {
+std::vector<std::byte> saved(const geoidx& index, const geoidx_save_options* options = nullptr) {
     uint64_t size = 0;
-    succeed(geoidx_save_memory(&index, nullptr, nullptr, 0, &size), "the size of the saved file");
+    succeed(geoidx_save_memory(&index, options, nullptr, 0, &size), "the size of the saved file");
     std::vector<std::byte> bytes(size);
-    succeed(geoidx_save_memory(&index, nullptr, bytes.data(), size, &size), "saving");
+    succeed(geoidx_save_memory(&index, options, bytes.data(), size, &size), "saving");
     return bytes;
+}
+
+std::vector<std::byte> saved_as(const geoidx& index, uint32_t codec) {
+    geoidx_save_options options;
+    geoidx_save_options_init(&options);
+    options.codec = codec;
+    return saved(index, &options);
 }
 
 class Questions {
@@ -229,6 +236,24 @@ void check_saving(const FileContent& content, const WrittenFile& file, const geo
     require(saved(*test::IndexHandle(again)) == bytes, "what is saved of that is the same again");
 }
 
+// The index in each form, opened, verified, and brought back into the form that it had.
+void check_forms(const geoidx& index) {
+    const auto own = saved(index);
+    for (const uint32_t codec : {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_LOSSLESS, GEOIDX_CODEC_MAPPED}) {
+        const auto bytes = saved_as(index, codec);
+        geoidx* opened = nullptr;
+        succeed(geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &opened), "opening another form");
+        const test::IndexHandle other(opened);
+        require(geoidx_verify(bytes.data(), bytes.size(), nullptr, nullptr) == GEOIDX_OK,
+                "another form is verified");
+        require(saved(*other) == bytes, "another form is saved as it was opened");
+        geoidx_info info{};
+        info.struct_size = sizeof info;
+        succeed(geoidx_get_info(&index, &info), "what the index is");
+        require(saved_as(*other, info.codec) == own, "another form holds the same");
+    }
+}
+
 // Everything that is derived from a file, and all scratch, these questions' own included, is in proportion to
 // it. A file may be up to 1032 times smaller than its raw sections.
 void check_memory(const WrittenFile& file, uint64_t before) {
@@ -257,6 +282,7 @@ bool ask_everything(const FileContent& content, const WrittenFile& file, uint64_
         check_saving(content, file, *index);
     }
     check_memory(file, before);
+    if (index) check_forms(*index);
     return index != nullptr;
 }
 
