@@ -52,11 +52,14 @@ static int print_within(geoidx_query* query, const geoidx_info* info, const uint
 int main(int argument_count, char** arguments) {
     geoidx* index = NULL;
     geoidx_query* query = NULL;
+    geoidx_open_options options;
     geoidx_info info;
     uint32_t sources[SOURCES], pairs[2 * PAIRS], i;
     float *fields, between[PAIRS];
     if (argument_count != 2) return 2;
-    if (geoidx_open(arguments[1], NULL, &index) != GEOIDX_OK) return fail("open");
+    geoidx_open_options_init(&options);
+    options.threads = 1; /* an emulator may have no threads */
+    if (geoidx_open(arguments[1], &options, &index) != GEOIDX_OK) return fail("open");
     if (geoidx_query_create(index, &query) != GEOIDX_OK) return fail("query");
     memset(&info, 0, sizeof info);
     info.struct_size = sizeof info;
