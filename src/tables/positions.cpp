@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
+
+#include "src/base/quartile.h"
 
 namespace geodesic {
 
@@ -17,10 +20,7 @@ double short_edge(const Mesh& mesh) {
             const double length = (mesh.positions[face[i]] - mesh.positions[face[(i + 1) % 3]]).norm();
             if (length > 0) lengths.push_back(length);
         }
-    if (lengths.empty()) return 0;
-    const auto quartile = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 4);
-    std::ranges::nth_element(lengths, quartile);
-    return *quartile;
+    return lower_quartile(std::move(lengths));
 }
 
 }
