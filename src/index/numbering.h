@@ -135,6 +135,14 @@ struct Numbering {
         return uint64_t{inner_size(patch)} * border_size(patch) + triangle_size(inner_size(patch));
     }
 
+    uint64_t leaf_entries() const { return border_internal_begin.back() + internal_table_begin.back(); }
+    // The number of distances that the overlay engine stores for all patches.
+    uint64_t overlay_engine_entries() const {
+        uint64_t entries = leaf_entries();
+        for (uint32_t p = 0; p < first_leaf(); ++p) entries += overlay_entries(p);
+        return entries;
+    }
+
     // The index of an entry in the tables of leaves. Internal vertices are given by their positions in the
     // leaf, and i != j.
     uint64_t border_internal_entry(uint32_t leaf, uint32_t border_position, uint32_t internal) const {

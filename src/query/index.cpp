@@ -49,12 +49,9 @@ void require_hops_follow(const Index& index) {
 
 uint64_t table_entries(const Index& index) {
     const Numbering& numbering = index.numbering();
-    uint64_t entries = numbering.border_internal_begin.back() + numbering.internal_table_begin.back();
     if (const auto* const graph = std::get_if<GraphIndex>(&index.engine))
-        entries += graph->border_tables.size();
-    else
-        for (uint32_t p = 0; p < numbering.first_leaf(); ++p) entries += numbering.overlay_entries(p);
-    return entries;
+        return numbering.leaf_entries() + graph->border_tables.size();
+    return numbering.overlay_engine_entries();
 }
 
 }

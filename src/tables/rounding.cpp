@@ -2,19 +2,12 @@
 
 #include <algorithm>
 
+#include "src/base/quartile.h"
 #include "src/overlay/codes.h"
 
 namespace geodesic {
 
 namespace {
-
-// What three quarters of the numbers are not below; 0 without any.
-float lower_quartile(std::vector<float> numbers) {
-    if (numbers.empty()) return 0;
-    const auto quartile = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 4);
-    std::ranges::nth_element(numbers, quartile);
-    return *quartile;
-}
 
 // Looks at the tables of one patch after the other, those of outer patches first.
 class PatchScales {
@@ -87,12 +80,6 @@ private:
     std::vector<float> nearest_, farthest_; // of the patch: per overlay position or internal vertex
 };
 
-uint64_t entry_count(const Numbering& numbering) {
-    uint64_t count = numbering.border_internal_begin.back() + numbering.internal_table_begin.back();
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) count += numbering.overlay_entries(p);
-    return count;
-}
-
 }
 
 std::vector<float> rounding_of_patches(const Numbering& numbering, const DistanceTables& tables,
@@ -100,7 +87,7 @@ std::vector<float> rounding_of_patches(const Numbering& numbering, const Distanc
     std::vector<float> wanted(numbering.patch_count(), 0);
     constexpr uint64_t FEW_ENTRIES = 1 << 16;
     constexpr double STEPS_OF_LONGEST = 8192;
-    if (rounding == 0 || entry_count(numbering) < FEW_ENTRIES) return wanted;
+    if (rounding == 0 || numbering.overlay_engine_entries() < FEW_ENTRIES) return wanted;
     PatchScales scales(numbering, tables);
     for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
         scales.look_at(p);
