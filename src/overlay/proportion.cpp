@@ -25,15 +25,7 @@ public:
                                            2 * uint64_t{numbering_.inner_size(patch)});
     }
 
-    uint64_t coarse(uint32_t parent) const {
-        uint64_t rows = samples_[parent].samples, places = 0;
-        for (uint32_t child = numbering_.child_begin[parent]; child < numbering_.child_begin[parent + 1];
-             ++child) {
-            rows += samples_[child].samples;
-            if (samples_[child].places < index_.rings.size(child)) places += samples_[child].places;
-        }
-        return rows * places;
-    }
+    uint64_t coarse(uint32_t parent) const { return count_coarse_codes(index_, samples_, parent); }
 
     // The size of the labels of a patch's inner vertices. It must be called for parents before their
     // children.
@@ -65,10 +57,8 @@ uint64_t derived_codes(const OverlayIndex& index) {
 }
 
 uint64_t stored_numbers(const OverlayIndex& index) {
-    uint64_t numbers = index.numbering.border.size() + index.numbering.vertex_count();
-    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) numbers += index.numbering.overlay_entries(p);
-    return numbers + index.numbering.border_internal_begin.back() +
-           index.numbering.internal_table_begin.back();
+    const Numbering& numbering = index.numbering;
+    return numbering.border.size() + numbering.vertex_count() + numbering.overlay_engine_entries();
 }
 
 void require_proportion(const OverlayIndex& index) {

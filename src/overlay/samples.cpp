@@ -135,18 +135,13 @@ void sample_table(const OverlayIndex& index, uint32_t patch, std::span<const uin
             samples.tables.push_back(index.hops.outer[index.outer_row(patch, row) + place[k] - first_place]);
 }
 
-// The number of codes that coarse tables will have.
-uint64_t coarse_codes(const OverlayIndex& index, const Samples& samples) {
+// The number of codes that all coarse tables will have.
+uint64_t count_coarse_codes(const OverlayIndex& index) {
+    std::vector<SampleCount> samples;
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) samples.push_back(count_samples(index, p));
     uint64_t codes = 0;
-    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) {
-        uint64_t rows = samples.of(p).size(), places = 0;
-        for (uint32_t child = index.numbering.child_begin[p]; child < index.numbering.child_begin[p + 1];
-             ++child) {
-            rows += samples.of(child).size();
-            if (samples.rings.size(child) < index.rings.size(child)) places += samples.rings.size(child);
-        }
-        codes += rows * places;
-    }
+    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p)
+        codes += count_coarse_codes(index, samples, p);
     return codes;
 }
 
@@ -179,6 +174,17 @@ SampleCount count_samples(const OverlayIndex& index, uint32_t patch) {
     return count;
 }
 
+uint64_t count_coarse_codes(const OverlayIndex& index, std::span<const SampleCount> samples,
+                            uint32_t parent) {
+    const Numbering& numbering = index.numbering;
+    uint64_t rows = samples[parent].samples, places = 0;
+    for (uint32_t child = numbering.child_begin[parent]; child < numbering.child_begin[parent + 1]; ++child) {
+        rows += samples[child].samples;
+        if (samples[child].places < index.rings.size(child)) places += samples[child].places;
+    }
+    return rows * places;
+}
+
 void make_samples(const OverlayIndex& index, Samples& samples) {
     const uint32_t patch_count = index.numbering.patch_count();
     RingWriter writer(samples.rings);
@@ -191,7 +197,7 @@ void make_samples(const OverlayIndex& index, Samples& samples) {
     writer.end();
     samples.first_row.assign(patch_count, 0);
     samples.table_begin.assign(patch_count, 0);
-    samples.tables.reserve(coarse_codes(index, samples) + TableCode::PADDING);
+    samples.tables.reserve(count_coarse_codes(index) + TableCode::PADDING);
     for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) sample_tables(index, p, samples);
     samples.tables.resize(samples.tables.size() + TableCode::PADDING);
 }

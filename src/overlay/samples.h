@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "src/overlay/tables.h"
 
 namespace geodesic {
@@ -11,6 +13,9 @@ struct SampleCount {
 
 // Needs the rings of the index. make_samples() makes exactly as many.
 SampleCount count_samples(const OverlayIndex& index, uint32_t patch);
+
+// The number of codes in the coarse tables of a patch's children, by the samples of all patches.
+uint64_t count_coarse_codes(const OverlayIndex& index, std::span<const SampleCount> samples, uint32_t parent);
 
 // Fills empty `samples` of an index that has its rings and outer tables.
 void make_samples(const OverlayIndex& index, Samples& samples);
