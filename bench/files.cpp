@@ -1,5 +1,4 @@
 #include <array>
-#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -48,12 +47,20 @@ Sizes sizes_of(const IndexFile& file) {
     return sizes;
 }
 
-using Coding = std::function<uint64_t(std::span<const CodeTable>)>;
+// The tables of a lossless file, in codings that the library does not write.
+struct OtherSizes {
+    Sizes float_zstd, gray_png;
+};
 
-Sizes sizes_in(const Coding& coding, const IndexFile& lossless) {
-    Sizes sizes;
-    for (const char* tag : {"OVOV", "BVIV", "IVIV"}) sizes[tag] = coding(tables_of(lossless, tag));
-    add_tables(sizes);
+OtherSizes other_sizes_of(const IndexFile& lossless) {
+    OtherSizes sizes;
+    for (const char* tag : {"OVOV", "BVIV", "IVIV"}) {
+        const std::vector<CodeTable> tables = tables_of(lossless, tag);
+        sizes.float_zstd[tag] = bytes_as_float_zstd(tables);
+        sizes.gray_png[tag] = bytes_as_gray_png(tables);
+    }
+    add_tables(sizes.float_zstd);
+    add_tables(sizes.gray_png);
     return sizes;
 }
 
@@ -76,12 +83,14 @@ void add_rows(Table& table, const std::string& path) {
     const auto add = [&](const std::string& form, const Sizes& sizes) {
         table.rows.push_back(row_of(path, form, sizes, info.welded_vertex_count));
     };
-    for (const uint32_t codec : {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_LOSSLESS, GEOIDX_CODEC_MAPPED})
-        add(tools::CODEC_NAMES[codec], sizes_of(saved_in(*index, codec, path)));
-
-    const IndexFile lossless = saved_in(*index, GEOIDX_CODEC_LOSSLESS, path);
-    add("float32 + zstd 19", sizes_in(bytes_as_float_zstd, lossless));
-    add("16-bit PNG", sizes_in(bytes_as_gray_png, lossless));
+    OtherSizes others;
+    for (const uint32_t codec : {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_LOSSLESS, GEOIDX_CODEC_MAPPED}) {
+        const IndexFile file = saved_in(*index, codec, path);
+        add(tools::CODEC_NAMES[codec], sizes_of(file));
+        if (codec == GEOIDX_CODEC_LOSSLESS) others = other_sizes_of(file);
+    }
+    add("float32 + zstd 19", others.float_zstd);
+    add("16-bit PNG", others.gray_png);
 }
 
 void files(const FilesArguments& arguments) {
