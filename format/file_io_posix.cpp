@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "format/error.h"
+#include "format/file_descriptor_posix.h"
 
 namespace geodesic::format {
 namespace {
@@ -25,23 +26,6 @@ namespace {
     if (code == ENOMEM) throw std::bad_alloc();
     fail(doing, path, std::generic_category().message(code));
 }
-
-class FileDescriptor {
-public:
-    explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
-    FileDescriptor(FileDescriptor&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-    FileDescriptor& operator=(FileDescriptor&&) = delete;
-    ~FileDescriptor() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-
-    int get() const { return descriptor_; }
-    // Says what the destructor cannot: a file system may report a failed write only now.
-    bool close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
-
-private:
-    int descriptor_;
-};
 
 // read(2) and write(2) take at most this much at once on every system.
 constexpr std::size_t MAX_TRANSFER = std::size_t{1} << 30;

@@ -5,22 +5,11 @@
 #include <new>
 #include <utility>
 
-#define NOMINMAX
-#define WIN32_LEAN_AND_MEAN
-#include <windows.h>
-
 #include "format/error.h"
+#include "format/file_handle_windows.h"
 
 namespace geodesic::format {
 namespace {
-
-std::wstring wide(const std::string& utf8) {
-    const int size = static_cast<int>(utf8.size());
-    const int needed = MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, utf8.data(), size, nullptr, 0);
-    std::wstring result(static_cast<size_t>(needed), L'\0');
-    MultiByteToWideChar(CP_UTF8, 0, utf8.data(), size, result.data(), needed);
-    return result;
-}
 
 std::string narrow(const wchar_t* text, int size) {
     const int needed = WideCharToMultiByte(CP_UTF8, 0, text, size, nullptr, 0, nullptr, nullptr);
@@ -48,21 +37,6 @@ std::string reason_of(DWORD code) {
     fail(doing, path, reason_of(code));
 }
 
-class File {
-public:
-    explicit File(HANDLE handle) : handle_(handle) {}
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    ~File() { close(); }
-
-    HANDLE get() const { return handle_; }
-    bool is_open() const { return handle_ != INVALID_HANDLE_VALUE; }
-    bool close() { return !is_open() || CloseHandle(std::exchange(handle_, INVALID_HANDLE_VALUE)); }
-
-private:
-    HANDLE handle_;
-};
-
 bool is_directory(const std::wstring& path) {
     const DWORD attributes = GetFileAttributesW(path.c_str());
     return attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_DIRECTORY);
@@ -70,7 +44,7 @@ bool is_directory(const std::wstring& path) {
 
 constexpr size_t MAX_TRANSFER = size_t{1} << 30;
 
-size_t read_some(const File& file, std::span<std::byte> into, const std::string& path) {
+size_t read_some(const FileHandle& file, std::span<std::byte> into, const std::string& path) {
     DWORD count = 0;
     if (!ReadFile(file.get(), into.data(), static_cast<DWORD>(std::min(into.size(), MAX_TRANSFER)), &count,
                   nullptr) &&
@@ -79,7 +53,7 @@ size_t read_some(const File& file, std::span<std::byte> into, const std::string&
     return count;
 }
 
-void write_all(const File& file, std::span<const std::byte> bytes, const std::string& path) {
+void write_all(const FileHandle& file, std::span<const std::byte> bytes, const std::string& path) {
     while (!bytes.empty()) {
         DWORD count = 0;
         if (!WriteFile(file.get(), bytes.data(), static_cast<DWORD>(std::min(bytes.size(), MAX_TRANSFER)),
@@ -100,7 +74,7 @@ public:
         if (!renamed_) DeleteFileW(path_.c_str());
     }
 
-    File& file() { return file_; }
+    FileHandle& file() { return file_; }
     // Of a closed file.
     void rename_to(const std::wstring& destination, const std::string& path) {
         if (!MoveFileExW(path_.c_str(), destination.c_str(),
@@ -126,7 +100,7 @@ private:
     }
 
     std::wstring path_;
-    File file_;
+    FileHandle file_;
     bool renamed_ = false;
 };
 
@@ -136,9 +110,9 @@ std::vector<std::byte> read_file(const std::string& utf8_path) {
     constexpr size_t MIN_STEP = 65536;
     const std::wstring path = wide(utf8_path);
     if (is_directory(path)) fail("read", utf8_path, "it is a directory");
-    const File file(CreateFileW(path.c_str(), GENERIC_READ,
-                                FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
-                                OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr));
+    const FileHandle file(CreateFileW(path.c_str(), GENERIC_READ,
+                                      FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
+                                      OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr));
     if (!file.is_open()) fail_code("open", utf8_path, GetLastError());
     LARGE_INTEGER size{};
     if (!GetFileSizeEx(file.get(), &size)) size.QuadPart = 0; // a pipe has none

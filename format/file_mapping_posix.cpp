@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "format/file_descriptor_posix.h"
 #include "format/file_mapping.h"
 
 namespace geodesic::format {
@@ -18,22 +19,8 @@ constexpr int FLAGS = MAP_PRIVATE | MAP_POPULATE; // opening reads all bytes any
 constexpr int FLAGS = MAP_PRIVATE;
 #endif
 
-class Descriptor {
-public:
-    explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    int get() const { return descriptor_; }
-
-private:
-    int descriptor_;
-};
-
 // What the file begins with; less than `size` bytes if it cannot be read.
-std::vector<std::byte> read_start(const Descriptor& file, std::size_t size) {
+std::vector<std::byte> read_start(const FileDescriptor& file, std::size_t size) {
     std::vector<std::byte> start(size);
     std::size_t filled = 0;
     while (filled < size) {
@@ -61,7 +48,7 @@ FileMapping::of_file(const std::string& utf8_path,
     struct stat status {};
     // A pipe must not be opened here, since who reads it then would miss what it brought.
     if (::stat(utf8_path.c_str(), &status) != 0 || !is_regular(status)) return {};
-    const Descriptor file(::open(utf8_path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    const FileDescriptor file(::open(utf8_path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.get() < 0 || ::fstat(file.get(), &status) != 0 || !is_regular(status)) return {};
     const auto size = static_cast<std::size_t>(status.st_size);
     if (!is_wanted(read_start(file, std::min(size, START)))) return {};

@@ -1,39 +1,13 @@
 #include <algorithm>
 #include <vector>
 
-#define NOMINMAX
-#define WIN32_LEAN_AND_MEAN
-#include <windows.h>
-
+#include "format/file_handle_windows.h"
 #include "format/file_mapping.h"
 
 namespace geodesic::format {
 namespace {
 
-class Handle {
-public:
-    explicit Handle(HANDLE handle) : handle_(handle) {}
-    Handle(const Handle&) = delete;
-    Handle& operator=(const Handle&) = delete;
-    ~Handle() {
-        if (is_open()) CloseHandle(handle_);
-    }
-    HANDLE get() const { return handle_; }
-    bool is_open() const { return handle_ && handle_ != INVALID_HANDLE_VALUE; }
-
-private:
-    HANDLE handle_;
-};
-
-std::wstring wide(const std::string& utf8) {
-    const int size = static_cast<int>(utf8.size());
-    const int needed = MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, utf8.data(), size, nullptr, 0);
-    std::wstring result(static_cast<std::size_t>(needed), L'\0');
-    MultiByteToWideChar(CP_UTF8, 0, utf8.data(), size, result.data(), needed);
-    return result;
-}
-
-std::vector<std::byte> read_start(const Handle& file, std::size_t size) {
+std::vector<std::byte> read_start(const FileHandle& file, std::size_t size) {
     std::vector<std::byte> start(size);
     DWORD filled = 0;
     if (!ReadFile(file.get(), start.data(), static_cast<DWORD>(size), &filled, nullptr)) filled = 0;
@@ -51,15 +25,15 @@ FileMapping::of_file(const std::string& utf8_path,
     const std::wstring path = wide(utf8_path);
     const DWORD attributes = GetFileAttributesW(path.c_str());
     if (attributes == INVALID_FILE_ATTRIBUTES || (attributes & FILE_ATTRIBUTE_DIRECTORY)) return {};
-    const Handle file(CreateFileW(path.c_str(), GENERIC_READ,
-                                  FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
-                                  OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr));
+    const FileHandle file(CreateFileW(path.c_str(), GENERIC_READ,
+                                      FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
+                                      OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr));
     if (!file.is_open() || GetFileType(file.get()) != FILE_TYPE_DISK) return {};
     LARGE_INTEGER size{};
     if (!GetFileSizeEx(file.get(), &size) || size.QuadPart <= 0) return {};
     const auto bytes = static_cast<std::size_t>(size.QuadPart);
     if (!is_wanted(read_start(file, std::min(bytes, START)))) return {};
-    const Handle mapping(CreateFileMappingW(file.get(), nullptr, PAGE_READONLY, 0, 0, nullptr));
+    const FileHandle mapping(CreateFileMappingW(file.get(), nullptr, PAGE_READONLY, 0, 0, nullptr));
     if (!mapping.is_open()) return {};
     const void* const first = MapViewOfFile(mapping.get(), FILE_MAP_READ, 0, 0, bytes);
     if (!first) return {};
