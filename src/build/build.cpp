@@ -44,9 +44,8 @@ void check_options(const geoidx_build_options& options) {
 HierarchyOptions hierarchy_options(const Intake& intake, const geoidx_build_options& options) {
     HierarchyOptions result;
     const uint32_t vertices = intake.mesh.vertex_count();
-    result.split =
-        automatic_split(vertices, options.level_count, options.patches,
-                        options.engine == GEOIDX_ENGINE_OVERLAY ? overlay_split(vertices) : GRAPH_SPLIT);
+    result.split = automatic_split(vertices, options.level_count, options.patches,
+                                   options.engine == GEOIDX_ENGINE_OVERLAY ? OVERLAY_SPLIT : GRAPH_SPLIT);
     for (size_t level = 0; level < result.split.size(); ++level)
         result.in_proportion.push_back(options.patches[level] == 0);
     result.lloyd_iterations = options.lloyd_iterations;

@@ -32,11 +32,6 @@ uint32_t levels_named(std::span<const uint32_t> given) {
 
 }
 
-SplitShape overlay_split(uint32_t vertex_count) {
-    constexpr double LARGE_MESH = 43000, FEWEST = 24, MOST = 60;
-    return {std::clamp(MOST * std::pow(LARGE_MESH / vertex_count, 0.25), FEWEST, MOST), 6};
-}
-
 std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_count,
                                       std::span<const uint32_t> given, const SplitShape& shape) {
     const double leaves = std::max(1.0, vertex_count / shape.leaf_vertices);
@@ -55,12 +50,15 @@ std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_coun
         else
             remaining /= split[l];
     }
-    const double each = open ? std::pow(std::max(1.0, remaining), 1.0 / open) : 0;
     // If the caller asks for more levels than the mesh needs, leaves become smaller. Only a mesh that is
     // small enough for a single leaf is not split.
     const uint32_t fewest = level_count > 1 ? 2 : 1;
-    for (uint32_t& count : split)
-        if (count == 0) count = std::max(fewest, static_cast<uint32_t>(std::lround(each)));
+    for (uint32_t& count : split) {
+        if (count > 0) continue;
+        const double each = std::pow(std::max(1.0, remaining), 1.0 / open--);
+        count = std::max(fewest, static_cast<uint32_t>(std::lround(each)));
+        remaining /= count;
+    }
     return split;
 }
 

@@ -45,11 +45,9 @@ struct SplitShape {
     double largest_split;
 };
 
-// Measured on scans of 35,000 to 390,000 vertices (bench/). Graph: larger leaves answer faster and more
-// exactly, but the file grows. Overlay: larger leaves answer faster, but need more table entries. The borders
-// of a larger mesh need more entries already, so its leaves are smaller.
-inline constexpr SplitShape GRAPH_SPLIT{120, 40};
-SplitShape overlay_split(uint32_t vertex_count);
+// Measured on scans of 35,000 to 390,000 vertices (bench/). Larger leaves answer faster; of the graph engine,
+// more exactly, too, but the file grows. Of the overlay engine they need more table entries.
+inline constexpr SplitShape GRAPH_SPLIT{120, 40}, OVERLAY_SPLIT{64, 6};
 
 // Chooses the number of levels, and the number of patches that each patch is split into, for a mesh of this
 // size. Numbers that the caller gave (other than 0) are kept.
