@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -91,7 +92,7 @@ public:
             for (size_t j = 0; j < i; ++j) set(border + i, border + j, *stored++);
     }
 
-    uint16_t at(size_t i, size_t j) const { return codes_[i * size_ + j]; }
+    const uint16_t* row(size_t i) const { return codes_.data() + i * size_; }
 
 private:
     void set(size_t i, size_t j, uint16_t code) { codes_[i * size_ + j] = codes_[j * size_ + i] = code; }
@@ -100,24 +101,36 @@ private:
     std::vector<uint16_t> codes_;
 };
 
-// Writes `count` rows along the ring of a patch, end to end. code(row, position) gives the entry for a
-// position in the border.
-template <class Code>
-void write_rows(const OverlayIndex& index, uint32_t patch, uint32_t count, const Code& code, uint16_t* rows) {
+// Writes `count` rows along the ring of a patch, end to end: for each place, the entry in the column of its
+// vertex. row(i) points to the i-th row of entries, and column[position] is where in it the entry for a
+// position in the border is.
+template <class Row>
+void write_rows(const OverlayIndex& index, uint32_t patch, uint32_t count, std::span<const uint32_t> column,
+                const Row& row, uint16_t* out) {
     const uint32_t* position = index.rings.position.data() + index.rings.begin[patch];
-    const uint32_t places = index.rings.size(patch);
-    for (uint32_t row = 0; row < count; ++row)
-        for (uint32_t k = 0; k < places; ++k) *rows++ = code(row, position[k]);
+    std::vector<uint32_t> column_of_place(index.rings.size(patch));
+    for (size_t k = 0; k < column_of_place.size(); ++k) column_of_place[k] = column[position[k]];
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint16_t* entries = row(i);
+        for (const uint32_t k : column_of_place) *out++ = entries[k];
+    }
 }
 
 void write_outer_table(const OverlayIndex& index, const OverlaySquare& of_parent, uint32_t patch,
                        std::span<uint16_t> outer) {
     const Numbering& numbering = index.numbering;
-    const uint32_t* overlay_position = numbering.overlay_position.data() + numbering.border_begin[patch];
+    const std::span<const uint32_t> overlay_position{
+        numbering.overlay_position.data() + numbering.border_begin[patch], numbering.border_size(patch)};
     write_rows(
-        index, patch, numbering.overlay_size(numbering.parent[patch]),
-        [&](uint32_t row, uint32_t position) { return of_parent.at(row, overlay_position[position]); },
-        outer.data() + index.outer_row(patch, 0));
+        index, patch, numbering.overlay_size(numbering.parent[patch]), overlay_position,
+        [&](uint32_t i) { return of_parent.row(i); }, outer.data() + index.outer_row(patch, 0));
+}
+
+// 0, 1, 2 ...
+std::vector<uint32_t> numbers_to(uint32_t end) {
+    std::vector<uint32_t> numbers(end);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    return numbers;
 }
 
 void write_overlay_tables(const StoredIndex& stored, const OverlayIndex& index,
@@ -130,24 +143,29 @@ void write_overlay_tables(const StoredIndex& stored, const OverlayIndex& index,
         for (uint32_t child = numbering.child_begin[p]; child < numbering.child_begin[p + 1]; ++child)
             write_outer_table(index, square, child, parts.outer);
         if (p == 0) continue;
-        const size_t border = numbering.border_size(p);
+        const uint32_t border = numbering.border_size(p);
         write_rows(
-            index, p, numbering.inner_size(p),
-            [&](uint32_t row, uint32_t position) { return square.at(border + row, position); },
-            parts.inner.data() + index.inner_row(p, 0));
+            index, p, numbering.inner_size(p), numbers_to(border),
+            [&](uint32_t i) { return square.row(border + i); }, parts.inner.data() + index.inner_row(p, 0));
     }
 }
 
 void write_leaf_tables(const StoredIndex& stored, const OverlayIndex& index,
                        const HopParts<uint16_t>& parts) {
-    for (uint32_t leaf = index.numbering.first_leaf(); leaf < index.numbering.patch_count(); ++leaf)
+    const Numbering& numbering = index.numbering;
+    std::vector<uint16_t> rows;
+    for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf) {
+        const uint32_t border = numbering.border_size(leaf), count = numbering.internal_size(leaf);
+        const uint16_t* entry =
+            stored.border_internal_codes.data() + numbering.border_internal_entry(leaf, 0, 0);
+        rows.resize(size_t{count} * border);
+        for (uint32_t i = 0; i < border; ++i)
+            for (uint32_t j = 0; j < count; ++j) rows[size_t{j} * border + i] = *entry++;
         write_rows(
-            index, leaf, index.numbering.internal_size(leaf),
-            [&](uint32_t row, uint32_t position) {
-                return stored
-                    .border_internal_codes[index.numbering.border_internal_entry(leaf, position, row)];
-            },
+            index, leaf, count, numbers_to(border),
+            [&](uint32_t i) { return rows.data() + size_t{i} * border; },
             parts.inner.data() + index.inner_row(leaf, 0));
+    }
     std::ranges::copy(stored.internal_codes, parts.internal.begin());
 }
 
