@@ -97,12 +97,6 @@ public:
         return static_cast<int16_t>(SourceCode::NEAREST + static_cast<int32_t>(steps));
     }
 
-    // The code where only a distance of 0 is 0 steps, so that different vertices stay apart.
-    int16_t code_apart(float distance) const {
-        const int least = nearest_ > 0 || distance == 0 ? 0 : 1; // steps beyond nearest()
-        return std::max(code(distance), static_cast<int16_t>(SourceCode::NEAREST + least));
-    }
-
 private:
     static constexpr float MOST = SourceCode::UNREACHED - 2 - SourceCode::NEAREST;
 

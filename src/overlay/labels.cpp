@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 #include <span>
+#include <vector>
 
 #include "src/overlay/ascend.h"
 #include "src/overlay/codes.h"
@@ -16,23 +16,25 @@ namespace {
 
 constexpr size_t SOURCES = InnerSweep::MOST_SOURCES;
 
-void lay_out_labels(const OverlayIndex& index, Labels& labels) {
-    labels.offset.assign(index.numbering.patch_count(), 0);
-    labels.begin.assign(index.numbering.patch_count(), 0);
-    uint64_t size = 0;
-    for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) {
-        const uint32_t parent = index.numbering.parent[p];
-        labels.offset[p] = labels.offset[parent];
-        if (index.is_labelled(parent)) labels.offset[p] += Labels::HEAD + index.label_size(parent);
-        labels.begin[p] = size;
-        size += uint64_t{index.numbering.inner_size(p)} * labels.offset[p];
+// A labelled border has at most so many places.
+constexpr uint32_t MOST_PLACES = 200;
+
+// Calls use(patch) for each labelled patch.
+template <class Use>
+void for_each_labelled(const OverlayIndex& index, const Use& use) {
+    const Numbering& numbering = index.numbering;
+    std::vector<uint8_t> is_inside(numbering.patch_count(), 0); // of a labelled patch
+    for (uint32_t p = 1; p < numbering.first_leaf(); ++p) {
+        const uint32_t places = index.rings.size(p);
+        is_inside[p] = is_inside[numbering.parent[p]];
+        if (is_inside[p] || places == 0 || places > MOST_PLACES) continue;
+        is_inside[p] = 1;
+        use(p);
     }
-    labels.codes.assign(size, SourceCode::UNREACHED);
 }
 
-// Sweeps from the labelled vertices of a patch's border down to the inner vertices of all its descendants,
-// with SOURCES border vertices as sources at a time, and writes the distances into the labels of those inner
-// vertices.
+// Sweeps from the border of a patch down to the inner vertices of all its descendants, with SOURCES border
+// vertices as sources at a time, and writes the distances into the labels of those inner vertices.
 class LabelSweep {
 public:
     LabelSweep(const OverlayIndex& index, Labels& labels)
@@ -41,34 +43,32 @@ public:
           distances_(SOURCES * index.numbering.vertex_count()), begin_(index.numbering.patch_count()) {}
 
     void label(uint32_t patch) {
-        positions_.resize(index_.label_size(patch));
-        if (index_.is_labelled_whole(patch))
-            std::iota(positions_.begin(), positions_.end(), 0u);
-        else
-            std::ranges::copy(index_.pairs.samples.of(patch), positions_.begin());
         lay_out_distances(patch);
-        for (size_t first = 0; first < positions_.size(); first += SOURCES) {
+        for (size_t first = 0; first < border_size_; first += SOURCES) {
             start(patch, first);
             descend_into(numbering_, patch, [&](uint32_t p) { hop_down(p, first); });
         }
-        descend_into(numbering_, patch, [&](uint32_t p) { encode(p, patch); });
+        const float quantum = quantum_of_distances();
+        labels_.quantum[patch] = quantum;
+        descend_into(numbering_, patch, [&](uint32_t p) { encode(p, patch, quantum); });
     }
 
 private:
     void lay_out_distances(uint32_t patch) {
+        border_size_ = numbering_.border_size(patch);
         size_t inside = 0;
         descend_into(numbering_, patch, [&](uint32_t p) {
-            begin_[p] = inside * positions_.size();
+            begin_[p] = inside * border_size_;
             inside += numbering_.inner_size(p);
         });
-        of_border_.resize(inside * positions_.size());
+        of_border_.resize(inside * border_size_);
     }
 
-    // Fills the distances in the patch's overlay from SOURCES labelled vertices, the `first` one and those
+    // Fills the distances in the patch's overlay from SOURCES border vertices, the `first` one and those
     // after it. Behind the last one, it is repeated.
     void start(uint32_t patch, size_t first) {
         for (size_t s = 0; s < SOURCES; ++s)
-            for_each_in_overlay(index_, patch, positions_[std::min(first + s, positions_.size() - 1)],
+            for_each_in_overlay(index_, patch, static_cast<uint32_t>(std::min(first + s, border_size_ - 1)),
                                 [&](uint32_t number, float distance) {
                                     distances_[size_t{number} * SOURCES + s] = distance;
                                 });
@@ -82,25 +82,42 @@ private:
         else
             std::fill_n(inside, count * SOURCES, INFINITE);
         float* to_border = of_border_.data() + begin_[patch] + first;
-        for (uint32_t i = 0; i < count; ++i, to_border += positions_.size())
-            std::copy_n(inside + i * SOURCES, std::min(SOURCES, positions_.size() - first), to_border);
+        for (uint32_t i = 0; i < count; ++i, to_border += border_size_)
+            std::copy_n(inside + i * SOURCES, std::min(SOURCES, border_size_ - first), to_border);
     }
 
-    void encode(uint32_t patch, uint32_t labelled) {
-        const float quantum = index_.quantum[numbering_.parent[labelled]];
-        const size_t size = positions_.size(), step = labels_.offset[patch];
-        const float* distance = of_border_.data() + begin_[patch];
-        const uint64_t first = labels_.begin[patch] + labels_.offset[labelled];
-        for (size_t i = 0; i < numbering_.inner_size(patch); ++i)
-            write_label({distance + i * size, size}, quantum, &labels_.codes[first + i * step]);
+    // So that the longest one has the largest code. (Distances compare as their bits do, which is quicker.)
+    float quantum_of_distances() const {
+        constexpr auto NONE_LONGER = std::bit_cast<int32_t>(INFINITE);
+        int32_t longest = 0;
+        for (const float distance : of_border_) {
+            const auto bits = std::bit_cast<int32_t>(distance);
+            longest = std::max(longest, bits < NONE_LONGER ? bits : 0);
+        }
+        return std::bit_cast<float>(longest) / TableCode::LARGEST;
     }
 
-    static void write_label(std::span<const float> distances, float quantum, int16_t* label) {
-        const StepsOf steps(distances, quantum);
-        const auto nearest = std::bit_cast<uint32_t>(steps.nearest());
-        *label++ = static_cast<int16_t>(nearest & 0xffff);
-        *label++ = static_cast<int16_t>(nearest >> 16);
-        for (const float distance : distances) *label++ = steps.code_apart(distance);
+    void encode(uint32_t patch, uint32_t labelled, float quantum) {
+        const size_t count = numbering_.inner_size(patch);
+        codes_.resize(count * border_size_);
+        encode({of_border_.data() + begin_[patch], codes_.size()}, steps_per_distance(quantum));
+        const uint32_t* position = index_.rings.position.data() + index_.rings.begin[labelled];
+        const uint32_t places = index_.rings.size(labelled);
+        uint16_t* code = labels_.codes.data() + labels_.begin[patch];
+        for (size_t row = 0; row < codes_.size(); row += border_size_)
+            for (uint32_t k = 0; k < places; ++k) *code++ = codes_[row + position[k]];
+    }
+
+    // Only a distance of 0 is 0 steps, so that different vertices never are at distance 0.
+    void encode(std::span<const float> distances, float steps_each) {
+        for (size_t i = 0; i < distances.size(); ++i) {
+            const float distance = distances[i];
+            const float least = distance > 0 ? 1 : 0;
+            const float steps =
+                std::min(std::max(distance * steps_each + 0.5f, least), float{TableCode::LARGEST});
+            codes_[i] = static_cast<uint16_t>(
+                static_cast<int32_t>(distance < INFINITE ? steps : float{TableCode::UNREACHED}));
+        }
     }
 
     const OverlayIndex& index_;
@@ -108,18 +125,43 @@ private:
     const Numbering& numbering_;
     InnerSweep sweep_;
     std::vector<float> distances_; // [number * SOURCES + source], from the current sources
-    // From all labelled vertices: a row for each inner vertex of each descendant.
+    // From the whole border: a row for each inner vertex of each descendant.
     std::vector<float> of_border_;
-    std::vector<size_t> begin_;       // per patch: where its rows begin in of_border_
-    std::vector<uint32_t> positions_; // positions of the labelled vertices in the border
+    std::vector<size_t> begin_; // per patch: where its rows begin in of_border_
+    size_t border_size_ = 0;
+    std::vector<uint16_t> codes_; // of the rows of one patch, by border vertices
 };
 
 }
 
-void make_labels(const OverlayIndex& index, Labels& labels) {
-    lay_out_labels(index, labels);
+uint64_t count_label_codes(const OverlayIndex& index) {
+    uint64_t codes = 0;
+    for_each_labelled(index, [&](uint32_t patch) {
+        descend_into(index.numbering, patch, [&](uint32_t inside) {
+            codes += uint64_t{index.numbering.inner_size(inside)} * index.rings.size(patch);
+        });
+    });
+    return codes;
+}
+
+void make_labels(const OverlayIndex& index, bool with_labels, Labels& labels) {
+    const Numbering& numbering = index.numbering;
+    labels.is_labelled.assign(numbering.patch_count(), 0);
+    if (!with_labels) return;
+    labels.quantum.assign(numbering.patch_count(), 0.f);
+    labels.begin.assign(numbering.patch_count(), 0);
+    uint64_t codes = 0;
+    for_each_labelled(index, [&](uint32_t patch) {
+        labels.is_labelled[patch] = 1;
+        descend_into(numbering, patch, [&](uint32_t inside) {
+            labels.begin[inside] = codes;
+            codes += uint64_t{numbering.inner_size(inside)} * index.rings.size(patch);
+        });
+    });
+    if (codes == 0) return;
+    labels.codes.resize(codes + TableCode::PADDING);
     LabelSweep sweep(index, labels);
-    for (uint32_t p = 1; index.is_labelled(p); ++p) sweep.label(p);
+    for_each_labelled(index, [&](uint32_t patch) { sweep.label(patch); });
 }
 
 }

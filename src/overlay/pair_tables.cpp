@@ -12,9 +12,11 @@ void require_pair_tables(const OverlayIndex& index) {
     if (pairs.are_made.load(std::memory_order_acquire)) return;
     const std::lock_guard only_one(pairs.making);
     if (pairs.are_made.load(std::memory_order_relaxed)) return;
-    pairs.samples = Samples(pairs.samples.tables.get_allocator().resource());
+    std::pmr::memory_resource* memory = pairs.samples.codes.get_allocator().resource();
+    pairs.samples = Samples(memory);
     make_samples(index, pairs.samples);
-    make_labels(index, pairs.labels);
+    pairs.labels = Labels(memory);
+    make_labels(index, pairs.has_labels, pairs.labels);
     pairs.are_made.store(true, std::memory_order_release);
 }
 

@@ -7,6 +7,7 @@
 #include "src/overlay/msad.h"
 #include "src/overlay/pair_tables.h"
 #include "src/overlay/ssad.h"
+#include "src/overlay/sssd/prepared_source.h"
 #include "src/overlay/sssd/sssd.h"
 
 namespace geodesic {
@@ -17,21 +18,14 @@ class OverlayQuery {
 public:
     OverlayQuery(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : index_(index), memory_(memory), field_(index, memory), nearest_(index, memory),
-          batch_(index, memory, FIELDS_AT_ONCE), vertex_count_(index.numbering.vertex_count()),
-          prepared_distance_(memory) {}
+          batch_(index, memory, FIELDS_AT_ONCE), prepared_(index, memory) {}
 
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
     float sssd(uint32_t low, uint32_t high) { return pairs().distance(low, high); }
 
     // Prepares a source: prepared_sssd() then answers distances from it.
-    void prepare(uint32_t source) {
-        prepared_ = source;
-        prepared_distance_.resize(vertex_count_);
-        field_.sweep_borders(source, pairs().prepared_level(), prepared_distance_);
-    }
-    float prepared_sssd(uint32_t target) {
-        return pairs().distance_from(prepared_, prepared_distance_, target);
-    }
+    void prepare(uint32_t source) { prepared_.prepare(source, field_); }
+    float prepared_sssd(uint32_t target) { return prepared_.distance(target); }
 
     // Sets how many threads msad() uses.
     void set_threads(uint32_t count) {
@@ -68,9 +62,7 @@ private:
     OverlaySsad field_;
     OverlayMsad nearest_;
     OverlaySsad batch_;
-    size_t vertex_count_;
-    uint32_t prepared_ = NONE;
-    Array<float> prepared_distance_; // by number, as sweep_borders() fills it
+    PreparedSource prepared_;
 };
 
 }

@@ -3,203 +3,223 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-
-#include "src/overlay/near.h"
-#include "src/overlay/rings.h"
+#include <vector>
 
 namespace geodesic {
 
 namespace {
 
-// A border has about FEWEST samples or more, or all of its vertices if these are fewer. Between two
-// neighbouring samples of a long border lie LARGEST_STEP edges, or up to two more, since a chain is divided
-// evenly: 19 edges make three intervals of 6, 6 and 7.
-constexpr uint32_t FEWEST = 64, LARGEST_STEP = 5;
+// Every second vertex of a border is a sample, more or less, but of no border many more than MOST are. A
+// chain of at least FEWEST_OF_CHAIN vertices has as many samples or more.
+constexpr double SHARE = 0.5, MOST = 64;
+constexpr uint32_t FEWEST_OF_CHAIN = 3;
 
-// Samples tell where the shortest way crosses a border only if the distance is more than this many times
-// their spacing.
-constexpr float NEAR_SAMPLES = 8;
-
-uint32_t step_of(const OverlayIndex& index, uint32_t patch) {
-    return std::clamp(index.numbering.border_size(patch) / FEWEST, 1u, LARGEST_STEP);
-}
-
-// The number of samples of a chain with this many vertices. The two ends of an open chain are always samples.
-uint32_t sample_count(uint32_t vertices, bool is_closed, uint32_t step) {
-    if (step == 1 || vertices <= 3) return vertices;
-    return std::max(3u, (vertices - !is_closed) / step) + !is_closed;
-}
-
-// Spreads the samples evenly along the chain.
-std::vector<uint32_t> sample(const Chain& chain, uint32_t step) {
-    const auto vertices = static_cast<uint32_t>(chain.positions.size());
-    const uint32_t count = sample_count(vertices, chain.is_closed, step);
-    if (count == vertices) return {chain.positions.begin(), chain.positions.end()};
-    const uint32_t intervals = vertices - !chain.is_closed, pieces = count - !chain.is_closed;
-    std::vector<uint32_t> samples;
-    for (uint32_t i = 0; i < count; ++i) samples.push_back(chain.positions[uint64_t{i} * intervals / pieces]);
-    return samples;
-}
-
-// The distance of two neighbouring samples, which is the length of the segment between them in the coarse
-// ring. It is a gap if no path joins them.
-float segment_between(const OverlayIndex& index, uint32_t patch, uint32_t a, uint32_t b) {
-    const uint32_t parent = index.numbering.parent[patch];
-    const uint32_t* overlay_position =
-        index.numbering.overlay_position.data() + index.numbering.border_begin[patch];
-    const uint16_t code = index.overlay_code(parent, overlay_position[a], overlay_position[b]);
-    return code == TableCode::UNREACHED ? Rings::GAP : index.distance(code, parent);
-}
-
-void sample_ring(const OverlayIndex& index, uint32_t patch, RingWriter& writer) {
-    const uint32_t step = step_of(index, patch);
-    for (const Chain& chain : chains_of_ring(index.rings, patch)) {
-        const std::vector<uint32_t> samples = sample(chain, step);
-        std::vector<float> lengths;
-        for (size_t i = 0; i < samples.size(); ++i)
-            lengths.push_back(segment_between(index, patch, samples[i], samples[(i + 1) % samples.size()]));
-        writer.add_chain({samples, lengths, chain.is_closed});
-    }
-    writer.end_ring();
-}
-
-// The mean length of the segments of a ring, or 0 if it has none.
-float average_segment(const Rings& rings, uint32_t patch) {
-    float sum = 0;
-    uint32_t segments = 0;
-    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
-        if (std::isnan(rings.segment_length[k])) continue;
-        sum += rings.segment_length[k];
-        ++segments;
-    }
-    return segments ? sum / static_cast<float>(segments) : 0;
-}
-
-// How far it is along the border from a sample to the next one, at most. Vertices between two samples are no
-// farther from either, which the distance of the two does not tell: the border may go out and back between
-// them.
-float longest_gap(const OverlayIndex& index, const Samples& samples, uint32_t patch) {
-    const Rings& coarse = samples.rings;
-    float longest = 0;
-    for (uint32_t k = coarse.begin[patch]; k < coarse.begin[patch + 1]; ++k) {
-        if (std::isnan(coarse.segment_length[k])) continue;
-        float length = 0;
-        for (uint32_t at = samples.full_place[k]; index.rings.position[at] != coarse.position[k + 1]; ++at)
-            length += index.rings.segment_length[at];
-        longest = std::max(longest, length);
-    }
-    return longest;
-}
-
-void lay_out_samples(const OverlayIndex& index, uint32_t patch, Samples& samples) {
-    const Rings& rings = samples.rings;
-    std::vector<uint32_t> sample(index.numbering.border_size(patch), 0); // per position
-    uint32_t count = 0;
+// Calls use(place, length) for each segment of a border. It begins at a place of its own, counted over all
+// rings, and ends at the next place.
+template <class Use>
+void for_each_segment(const OverlayIndex& index, uint32_t patch, const Use& use) {
+    const Rings& rings = index.rings;
     for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
-        if (rings.is_own[k]) {
-            sample[rings.position[k]] = count++;
-            samples.positions.push_back(rings.position[k]);
+        if (rings.is_own[k] && !std::isnan(rings.segment_length[k])) use(k, rings.segment_length[k]);
+}
+
+// The share of the vertices of a patch's border that are to be samples.
+double share_of(const OverlayIndex& index, uint32_t patch) {
+    return std::min(SHARE, MOST / std::max(1u, index.numbering.border_size(patch)));
+}
+
+// How far samples are to be apart along a border, on average. Segments longer than this are long.
+float spacing_of(const OverlayIndex& index, uint32_t patch) {
+    double length = 0;
+    for_each_segment(index, patch, [&](uint32_t, float segment) { length += double{segment}; });
+    return static_cast<float>(length /
+                              std::max(1.0, share_of(index, patch) * index.numbering.border_size(patch)));
+}
+
+// Chooses the samples of all borders, level by level. A vertex that is a sample of one border is a sample of
+// all other borders of the same level and of deeper ones that it lies on: where borders have a piece in
+// common, a way crosses all of them at one vertex, which samples of different vertices would not show.
+// Between such vertices, others are spread evenly.
+class SampleChoice {
+public:
+    explicit SampleChoice(const OverlayIndex& index)
+        : index_(index), is_sample_(index.numbering.border_vertex_count(), 0) {}
+
+    // Calls use(patch, places) for each patch in their order, with its samples' places in its ring.
+    template <class Use>
+    void for_each_patch(const Use& use) {
+        const auto& level_begin = index_.numbering.level_begin;
+        std::vector<uint16_t> places;
+        for (uint32_t level = 0; level <= index_.numbering.level_count(); ++level) {
+            for (uint32_t p = level_begin[level]; p < level_begin[level + 1]; ++p) mark(p);
+            for (uint32_t p = level_begin[level]; p < level_begin[level + 1]; ++p) {
+                collect(p, places);
+                use(p, places);
+            }
         }
-    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k) {
-        samples.full_place.push_back(
-            index.rings.begin[patch] +
-            index.rings.place_of_slot[index.numbering.border_begin[patch] + rings.position[k]]);
-        samples.sample_of_place.push_back(sample[rings.position[k]]);
     }
-    const float spacing = average_segment(rings, patch);
-    samples.spacing.push_back(spacing);
-    samples.longest_gap.push_back(longest_gap(index, samples, patch));
-    samples.shortest_told.push_back(
-        std::max(NEAR_SAMPLES * spacing, near_radius(index.longest_segment[patch])));
-    samples.begin.push_back(static_cast<uint32_t>(samples.positions.size()));
+
+private:
+    uint8_t& is_sample(uint32_t place) { return is_sample_[index_.rings.vertex[place]]; }
+
+    void mark(uint32_t patch) {
+        const float spacing = spacing_of(index_, patch);
+        for_each_segment(index_, patch, [&](uint32_t place, float length) {
+            if (length > spacing) is_sample(place) = is_sample(place + 1) = 1;
+        });
+        const double share = share_of(index_, patch);
+        for (const auto& chain : index_.rings.chains_of(patch)) mark_chain(chain, share);
+    }
+
+    // Goes once around a closed chain, from a vertex that is a sample already if there is one, or from one
+    // end of an open chain to the other.
+    void mark_chain(const Rings::ChainPlaces& chain, double share) {
+        if (!chain.is_closed) is_sample(chain.first) = is_sample(chain.last) = 1;
+        const uint32_t count = chain.last - chain.first + 1, steps = count - !chain.is_closed;
+        uint32_t start = 0;
+        while (start < count && !is_sample(chain.first + start)) ++start;
+        const auto place = [&](uint32_t step) { return chain.first + (start + step) % count; };
+        uint32_t from = 0;
+        for (uint32_t to = 1; to <= steps; ++to) {
+            if (to < steps && !is_sample(place(to))) continue;
+            const uint32_t fewest =
+                to - from < steps ? 1 : std::min(steps, FEWEST_OF_CHAIN - !chain.is_closed);
+            const auto pieces = std::max(fewest, static_cast<uint32_t>(std::lround((to - from) * share)));
+            for (uint32_t i = 0; i < pieces; ++i)
+                is_sample(place(from + static_cast<uint32_t>(uint64_t{i} * (to - from) / pieces))) = 1;
+            from = to;
+        }
+    }
+
+    void collect(uint32_t patch, std::vector<uint16_t>& places) {
+        const uint32_t first = index_.rings.begin[patch];
+        places.clear();
+        for (uint32_t k = first; k < index_.rings.begin[patch + 1]; ++k)
+            if (index_.rings.is_own[k] && is_sample(k)) places.push_back(static_cast<uint16_t>(k - first));
+    }
+
+    const OverlayIndex& index_;
+    std::vector<uint8_t> is_sample_; // per border vertex
+};
+
+class SampleWriter {
+public:
+    SampleWriter(const OverlayIndex& index, Samples& samples)
+        : index_(index), numbering_(index.numbering), samples_(samples) {}
+
+    void write() {
+        const uint32_t patch_count = numbering_.patch_count();
+        samples_.begin.assign(1, 0);
+        samples_.long_begin.assign(1, 0);
+        SampleChoice(index_).for_each_patch([&](uint32_t patch, std::span<const uint16_t> places) {
+            samples_.place.insert(samples_.place.end(), places.begin(), places.end());
+            samples_.begin.push_back(static_cast<uint32_t>(samples_.place.size()));
+            samples_.spacing.push_back(spacing_of(index_, patch));
+            add_long_segments(patch);
+        });
+        samples_.first_row.assign(patch_count, 0);
+        samples_.codes.reserve(count_sample_codes(index_) + TableCode::PADDING);
+        for (uint32_t p = 0; p < patch_count; ++p) write_up(p);
+        samples_.across_begin.assign(patch_count, 0);
+        for (uint32_t p = 0; p < numbering_.first_leaf(); ++p) write_across_children_of(p);
+        samples_.codes.resize(samples_.codes.size() + TableCode::PADDING, TableCode::UNREACHED);
+    }
+
+private:
+    // A segment that closes a chain ends at a place that repeats the chain's first vertex.
+    void add_long_segments(uint32_t patch) {
+        const auto sample_at = [&](uint32_t place) {
+            const uint32_t own =
+                index_.rings.begin[patch] +
+                index_.rings.place_of_slot[numbering_.border_begin[patch] + index_.rings.position[place]];
+            const auto places = samples_.of(patch);
+            return static_cast<uint32_t>(std::ranges::lower_bound(places, own - index_.rings.begin[patch]) -
+                                         places.begin());
+        };
+        for_each_segment(index_, patch, [&](uint32_t place, float length) {
+            if (length > samples_.spacing[patch])
+                samples_.long_segments.push_back({sample_at(place), sample_at(place + 1), length});
+        });
+        samples_.long_begin.push_back(static_cast<uint32_t>(samples_.long_segments.size()));
+    }
+
+    // The position, in the border of its patch, of the vertex at a place.
+    uint32_t position(uint32_t patch, uint16_t place) const {
+        return index_.rings.position[index_.rings.begin[patch] + place];
+    }
+    uint32_t overlay_position(uint32_t patch, uint16_t place) const {
+        return numbering_.overlay_position[numbering_.border_begin[patch] + position(patch, place)];
+    }
+
+    // Makes room for a table and returns it.
+    uint16_t* add_table(size_t rows, size_t columns) {
+        samples_.codes.resize(samples_.codes.size() + rows * columns);
+        return samples_.codes.data() + samples_.codes.size() - rows * columns;
+    }
+
+    // Reads the outer table row by row, and so writes column by column. The overlay of a patch begins with
+    // its border.
+    void write_up(uint32_t patch) {
+        samples_.up_begin.push_back(samples_.codes.size());
+        if (patch == 0) return;
+        const uint32_t parent = numbering_.parent[patch];
+        const auto from = samples_.of(patch), to = samples_.of(parent);
+        uint16_t* table = add_table(from.size(), to.size());
+        for (size_t j = 0; j < to.size(); ++j) {
+            const uint16_t* row = index_.hops.outer.data() + index_.outer_row(patch, position(parent, to[j]));
+            for (size_t i = 0; i < from.size(); ++i) table[i * to.size() + j] = row[from[i]];
+        }
+    }
+
+    void write_across_children_of(uint32_t patch) {
+        const uint32_t first = numbering_.child_begin[patch], end = numbering_.child_begin[patch + 1];
+        uint32_t rows = 0;
+        for (uint32_t child = first; child < end; ++child) {
+            samples_.first_row[child] = rows;
+            rows += static_cast<uint32_t>(samples_.of(child).size());
+        }
+        for (uint32_t child = first; child < end; ++child) {
+            samples_.across_begin[child] = samples_.codes.size();
+            if (!has_table_across(index_, child)) continue;
+            const auto to = samples_.of(child);
+            uint16_t* entry = add_table(rows, to.size());
+            for (uint32_t sibling = first; sibling < end; ++sibling)
+                for (const uint16_t from : samples_.of(sibling)) {
+                    const uint16_t* row =
+                        index_.hops.outer.data() + index_.outer_row(child, overlay_position(sibling, from));
+                    for (const uint16_t k : to) *entry++ = row[k];
+                }
+        }
+    }
+
+    const OverlayIndex& index_;
+    const Numbering& numbering_;
+    Samples& samples_;
+};
+
 }
 
-// Appends the positions, in the overlay of a patch, of the samples of a child's border or of the patch's own.
-void add_samples(const OverlayIndex& index, const Samples& samples, uint32_t ring_of, bool of_child,
-                 std::vector<uint32_t>& positions) {
-    for (uint32_t position : samples.of(ring_of))
-        positions.push_back(
-            of_child ? index.numbering.overlay_position[index.numbering.border_begin[ring_of] + position]
-                     : position);
-}
-
-void sample_table(const OverlayIndex& index, uint32_t patch, std::span<const uint32_t> rows,
-                  Samples& samples) {
-    samples.table_begin[patch] = samples.tables.size();
-    const uint32_t* place = samples.full_place.data() + samples.rings.begin[patch];
-    const uint32_t first_place = index.rings.begin[patch];
-    const uint32_t places = samples.rings.size(patch);
-    if (places == index.rings.size(patch)) return;
-    for (uint32_t row : rows)
-        for (uint32_t k = 0; k < places; ++k)
-            samples.tables.push_back(index.hops.outer[index.outer_row(patch, row) + place[k] - first_place]);
-}
-
-// The number of codes that all coarse tables will have.
-uint64_t count_coarse_codes(const OverlayIndex& index) {
-    std::vector<SampleCount> samples;
-    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) samples.push_back(count_samples(index, p));
+uint64_t count_sample_codes(const OverlayIndex& index) {
+    const Numbering& numbering = index.numbering;
+    std::vector<uint64_t> count; // of samples, per patch
+    SampleChoice(index).for_each_patch(
+        [&](uint32_t, std::span<const uint16_t> places) { count.push_back(places.size()); });
     uint64_t codes = 0;
-    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p)
-        codes += count_coarse_codes(index, samples, p);
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
+        uint64_t of_children = 0, across = 0;
+        for (uint32_t child = numbering.child_begin[p]; child < numbering.child_begin[p + 1]; ++child) {
+            of_children += count[child];
+            if (has_table_across(index, child)) across += count[child];
+        }
+        codes += of_children * (count[p] + across);
+    }
     return codes;
 }
 
-void sample_tables(const OverlayIndex& index, uint32_t patch, Samples& samples) {
-    std::vector<uint32_t> rows;
-    add_samples(index, samples, patch, false, rows);
-    for (uint32_t child = index.numbering.child_begin[patch]; child < index.numbering.child_begin[patch + 1];
-         ++child) {
-        samples.first_row[child] = static_cast<uint32_t>(rows.size());
-        add_samples(index, samples, child, true, rows);
-    }
-    for (uint32_t child = index.numbering.child_begin[patch]; child < index.numbering.child_begin[patch + 1];
-         ++child)
-        sample_table(index, child, rows, samples);
-    samples.row_begin.push_back(static_cast<uint32_t>(samples.row_position.size()));
-    samples.row_position.insert(samples.row_position.end(), rows.begin(), rows.end());
+bool has_table_across(const OverlayIndex& index, uint32_t patch) {
+    return index.rings.size(patch) > LONGEST_WITHOUT_TABLE_ACROSS;
 }
 
-}
-
-SampleCount count_samples(const OverlayIndex& index, uint32_t patch) {
-    const Rings& rings = index.rings;
-    const uint32_t step = step_of(index, patch);
-    SampleCount count;
-    for (const auto& [first, last, is_closed] : rings.chains_of(patch)) {
-        const uint32_t samples = sample_count(last - first + 1, is_closed != 0, step);
-        count.samples += samples;
-        count.places += samples + 2 * Rings::REACH;
-    }
-    return count;
-}
-
-uint64_t count_coarse_codes(const OverlayIndex& index, std::span<const SampleCount> samples,
-                            uint32_t parent) {
-    const Numbering& numbering = index.numbering;
-    uint64_t rows = samples[parent].samples, places = 0;
-    for (uint32_t child = numbering.child_begin[parent]; child < numbering.child_begin[parent + 1]; ++child) {
-        rows += samples[child].samples;
-        if (samples[child].places < index.rings.size(child)) places += samples[child].places;
-    }
-    return rows * places;
-}
-
-void make_samples(const OverlayIndex& index, Samples& samples) {
-    const uint32_t patch_count = index.numbering.patch_count();
-    RingWriter writer(samples.rings);
-    writer.begin();
-    for (uint32_t p = 0; p < patch_count; ++p) sample_ring(index, p, writer);
-    const size_t places = samples.rings.position.size();
-    for (auto* per_place : {&samples.full_place, &samples.sample_of_place}) per_place->reserve(places);
-    samples.begin.assign(1, 0);
-    for (uint32_t p = 0; p < patch_count; ++p) lay_out_samples(index, p, samples);
-    writer.end();
-    samples.first_row.assign(patch_count, 0);
-    samples.table_begin.assign(patch_count, 0);
-    samples.tables.reserve(count_coarse_codes(index) + TableCode::PADDING);
-    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) sample_tables(index, p, samples);
-    samples.tables.resize(samples.tables.size() + TableCode::PADDING);
-}
+void make_samples(const OverlayIndex& index, Samples& samples) { SampleWriter(index, samples).write(); }
 
 }

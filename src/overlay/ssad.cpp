@@ -33,9 +33,9 @@ void OverlaySsad::sweep(std::span<const uint32_t> sources, float radius, std::sp
     });
 }
 
-void OverlaySsad::sweep_borders(uint32_t source, uint32_t level, std::span<float> distance) {
+void OverlaySsad::sweep_borders(uint32_t source, std::span<float> distance) {
     climb({&source, 1}, distance);
-    for (uint32_t p = 1; p < numbering_.level_begin[level]; ++p)
+    for (uint32_t p = 1; p < numbering_.first_leaf(); ++p)
         hop_down(p, {&source, 1}, INFINITE, distance, down_.front());
 }
 

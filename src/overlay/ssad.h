@@ -32,9 +32,9 @@ public:
     // vertices stay at infinity.
     void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distances);
 
-    // For one field. Fills the distances to the borders of all patches on levels 1 to `level`, and to the
-    // inner vertices of the patches that contain the source. All others are infinite.
-    void sweep_borders(uint32_t source, uint32_t level, std::span<float> distance);
+    // For one field. Fills the distances to all border vertices, and to the inner vertices of the patches
+    // that contain the source. All others are infinite.
+    void sweep_borders(uint32_t source, std::span<float> distance);
 
 private:
     RingSegments segments_of(uint32_t patch) const;

@@ -30,62 +30,67 @@ struct HopTables {
     Array<uint16_t> made;               // `codes`, unless they lie in a file
 };
 
-// The samples of all rings, and of the outer tables the rows and columns that belong to samples. SSSD looks
-// for ways over these first. The coarse table of a patch has a column for each place of its ring of samples,
-// and rows for the samples of its parent's ring and then of the rings of all its parent's children, itself
-// included, in the order of their numbers. Where all vertices of a ring are samples, no coarse table is
-// stored, because its rows are those of the outer table.
+// The samples of all borders, and the distances between samples: SSSD looks for ways over these first. Each
+// sample is given by its own place in the ring of its border. Samples are numbered border by border, along
+// the ring, and have two kinds of tables, in steps of the quantum of the table that they are taken from.
+// Kernels read their rows as far as whole blocks.
+//
+// Ways are straightened over the long segments of a border, those that are longer than samples are apart.
+// Both ends of each are samples.
+//
+// Up: for each patch whose parent has a border, rows for the samples of the patch, each with one code for
+// every sample of the parent. Across: for each patch whose border is long, rows for the samples of all
+// children of its parent, in the order of their numbers, each with one code for every sample of the patch.
+// Where a border is not long, hops across read the outer table of its patch.
+//
 struct Samples {
     explicit Samples(std::pmr::memory_resource* memory)
-        : rings(memory), full_place(memory), sample_of_place(memory), begin(memory), positions(memory),
-          spacing(memory), shortest_told(memory), longest_gap(memory), first_row(memory), row_begin(memory),
-          row_position(memory), table_begin(memory), tables(memory) {}
+        : begin(memory), place(memory), spacing(memory), long_begin(memory), long_segments(memory),
+          first_row(memory), up_begin(memory), across_begin(memory), codes(memory) {}
 
-    Rings rings;
-    // Per place: the own place of its vertex in OverlayIndex::rings, counted over all rings.
-    Array<uint32_t> full_place;
-    Array<uint32_t> sample_of_place; // per place: the number of its sample on the border
-    Array<uint32_t> begin;           // per patch: where its samples begin in `positions`
-    Array<uint32_t> positions;       // per sample: its position in the border
-    Array<float> spacing;            // per patch: the mean distance between neighbouring samples
-    // Per patch: where shorter ways cross the border, samples do not tell.
-    Array<float> shortest_told;
-    Array<float> longest_gap;  // per patch: the longest way along the border between neighbouring samples
-    Array<uint32_t> first_row; // per patch: the first row of its samples in its own and its siblings' tables
-    Array<uint32_t> row_begin; // per inner patch: where its children's rows begin in `row_position`
-    Array<uint32_t> row_position; // per row: its position in the overlay of the parent
-    Array<uint64_t> table_begin;  // per patch
-    Array<uint16_t> tables;
+    struct LongSegment {
+        uint32_t first, second; // samples, counted from the first one of the border
+        float length;
+    };
 
-    std::span<const uint32_t> of(uint32_t patch) const {
-        return {positions.data() + begin[patch], positions.data() + begin[patch + 1]};
+    Array<uint32_t> begin;      // per patch
+    Array<uint16_t> place;      // per sample, counted from the first place of its ring
+    Array<float> spacing;       // per patch: how far apart samples are to be, on average
+    Array<uint32_t> long_begin; // per patch: where its long segments begin in `long_segments`
+    Array<LongSegment> long_segments;
+    Array<uint32_t> first_row;    // per patch: the first row of its samples in tables across
+    Array<uint64_t> up_begin;     // per patch: where its table up begins in `codes`
+    Array<uint64_t> across_begin; // per patch: where its table across begins in `codes`
+    Array<uint16_t> codes;
+
+    std::span<const uint16_t> of(uint32_t patch) const {
+        return {place.data() + begin[patch], place.data() + begin[patch + 1]};
+    }
+    std::span<const LongSegment> long_segments_of(uint32_t patch) const {
+        return {long_segments.data() + long_begin[patch], long_segments.data() + long_begin[patch + 1]};
     }
 };
 
-// The labels of all vertices. The label of a vertex holds its distances to the borders of all patches that
-// contain it, but for the whole mesh, for the patch that it is an inner vertex of
-// (Numbering::innermost_patch()), and for parents of leaves, which are one hop away; the outermost patch
-// comes first. For each border, in steps of the quantum of the patch's parent, it has HEAD numbers, which are
-// the low and the high half of the distance of the nearest vertex, a float, and then a code for each labelled
-// vertex that says by how many steps it is farther (see StepsOf). All vertices of a border are labelled, in
-// its order, if it has at most WHOLE of them; otherwise its samples are.
+// The labels of vertices: rows as those of inner tables, of distances to the border of a patch farther out,
+// in steps of a quantum of their own. Of the patches around a vertex, the outermost one whose border is
+// neither empty nor long is labelled, if it is no leaf; vertices that lie deeper than its inner vertices have
+// labels. Pairs of vertices that meet outside of labelled patches need not cross the borders inside.
 struct Labels {
-    explicit Labels(std::pmr::memory_resource* memory) : offset(memory), begin(memory), codes(memory) {}
+    explicit Labels(std::pmr::memory_resource* memory)
+        : is_labelled(memory), quantum(memory), begin(memory), codes(memory) {}
 
-    static constexpr uint32_t WHOLE = 400;
-    static constexpr uint32_t HEAD = 2;
-
-    Array<uint32_t> offset; // per patch: where its border begins in the labels of deeper vertices, which is
-                            // also how long the labels of its inner vertices are
-    Array<uint64_t> begin;  // per patch: where the labels of its inner vertices begin in `codes`
-    Array<int16_t> codes;
+    Array<uint8_t> is_labelled; // per patch
+    Array<float> quantum;       // per patch; 0 if it is not labelled
+    Array<uint64_t> begin;      // per patch: where the labels of its inner vertices begin in `codes`
+    Array<uint16_t> codes;
 };
 
-// What only pairs of vertices need. It takes more memory than all other tables, so that it is empty until
-// require_pair_tables() makes it, when the first pair is asked for.
+// What only pairs of vertices need. It is empty until require_pair_tables() makes it, when the first pair is
+// asked for.
 struct PairTables {
     explicit PairTables(std::pmr::memory_resource* memory) : samples(memory), labels(memory) {}
 
+    bool has_labels = true; // or will have them
     Samples samples;
     Labels labels;
     std::mutex making; // held while one thread fills the arrays
@@ -128,19 +133,6 @@ struct OverlayIndex {
     }
     uint16_t internal_code(uint32_t leaf, uint32_t i, uint32_t j) const {
         return hops.internal[numbering.internal_entry(leaf, i, j)];
-    }
-
-    // Whether labels hold distances to the border of a patch.
-    bool is_labelled(uint32_t patch) const {
-        return patch > 0 && patch < numbering.level_begin[numbering.level_count() - 1];
-    }
-    // How many distances to the border of a labelled patch a label holds.
-    uint32_t label_size(uint32_t patch) const {
-        const uint32_t size = numbering.border_size(patch);
-        return size <= Labels::WHOLE ? size : static_cast<uint32_t>(pairs.samples.of(patch).size());
-    }
-    bool is_labelled_whole(uint32_t patch) const {
-        return is_labelled(patch) && label_size(patch) == numbering.border_size(patch);
     }
 };
 

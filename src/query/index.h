@@ -35,6 +35,9 @@ void prepare(const StoredIndex& stored, Index& index);
 // may call it at any time; the first pair that is asked for does.
 void prepare_pairs(const Index& index);
 
+// Makes prepare_pairs() make no labels, from now on.
+void leave_out_labels(Index& index);
+
 // What is stored of an index: the opposite of prepare().
 StoredIndex restore(const Index& index);
 

@@ -159,10 +159,17 @@ TEST_CASE("harmful file: the same border around many leaves, gigabytes from a fe
         check_limit(content_of(700, 1, leaves, is_closed, [](size_t, size_t) { return 1.f; }));
 }
 
-TEST_CASE("harmful file: labels to a border that nothing else is stored of") {
+TEST_CASE("harmful file: a long border around many vertices gives no labels to it") {
     std::vector<Leaf> leaves(70000, {{}, 1});
     leaves[0] = {first_numbers(400), 0};
-    check_limit(content_of(400, 3, leaves, true, [](size_t, size_t) { return 1.f; }));
+    const auto content = content_of(400, 3, leaves, true, [](size_t, size_t) { return 1.f; });
+    const std::vector<std::byte> file = file_campaign::write_content(content).bytes;
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    options.max_memory = uint64_t{64} << 20;
+    geoidx* index = nullptr;
+    require_success(geoidx_open_memory(file.data(), file.size(), &options, &index));
+    CHECK(sssd(IndexHandle(index).get(), 400, 401) == INFINITE);
 }
 
 TEST_CASE("harmful file: labels in proportion are fine, however few the tables") {

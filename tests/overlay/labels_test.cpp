@@ -1,4 +1,4 @@
-// Labels: the distances of vertices to the borders of the patches that they lie in.
+// Labels: the distances of vertices to the border of a patch farther out.
 #include "src/overlay/labels.h"
 
 #include <algorithm>
@@ -33,7 +33,6 @@ geoidx_build_options options_of(uint32_t metric, std::vector<uint32_t> patches) 
     return options;
 }
 
-// Without segments, so that every border vertex is a sample.
 const std::list<Labelled>& along_edges() {
     static const std::list<Labelled> built = [] {
         std::list<Labelled> made;
@@ -43,10 +42,9 @@ const std::list<Labelled>& along_edges() {
     return built;
 }
 
-// One with a border of more vertices than are labelled whole.
 const std::list<Labelled>& on_planes() {
     static const std::list<Labelled> built = [] {
-        static const TestMesh square = grid(40, 40, 0.2), strip = pressed(grid(500, 9), 0.008);
+        static const TestMesh square = grid(40, 40, 0.2), strip = pressed(grid(300, 9), 0.008);
         std::list<Labelled> made;
         made.emplace_back(square, options_of_plane(square, {3, 3, 3}));
         made.emplace_back(strip, options_of_plane(strip, {2, 3, 2}));
@@ -55,53 +53,39 @@ const std::list<Labelled>& on_planes() {
     return built;
 }
 
-// The distance of an inner vertex of `patch` to the i-th labelled vertex of the border of `labelled`.
+// The distance of an inner vertex of `patch` to the i-th vertex of the border of `labelled`.
 double label_of(const OverlayIndex& index, uint32_t patch, uint32_t inner, uint32_t labelled, uint32_t i) {
     const Labels& labels = index.pairs.labels;
-    const int16_t* label = labels.codes.data() + labels.begin[patch] +
-                           uint64_t{inner} * labels.offset[patch] + labels.offset[labelled];
-    if (label[2 + i] == SourceCode::UNREACHED) return double{INFINITE};
-    const double nearest{std::bit_cast<float>(uint32_t{static_cast<uint16_t>(label[1])} << 16 |
-                                              static_cast<uint16_t>(label[0]))};
-    return (nearest + label[2 + i] + 32768) * double{index.quantum[index.numbering.parent[labelled]]};
+    const uint32_t place = index.rings.place_of_slot[index.numbering.border_begin[labelled] + i];
+    const uint16_t code =
+        labels.codes[labels.begin[patch] + uint64_t{inner} * index.rings.size(labelled) + place];
+    return code == TableCode::UNREACHED ? double{INFINITE} : code * double{labels.quantum[labelled]};
 }
 
-std::vector<uint32_t> labelled_vertices(const OverlayIndex& index, uint32_t patch) {
-    const auto border = index.numbering.border_of(patch);
-    std::vector<uint32_t> vertices;
-    if (index.is_labelled_whole(patch)) return {border.begin(), border.end()};
-    for (const uint32_t position : index.pairs.samples.of(patch)) vertices.push_back(border[position]);
-    return vertices;
-}
-
-// Of each table that a label was made over: half a step for its rounding, and half a one for taking it from
-// the table of the parent.
+// Of each table that a label was made over, and of the label: half a step for its rounding, and half a one
+// for taking it from the table of the parent.
 double steps_between(const OverlayIndex& index, uint32_t patch, uint32_t labelled) {
     double sum = 0;
     for (uint32_t p = patch; p != index.numbering.parent[labelled]; p = index.numbering.parent[p])
         sum += std::ldexp(double{index.quantum[p]}, index.shift[p]);
-    const uint32_t outer = index.numbering.parent[labelled];
-    return sum + std::ldexp(double{index.quantum[outer]}, index.shift[outer]);
+    return sum + double{index.pairs.labels.quantum[labelled]};
 }
 
-uint32_t first_parent_of_leaves(const Numbering& numbering) {
-    return numbering.parent[numbering.first_leaf()];
-}
-
-// Calls check(distance of the i-th labelled vertex, inner vertex, i) for each patch and what lies deeper.
+// Calls check(border vertex, inner vertex, distance, tolerance) for each labelled patch and what lies deeper.
 template <class Check>
 uint64_t for_each_label(const Labelled& made, const Check& check) {
     const OverlayIndex& index = made.overlay();
     const Numbering& numbering = index.numbering;
     uint64_t count = 0;
-    for (uint32_t labelled = 1; labelled < first_parent_of_leaves(numbering); ++labelled) {
-        const auto vertices = labelled_vertices(index, labelled);
-        for (uint32_t i = 0; i < vertices.size(); i += 1 + static_cast<uint32_t>(vertices.size()) / 12)
-            for (uint32_t p = labelled + 1; p < numbering.patch_count(); ++p) {
-                if (!numbering.is_within(p, labelled)) continue;
-                for (uint32_t inner = 0; inner < numbering.inner_size(p); ++inner, ++count)
-                    check(vertices[i], numbering.first_inner(p) + inner,
-                          label_of(index, p, inner, labelled, i), steps_between(index, p, labelled));
+    for (uint32_t p = 1; p < numbering.first_leaf(); ++p) {
+        if (!index.pairs.labels.is_labelled[p]) continue;
+        const auto border = numbering.border_of(p);
+        for (uint32_t i = 0; i < border.size(); i += 1 + static_cast<uint32_t>(border.size()) / 12)
+            for (uint32_t inside = p + 1; inside < numbering.patch_count(); ++inside) {
+                if (!numbering.is_within(inside, p)) continue;
+                for (uint32_t inner = 0; inner < numbering.inner_size(inside); ++inner, ++count)
+                    check(border[i], numbering.first_inner(inside) + inner,
+                          label_of(index, inside, inner, p, i), steps_between(index, inside, p));
             }
     }
     return count;
@@ -143,32 +127,77 @@ TEST_CASE("labels: along edges they are those of MSAD from the border vertex, wi
     }
 }
 
-TEST_CASE("labels: to all of a border of up to 400 vertices, to the samples of a larger one") {
-    uint32_t whole = 0, sampled = 0;
+TEST_CASE("labels: to the outermost border that is neither empty nor has more than 200 places") {
+    uint32_t by_level[3] = {};
     for (const Labelled& made : on_planes()) {
         const OverlayIndex& index = made.overlay();
-        for (uint32_t p = 1; p < first_parent_of_leaves(index.numbering); ++p) {
-            const uint32_t size = index.numbering.border_size(p);
-            const auto expected =
-                size <= 400 ? size : static_cast<uint32_t>(index.pairs.samples.of(p).size());
-            CHECK(index.label_size(p) == expected);
-            for (uint32_t child = index.numbering.child_begin[p]; child < index.numbering.child_begin[p + 1];
-                 ++child)
-                CHECK(index.pairs.labels.offset[child] - index.pairs.labels.offset[p] == 2 + expected);
-            ++(size <= 400 ? whole : sampled);
+        const Numbering& numbering = index.numbering;
+        uint64_t codes = 0;
+        for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf) {
+            uint32_t expected = NONE, level = NONE;
+            for (uint32_t p = leaf, l = numbering.level_count(); p != 0; p = numbering.parent[p], --l)
+                if (p != leaf && index.rings.size(p) > 0 && index.rings.size(p) <= 200) {
+                    expected = p;
+                    level = l;
+                }
+            for (uint32_t p = leaf; p != 0; p = numbering.parent[p])
+                CHECK(index.pairs.labels.is_labelled[p] == (p == expected));
+            if (expected == NONE) continue;
+            ++by_level[level];
+            codes += uint64_t{numbering.inner_size(leaf)} * index.rings.size(expected);
         }
+        CHECK(count_label_codes(index) >= codes);
     }
-    CHECK(whole > 0);
-    CHECK(sampled > 0);
+    CHECK(by_level[1] > 0);
+    CHECK(by_level[2] > 0);
 }
 
-TEST_CASE("labels: none to the borders of the whole mesh and of parents of leaves") {
+TEST_CASE("labels: none where there is one level, and where borders are too long") {
+    static const TestMesh strip = pressed(grid(500, 7), 0.008);
+    for (const auto patches : {std::initializer_list<uint32_t>{4}, {2, 1}}) {
+        const OverlayOf made(strip, options_of_plane(strip, patches));
+        CHECK(made.overlay().pairs.labels.codes.empty());
+    }
+}
+
+TEST_CASE("labels: separate parts, whose borders are empty, have labels to the borders inside") {
+    TestMesh mesh = hills(20, 18);
+    append(mesh, hills(20, 18), 100);
+    const Labelled made(mesh, options_of(GEOIDX_METRIC_EDGES, {1, 3, 2}));
+    const OverlayIndex& index = made.overlay();
+    for (uint32_t p = 1; p < index.numbering.level_begin[2]; ++p) CHECK(index.rings.size(p) == 0);
+    CHECK(count_label_codes(index) > 0);
+}
+
+TEST_CASE("labels: to a border that no vertex inside reaches there is no distance") {
+    const OverlayOf made(hills(20, 18), options_of(GEOIDX_METRIC_EDGES, {3, 2}));
+    StoredIndex stored = restore(made.index);
+    std::ranges::fill(stored.border_internal_codes, TableCode::UNREACHED);
+    const OverlayOf cut(stored);
+    uint64_t wrong = 0;
+    for (const uint16_t code : cut.overlay().pairs.labels.codes) wrong += code != TableCode::UNREACHED;
+    CHECK(wrong <= TableCode::PADDING);
+    CHECK(cut.overlay().pairs.labels.codes.size() > 1000);
+}
+
+TEST_CASE("labels: left out on demand, and pairs are answered over the borders inside") {
     for (const Labelled& made : on_planes()) {
-        const Numbering& numbering = made.overlay().numbering;
-        const auto& offset = made.overlay().pairs.labels.offset;
-        for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf)
-            CHECK(offset[leaf] == offset[numbering.parent[leaf]]);
-        for (uint32_t p = 1; numbering.parent[p] == 0; ++p) CHECK(offset[p] == 0);
+        Index bare(std::pmr::get_default_resource());
+        prepare(restore(made.built.index), bare);
+        leave_out_labels(bare);
+        Query with(made.built.index, std::pmr::get_default_resource());
+        Query without(bare, std::pmr::get_default_resource());
+        uint32_t different = 0;
+        for (uint32_t a = 0; a < made.mesh.vertex_count(); a += 37)
+            for (uint32_t b = a + 1; b < made.mesh.vertex_count(); b += 41) {
+                const double line = made.mesh.straight(a, b);
+                const double far = double{without.sssd(a, b)}, near = double{with.sssd(a, b)};
+                CHECK(std::abs(far - line) <= 0.03 * line);
+                CHECK(std::abs(near - line) <= 0.03 * line);
+                different += far != near;
+            }
+        CHECK(different > 0);
+        CHECK(std::get<OverlayIndex>(bare.engine).pairs.labels.codes.empty());
     }
 }
 

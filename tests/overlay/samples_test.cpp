@@ -5,6 +5,7 @@
 #include <cmath>
 #include <list>
 
+#include "src/overlay/sssd/border_range.h"
 #include "tests/overlay/overlay_of.h"
 
 using namespace geodesic;
@@ -32,131 +33,186 @@ const std::list<OverlayOf>& built() {
     return all;
 }
 
-// From one sample to the next one of the same chain, in vertices.
-void check_spacing(const Chain& chain, std::vector<uint32_t> samples) {
-    const auto vertices = static_cast<uint32_t>(chain.positions.size());
-    REQUIRE(!samples.empty());
+std::vector<uint32_t> vertices_of_samples(const OverlayIndex& overlay, uint32_t patch) {
+    std::vector<uint32_t> vertices;
+    for (const uint16_t place : overlay.pairs.samples.of(patch))
+        vertices.push_back(overlay.rings.vertex[overlay.rings.begin[patch] + place]);
+    return vertices;
+}
+
+}
+
+TEST_CASE("samples: own places of the ring, in its order") {
+    for (const OverlayOf& of : built()) {
+        const OverlayIndex& overlay = of.overlay();
+        for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
+            const auto samples = overlay.pairs.samples.of(p);
+            CHECK(std::ranges::is_sorted(samples, std::less_equal<>()));
+            for (const uint16_t place : samples) {
+                REQUIRE(place < overlay.rings.size(p));
+                CHECK(overlay.rings.is_own[overlay.rings.begin[p] + place] == -1);
+            }
+        }
+    }
+}
+
+TEST_CASE("samples: a vertex that is one of a border is one of all borders beside it and inside") {
+    uint64_t common = 0;
+    for (const OverlayOf& of : built()) {
+        const OverlayIndex& overlay = of.overlay();
+        const Numbering& numbering = overlay.numbering;
+        std::vector<uint8_t> is_sample(numbering.border_vertex_count(), 0);
+        for (uint32_t level = 1; level <= numbering.level_count(); ++level) {
+            const uint32_t first = numbering.level_begin[level], end = numbering.level_begin[level + 1];
+            for (uint32_t p = first; p < end; ++p)
+                for (const uint32_t vertex : vertices_of_samples(overlay, p)) is_sample[vertex] = 1;
+            for (uint32_t p = first; p < end; ++p) {
+                const auto samples = vertices_of_samples(overlay, p);
+                for (const uint32_t vertex : numbering.border_of(p)) {
+                    if (!is_sample[vertex]) continue;
+                    ++common;
+                    CHECK(std::ranges::find(samples, vertex) != samples.end());
+                }
+            }
+        }
+    }
+    CHECK(common > 100);
+}
+
+// The longest way along a chain from a sample to the next one, in vertices.
+uint32_t longest_gap(const Rings::ChainPlaces& chain, std::span<const uint16_t> samples,
+                     uint32_t first_place) {
+    std::vector<uint32_t> places;
+    for (const uint16_t place : samples)
+        if (first_place + place >= chain.first && first_place + place <= chain.last)
+            places.push_back(first_place + place);
+    REQUIRE(!places.empty());
     if (chain.is_closed) {
-        samples.push_back(samples.front() + vertices);
+        places.push_back(places.front() + chain.last - chain.first + 1);
     } else {
-        CHECK(samples.front() == chain.positions.front());
-        CHECK(samples.back() == chain.positions.back());
+        CHECK(places.front() == chain.first);
+        CHECK(places.back() == chain.last);
     }
-    uint32_t shortest = NONE, longest = 0;
-    for (size_t i = 0; i + 1 < samples.size(); ++i) {
-        shortest = std::min(shortest, samples[i + 1] - samples[i]);
-        longest = std::max(longest, samples[i + 1] - samples[i]);
-    }
-    if (samples.size() < 2) return;
-    CHECK(longest - shortest <= 1);
-    CHECK(longest <= 7);
+    uint32_t longest = 0;
+    for (size_t i = 0; i + 1 < places.size(); ++i) longest = std::max(longest, places[i + 1] - places[i]);
+    return longest;
 }
 
-}
-
-TEST_CASE("samples: on the border, evenly spaced along each chain, the ends of open ones among them") {
-    uint32_t open_chains = 0, closed_chains = 0;
+TEST_CASE("samples: about every second vertex of short borders, and 64 of long ones, along every chain") {
+    uint32_t open_chains = 0, closed_chains = 0, long_borders = 0;
     for (const OverlayOf& of : built()) {
         const OverlayIndex& overlay = of.overlay();
         for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
             const auto samples = overlay.pairs.samples.of(p);
             const uint32_t size = overlay.numbering.border_size(p);
-            CHECK(std::ranges::is_sorted(samples, std::less_equal<>()));
-            CHECK(samples.size() >= std::min(size, 64u));
-            for (const Chain& chain : chains_of_ring(overlay.rings, p)) {
-                std::vector<uint32_t> of_chain;
-                for (const uint32_t sample : samples)
-                    if (sample >= chain.positions.front() && sample <= chain.positions.back())
-                        of_chain.push_back(sample);
-                check_spacing(chain, of_chain);
-                if (of_chain.size() == chain.positions.size()) continue;
+            const double step = std::max(2.0, size / 64.0);
+            if (size > 128) CHECK(samples.size() >= 56);
+            if (overlay.numbering.parent[p] == 0) CHECK(samples.size() <= 192);
+            long_borders += size > 128;
+            for (const auto& chain : overlay.rings.chains_of(p)) {
+                CHECK(longest_gap(chain, samples, overlay.rings.begin[p]) <= 1.5 * step + 1);
                 ++(chain.is_closed ? closed_chains : open_chains);
             }
-            if (size > 0) CHECK(samples.back() < size);
         }
     }
     CHECK(open_chains > 0);
     CHECK(closed_chains > 0);
+    CHECK(long_borders > 0);
 }
 
-TEST_CASE("samples: as many as are foreseen") {
-    for (const OverlayOf& of : built()) {
-        const OverlayIndex& overlay = of.overlay();
-        for (uint32_t p = 0; p < overlay.numbering.patch_count(); ++p) {
-            const SampleCount count = count_samples(overlay, p);
-            CHECK(count.samples == overlay.pairs.samples.of(p).size());
-            CHECK(count.places == overlay.pairs.samples.rings.size(p));
-        }
-    }
-}
-
-TEST_CASE("samples: a place of a coarse ring names its vertex, its sample and its place among all") {
-    for (const OverlayOf& of : built()) {
-        const OverlayIndex& overlay = of.overlay();
-        const Rings& coarse = overlay.pairs.samples.rings;
-        for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
-            std::vector<uint32_t> own_places(overlay.pairs.samples.of(p).size(), 0);
-            for (uint32_t k = coarse.begin[p]; k < coarse.begin[p + 1]; ++k) {
-                const uint32_t full = overlay.pairs.samples.full_place[k];
-                const uint32_t sample = overlay.pairs.samples.sample_of_place[k];
-                REQUIRE(sample < own_places.size());
-                CHECK(overlay.pairs.samples.of(p)[sample] == coarse.position[k]);
-                CHECK(overlay.rings.vertex[full] == overlay.numbering.border_of(p)[coarse.position[k]]);
-                CHECK(overlay.rings.is_own[full] == -1);
-                if (coarse.is_own[k]) ++own_places[sample];
-            }
-            for (const uint32_t count : own_places) CHECK(count == 1);
-        }
-    }
-}
-
-TEST_CASE("samples: a coarse segment is a straight line on a plane, but for steps and calibration") {
-    const OverlayOf& of = built().front();
+TEST_CASE("samples: both ends of each segment that is longer than samples are apart") {
+    // Rows of short edges, joined by edges that are a hundred times as long.
+    const OverlayOf of(strip(), options_of_plane(strip(), {2, 3}));
     const OverlayIndex& overlay = of.overlay();
-    const Rings& coarse = overlay.pairs.samples.rings;
-    const auto ids = ids_by_number(of.index);
-    const auto id_at = [&](uint32_t k) {
-        return ids[overlay.rings.vertex[overlay.pairs.samples.full_place[k]]];
-    };
-    uint32_t segments = 0;
-    for (uint32_t k = coarse.begin[1]; k < coarse.begin[3]; ++k) {
-        if (std::isnan(coarse.segment_length[k])) continue;
-        const double line = strip().straight(id_at(k), id_at(k + 1));
-        CHECK(std::abs(double{coarse.segment_length[k]} - line) <=
-              0.51 * double{overlay.quantum[0]} + 0.02 * line);
-        ++segments;
+    const Samples& samples = overlay.pairs.samples;
+    uint32_t count = 0;
+    for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
+        const uint32_t begin = overlay.rings.begin[p];
+        uint32_t found = 0;
+        for (uint32_t k = begin; k < overlay.rings.begin[p + 1]; ++k)
+            found += overlay.rings.is_own[k] && overlay.rings.segment_length[k] > samples.spacing[p];
+        REQUIRE(samples.long_segments_of(p).size() == found);
+        for (const auto& [first, second, length] : samples.long_segments_of(p)) {
+            REQUIRE(std::max(first, second) < samples.of(p).size());
+            const uint32_t from = begin + samples.of(p)[first], to = begin + samples.of(p)[second];
+            CHECK(overlay.rings.segment_length[from] == length);
+            CHECK(overlay.rings.vertex[from + 1] == overlay.rings.vertex[to]);
+            ++count;
+        }
     }
-    CHECK(segments > 50);
+    CHECK(count > 2);
 }
 
-TEST_CASE("samples: their tables are rows of the tables of all, for the samples of parent and children") {
-    uint64_t entries = 0, wrong = 0;
+TEST_CASE("samples: all vertices, where none are joined by segments") {
+    const OverlayOf of(hills(60, 50), build_options(GEOIDX_METRIC_EDGES, 1));
+    const OverlayIndex& overlay = of.overlay();
+    for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p)
+        CHECK(overlay.pairs.samples.of(p).size() == overlay.numbering.border_size(p));
+}
+
+TEST_CASE("samples: their tables are entries of the overlay tables") {
+    uint64_t up = 0, across = 0, wrong = 0;
     for (const OverlayOf& of : built()) {
         const OverlayIndex& overlay = of.overlay();
         const Numbering& numbering = overlay.numbering;
         const Samples& samples = overlay.pairs.samples;
+        const auto position = [&](uint32_t p, uint16_t place) {
+            return overlay.rings.position[overlay.rings.begin[p] + place];
+        };
+        const auto overlay_position = [&](uint32_t p, uint16_t place) {
+            return numbering.overlay_position[numbering.border_begin[p] + position(p, place)];
+        };
         for (uint32_t p = 1; p < numbering.patch_count(); ++p) {
-            const uint32_t parent = numbering.parent[p], places = samples.rings.size(p);
-            const size_t end = parent + 1 < numbering.first_leaf() ? samples.row_begin[parent + 1]
-                                                                   : samples.row_position.size();
-            const size_t rows = end - samples.row_begin[parent];
-            const auto overlay_position = [&](uint32_t position) {
-                return numbering.overlay_position[numbering.border_begin[p] + position];
-            };
-            for (uint32_t i = 0; i < samples.of(p).size(); ++i)
-                wrong += samples.row_position[samples.row_begin[parent] + samples.first_row[p] + i] !=
-                         overlay_position(samples.of(p)[i]);
-            if (places == overlay.rings.size(p)) continue; // all vertices are samples
-            for (size_t row = 0; row < rows; ++row)
-                for (uint32_t k = 0; k < places; ++k) {
-                    const uint32_t from = samples.row_position[samples.row_begin[parent] + row];
-                    const uint32_t to = overlay_position(samples.rings.position[samples.rings.begin[p] + k]);
-                    wrong += samples.tables[samples.table_begin[p] + row * places + k] !=
-                             overlay.overlay_code(parent, from, to);
-                    ++entries;
-                }
+            const uint32_t parent = numbering.parent[p];
+            const auto from = samples.of(p), above = samples.of(parent);
+            const uint16_t* code = samples.codes.data() + samples.up_begin[p];
+            for (size_t i = 0; i < from.size(); ++i)
+                for (size_t j = 0; j < above.size(); ++j, ++up)
+                    wrong += *code++ != overlay.overlay_code(parent, overlay_position(p, from[i]),
+                                                             position(parent, above[j]));
+            if (!has_table_across(overlay, p)) continue;
+            for (uint32_t s = numbering.child_begin[parent]; s < numbering.child_begin[parent + 1]; ++s) {
+                const auto beside = samples.of(s);
+                const uint16_t* row =
+                    samples.codes.data() + samples.across_begin[p] + samples.first_row[s] * from.size();
+                for (size_t i = 0; i < beside.size(); ++i)
+                    for (size_t j = 0; j < from.size(); ++j, ++across)
+                        wrong += *row++ != overlay.overlay_code(parent, overlay_position(s, beside[i]),
+                                                                overlay_position(p, from[j]));
+            }
         }
+        CHECK(samples.codes.size() == count_sample_codes(overlay) + TableCode::PADDING);
     }
     CHECK(wrong == 0);
-    CHECK(entries > 1000);
+    CHECK(up > 1000);
+    CHECK(across > 1000);
+}
+
+TEST_CASE("border ranges: each place lies well inside of the range beside it, or the border ends there") {
+    uint32_t moved = 0, repeated = 0;
+    for (const OverlayOf& of : built()) {
+        const OverlayIndex& overlay = of.overlay();
+        for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
+            const BorderRange whole = whole_border(overlay, p);
+            for (uint32_t first = whole.first; first <= whole.last; first += 3) {
+                const BorderRange range{first, std::min(first + 10, whole.last)};
+                for (uint32_t place = range.first; place <= range.last; ++place) {
+                    const BorderRange beside = range_beside(overlay, p, range, place);
+                    REQUIRE(whole.covers(beside));
+                    const uint32_t vertex = overlay.rings.vertex[place];
+                    bool is_there = false;
+                    for (uint32_t k = beside.first; k <= beside.last; ++k)
+                        is_there = is_there || overlay.rings.vertex[k] == vertex;
+                    CHECK(is_there);
+                    moved += !range.covers(beside);
+                    repeated += overlay.rings.is_own[place] == 0;
+                    if (beside.first == range.first && beside.last == range.last)
+                        CHECK((overlay.rings.is_own[place] == 0 || range.first == whole.first ||
+                               place >= range.first + Rings::REACH));
+                }
+            }
+        }
+    }
+    CHECK(moved > 100);
+    CHECK(repeated > 100);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <random>
 
 #include <doctest/doctest.h>
 
@@ -299,4 +300,60 @@ TEST_CASE("crossing: two ends meet only where both reach the border") {
     }
     between.to_target[19] = INFINITE;
     for (const Kernels& kernels : runnable_kernels()) CHECK(kernels.meet(between.border()) == INFINITE);
+}
+
+// By plain sums, in steps: the least one, and the first sample that has it.
+TEST_CASE("crossing: over samples it takes the least sum, with every instruction set") {
+    std::mt19937 random(11);
+    const float quantum = 0.25f;
+    for (size_t samples : {1, 2, 31, 32, 33, 70})
+        for (size_t columns : {1, 15, 32, 33, 100}) {
+            CAPTURE(samples);
+            CAPTURE(columns);
+            const size_t stride = SourceCode::whole_blocks(columns) + SourceCode::BLOCK;
+            std::vector<float> distance(SourceCode::whole_blocks(samples), INFINITE);
+            std::vector<uint16_t> table(samples * stride);
+            std::vector<const uint16_t*> rows;
+            for (size_t i = 0; i < samples; ++i) {
+                if (random() % 8 != 0 || i == 0)
+                    distance[i] = 1000.f + quantum * static_cast<float>(i ? random() % 2000 : 0);
+                rows.push_back(table.data() + i * stride);
+            }
+            for (uint16_t& code : table)
+                code = random() % 16 == 0 ? TableCode::UNREACHED : static_cast<uint16_t>(random() % 3000);
+            for (const Kernels& kernels : runnable_kernels()) {
+                CAPTURE(kernels.name);
+                std::vector<int16_t> scratch(distance.size());
+                std::vector<float> found(SourceCode::whole_blocks(columns));
+                std::vector<uint16_t> winners(found.size());
+                kernels.cross_samples({distance.data(), quantum, {}, scratch.data()}, rows, columns,
+                                      found.data(), winners.data());
+                for (size_t c = 0; c < columns; ++c) {
+                    float least = INFINITE;
+                    size_t winner = 0;
+                    for (size_t i = 0; i < samples; ++i) {
+                        const float sum = distance[i] + TableCode::distance(rows[i][c], quantum);
+                        if (sum >= least) continue;
+                        least = sum;
+                        winner = i;
+                    }
+                    CHECK(found[c] == least);
+                    if (least < INFINITE) CHECK(winners[c] == winner);
+                }
+            }
+        }
+}
+
+TEST_CASE("crossing: over samples that are not reached there is no way") {
+    const std::vector<float> distance(SourceCode::BLOCK, INFINITE);
+    const std::vector<uint16_t> row(SourceCode::BLOCK, 5);
+    const std::vector<const uint16_t*> rows(2, row.data());
+    for (const Kernels& kernels : runnable_kernels()) {
+        std::vector<int16_t> scratch(SourceCode::BLOCK);
+        std::vector<float> found(SourceCode::BLOCK, 0);
+        std::vector<uint16_t> winners(SourceCode::BLOCK);
+        kernels.cross_samples({distance.data(), 1, {}, scratch.data()}, rows, 20, found.data(),
+                              winners.data());
+        CHECK(std::ranges::all_of(found, [](float d) { return d == INFINITE; }));
+    }
 }

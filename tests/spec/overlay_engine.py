@@ -12,7 +12,7 @@ from several_sources import SeveralSources
 f = numpy.float32
 INFINITE = f(numpy.inf)
 LARGEST, NO_PATH = 32766, 32767
-WHOLE = 400  # a border of more vertices is not reached by a descent in SSSD
+MOST_LABEL_PLACES = 200
 
 
 class Border:
@@ -93,6 +93,7 @@ class OverlayEngine:
         self.internal = {leaf: clean(index.internal[leaf]) for leaf in index.leaves}
         self.overlays = [index.overlay(patch) for patch in range(index.inner_count)]
         self.position = [{number: i for i, number in enumerate(overlay)} for overlay in self.overlays]
+        self.labelled = self.labelled_patches()
         self.labels = {}
 
     decoded = staticmethod(decoded)
@@ -131,6 +132,14 @@ class OverlayEngine:
 
     def hop_up(self, patch, source, rows, quantum):
         return self.cross(self.borders[patch], source, rows, quantum)[0]
+
+    def hop_to_border(self, patch, source, vertices):
+        """From a border to another one in the parent's overlay; vertices that are on both keep their distances."""
+        parent = self.index.parent[patch]
+        rows = self.rows_up(patch)[[self.position[parent][v] for v in vertices]]
+        ways = self.hop_up(patch, source, rows, self.quantum[parent])
+        kept = dict(zip(self.borders[patch].vertices.tolist(), source))
+        return numpy.array([kept.get(v, way) for v, way in zip(vertices.tolist(), ways)], f)
 
     def hop_down(self, patch, source, gapped=None):
         """Over positions and the middles of segments."""
@@ -216,44 +225,58 @@ class OverlayEngine:
         index, entry = self.index, int(self.index.entry[number])
         if patch == entry:
             return decoded(self.rows_down(patch)[number - index.inside[patch].start], self.quantum[patch])
-        if self.is_labelled(patch):
+        if patch in self.labelled:
             return self.label(number, patch)
         for before in index.ways_up(entry):
             if index.parent[before] == patch:
                 break
-        rows = self.rows_up(before)[: len(self.borders[patch].vertices)]
-        return self.hop_up(before, self.from_inside(number, before), rows, self.quantum[patch])
+        return self.hop_to_border(before, self.from_inside(number, before), self.borders[patch].vertices)
 
-    def is_labelled(self, patch):
-        has_leaves = self.index.children[patch][0] >= self.index.inner_count
-        return not has_leaves and len(self.borders[patch].vertices) <= WHOLE
+    def patches_in(self, patch):
+        """Those deeper inside of a patch, parents first."""
+        patches = list(self.children_of(patch))
+        for child in patches:
+            patches += self.children_of(child)
+        return patches
+
+    def children_of(self, patch):
+        return self.index.children[patch] if patch < self.index.inner_count else []
+
+    def labelled_patches(self):
+        """Of the patches around a vertex, but for leaves, the outermost one whose border is neither empty nor long."""
+        labelled, patches = set(), list(self.children_of(0))
+        for patch in patches:
+            if patch >= self.index.inner_count:
+                continue
+            if 0 < len(self.index.places(patch)[0]) <= MOST_LABEL_PLACES:
+                labelled.add(patch)
+            else:
+                patches += self.children_of(patch)
+        return labelled
 
     def label(self, number, patch):
-        """Down from each vertex of the border, rounded to the quantum of the patch's parent."""
-        entry = int(self.index.entry[number])
-        if (entry, patch) not in self.labels:
-            self.labels[entry, patch] = self.label_table(entry, patch)
-        distances = self.labels[entry, patch][:, number - self.index.inside[entry].start]
-        quantum = self.quantum[self.index.parent[patch]]
-        least = distances.min(initial=INFINITE)
-        if not least < INFINITE or not quantum > 0:
-            return numpy.where(distances < INFINITE, f(0), INFINITE)
-        scale = f(1) / quantum
-        nearest = numpy.trunc(numpy.minimum(least * scale, numpy.finfo(f).max))
-        steps = numpy.trunc(numpy.clip(distances * scale - nearest + f(0.5), 0, LARGEST))
-        return numpy.where(distances < INFINITE, (nearest + steps) * quantum, INFINITE).astype(f)
+        """Down from each vertex of the border, rounded so that the longest distance of all has the largest code."""
+        if patch not in self.labels:
+            self.labels[patch] = self.label_table(patch)
+        return self.labels[patch][number]
 
-    def label_table(self, entry, patch):
-        index, table = self.index, []
-        way_down = list(index.ways_up(entry))
-        way_down = way_down[: way_down.index(patch)][::-1]
-        distance = numpy.full(index.vertex_count, INFINITE)
-        for i in range(len(self.borders[patch].vertices)):
+    def label_table(self, patch):
+        index, deeper = self.index, self.patches_in(patch)
+        table = numpy.full((len(self.borders[patch].vertices), index.vertex_count), INFINITE)
+        for i, distance in enumerate(table):
             distance[self.overlays[patch]] = decoded(self.tables[patch][i], self.quantum[patch])
-            for child in way_down:
+            for child in deeper:
                 distance[list(index.inside[child])] = self.hop_down(child, distance[self.borders[child].vertices])
-            table.append(distance[list(index.inside[entry])])
-        return numpy.array(table).reshape(len(table), len(index.inside[entry]))
+        numbers = [number for child in deeper for number in index.inside[child]]
+        return dict(zip(numbers, self.in_steps(table[:, numbers].T)))
+
+    @staticmethod
+    def in_steps(distances):
+        quantum = numpy.max(distances[distances < INFINITE], initial=f(0)) / f(LARGEST)
+        scale = min(f(1) / quantum, numpy.finfo(f).max) if quantum > 0 else f(0)
+        codes = numpy.trunc(numpy.minimum(distances * scale + f(0.5), f(LARGEST)))
+        codes = numpy.where(distances > 0, numpy.maximum(codes, f(1)), f(0))
+        return numpy.where(distances < INFINITE, codes * quantum, INFINITE).astype(f)
 
     def sssd(self, a, b):
         if a == b:
@@ -270,19 +293,24 @@ class OverlayEngine:
             return self.table_distance(top, low, high)
         if child[1] is None:
             low, high, child = high, low, child[::-1]
+        if child[0] is None:
+            known = self.entry_on_border(low, high)
+            if known < INFINITE:
+                return known
         return self.meet(top, low, child[0], high, child[1])
+
+    def entry_on_border(self, low, high):
+        """Where `low` is on the border of the innermost patch of `high`, the entry of both."""
+        patch = int(self.index.entry[high])
+        at = numpy.flatnonzero(self.borders[patch].vertices == low)
+        return self.from_inside(high, patch)[at[0]] if at.size else INFINITE
 
     def meet(self, top, low, low_child, high, patch):
         """Over the border of a child of `top`, the one around `high`; `low` may be in no child."""
         border, target = self.borders[patch], self.from_inside(high, patch)
         if low_child is None:
-            at = numpy.flatnonzero(border.vertices == low)
-            is_known = patch == int(self.index.entry[high]) or self.is_labelled(patch)
-            if at.size and is_known and target[at[0]] < INFINITE:
-                return target[at[0]]
             source = decoded(self.rows_up(patch)[self.position[top][low]], self.quantum[top])
         else:
-            rows = self.rows_up(low_child)[[self.position[top][v] for v in border.vertices]]
-            source = self.hop_up(low_child, self.from_inside(low, low_child), rows, self.quantum[top])
+            source = self.hop_to_border(low_child, self.from_inside(low, low_child), border.vertices)
         sums = source + target
         return min(sums.min(initial=INFINITE), straight(border, source, target).min(initial=INFINITE))

@@ -319,7 +319,7 @@ class Index:
     def _read_mapped(self):
         require(self.sections["HOPS"].codec == RAW, "HOPS is not raw")
         codes = Fields(self.sections["HOPS"].bytes())
-        places, patches = [self._places(patch) for patch in range(self.patch_count)], range(1, self.patch_count)
+        places, patches = [self.places(patch) for patch in range(self.patch_count)], range(1, self.patch_count)
         insides, rings = [len(inside) for inside in self.inside], [len(on) for on, _ in places]
         outer = self._part(codes, [(len(self.overlay(self.parent[p])), rings[p]) for p in patches])
         inner = self._part(codes, [(insides[p], rings[p]) for p in patches])
@@ -332,7 +332,7 @@ class Index:
         self.border_internal = {p: inner[p - 1][:, places[p][1]].T for p in self.leaves}
         self.internal = {p: self._triangle(entries[0], insides[p]) for p, entries in zip(self.leaves, triangles)}
 
-    def _places(self, patch):
+    def places(self, patch):
         """The position in the border of each place, and the own place of each position."""
         ends, places, own, first = self.segment_end[patch], [], [], 0
         while first < len(ends):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/kernels/lanes.h"
@@ -12,7 +13,7 @@
 namespace geodesic {
 
 // The kernels that cross a border: what Kernels says of prepare_crossing(), cross(), cross_near(),
-// choose() and meet() is done by the structs of these names. Only dispatch.cpp includes this.
+// cross_samples() and meet() is done by the structs of these names. Only dispatch.cpp includes this.
 
 // So many rows at a time: first their nearest places, then the ways over them, so that the processor has
 // several rows at work at once.
@@ -249,18 +250,104 @@ struct CrossNear {
     }
 };
 
+// ---- The ways over samples: columns are side by side
+
 template <size_t BYTES>
-struct Choose {
-    [[gnu::always_inline]] static void run(const BorderFromSource& border, Rows rows, uint16_t* winners) {
-        int32_t places[ROWS];
-        for (size_t done = 0; done < rows.size(); done += ROWS) {
-            const Rows part = rows.subspan(done, std::min(ROWS, rows.size() - done));
-            find_keys<BYTES>(border, part, places);
-            const Missing missing =
-                take_places(places, part.size(), [&](size_t r) { return choose_place(border, part[r]); });
-            for (size_t r = 0; r < part.size(); ++r) winners[done + r] = static_cast<uint16_t>(places[r]);
-            missing.for_each([&](size_t r) { winners[done + r] = BorderFromSource::NO_PLACE; });
+struct CrossSamples {
+    using Codes = typename Lanes<BYTES>::Codes;
+    using HalfCodes = typename VectorOf<int16_t, BYTES / 2>::Type;
+    using Numbers = typename Lanes<BYTES>::Keys;
+    static constexpr size_t LANES = Lanes<BYTES>::CODES;
+
+    [[gnu::always_inline]] static void run(const SampledBorder& border, Rows rows, size_t columns,
+                                           float* distances, uint16_t* winners) {
+        const float nearest = nearest_of(border, rows.size());
+        if (!(nearest < INFINITE)) {
+            std::fill_n(distances, SourceCode::whole_blocks(columns), INFINITE);
+            return;
         }
+        encode(border, rows.size(), nearest);
+        for (size_t c = 0; c < SourceCode::whole_blocks(columns); c += LANES) {
+            Codes least{}, winner{}, sample{}, entries;
+            least += std::numeric_limits<int16_t>::max();
+            for (size_t i = 0; i < rows.size(); ++i, sample += 1) {
+                load(rows[i] + c, entries);
+                const Codes sum = entries + border.code[i];
+                winner = sum < least ? sample : winner;
+                lower(least, sum);
+            }
+            store(winner, winners + c);
+            int16_t sums[LANES];
+            store(least, sums);
+            decode(sums, nearest, border.quantum, distances + c);
+            decode(sums + LANES / 2, nearest, border.quantum, distances + c + LANES / 2);
+        }
+        for (const Samples::LongSegment& segment : border.long_segments)
+            straighten(border, segment, rows, columns, distances, winners);
+    }
+
+private:
+    [[gnu::always_inline]] static float nearest_of(const SampledBorder& border, size_t samples) {
+        Floats<BYTES> nearest{}, distance;
+        nearest += INFINITE;
+        for (size_t i = 0; i < samples; i += Lanes<BYTES>::FLOATS) {
+            load(border.distance + i, distance);
+            lower(nearest, distance);
+        }
+        return least_of<BYTES>(nearest);
+    }
+
+    [[gnu::always_inline]] static void encode(const SampledBorder& border, size_t samples, float nearest) {
+        const float scale = steps_per_distance(border.quantum);
+        const Floats<BYTES> nearest_lanes = Floats<BYTES>{} + nearest;
+        for (size_t i = 0; i < samples; i += Lanes<BYTES>::FLOATS) {
+            Floats<BYTES> distance;
+            Numbers codes;
+            load(border.distance + i, distance);
+            round_to_codes<BYTES>(distance, nearest_lanes, scale, codes);
+            store(__builtin_convertvector(codes, HalfCodes), border.code + i);
+        }
+    }
+
+    [[gnu::always_inline]] static void straighten(const SampledBorder& border,
+                                                  const Samples::LongSegment& segment, Rows rows,
+                                                  size_t columns, float* distances, uint16_t* winners) {
+        using Distances = Floats<BYTES>;
+        constexpr size_t FLOATS = Lanes<BYTES>::FLOATS;
+        SegmentsFromSource<Distances> from_source;
+        from_source.segments.length = Distances{} + segment.length;
+        from_source.segments.half_inverse = Distances{} + 0.5f / segment.length;
+        const Distances from_first = Distances{} + border.distance[segment.first],
+                        from_second = Distances{} + border.distance[segment.second];
+        from_source.segments.place_point(from_first, from_second, from_source.foot, from_source.height);
+        for (size_t c = 0; c < SourceCode::whole_blocks(columns); c += FLOATS) {
+            Distances to_first, to_second, way, known;
+            decode_row<BYTES>(rows[segment.first] + c, border.quantum, to_first);
+            decode_row<BYTES>(rows[segment.second] + c, border.quantum, to_second);
+            from_source.square_across(to_first, to_second, way);
+            take_square_root(way);
+            load(distances + c, known);
+            HalfCodes winner;
+            load(winners + c, winner);
+            const Numbers is_shorter = way < known;
+            const Numbers first = Numbers{} + static_cast<int32_t>(segment.first);
+            winner = __builtin_convertvector(is_shorter ? first : __builtin_convertvector(winner, Numbers),
+                                             HalfCodes);
+            store(winner, winners + c);
+            lower(known, way);
+            store(known, distances + c);
+        }
+    }
+
+    [[gnu::always_inline]] static void decode(const int16_t* sums, float nearest, float quantum,
+                                              float* distances) {
+        HalfCodes half;
+        load(sums, half);
+        const Numbers sum = __builtin_convertvector(half, Numbers);
+        const Floats<BYTES> none = Floats<BYTES>{} + INFINITE;
+        const Floats<BYTES> distance =
+            nearest + __builtin_convertvector(sum - SourceCode::NEAREST, Floats<BYTES>) * quantum;
+        store(sum < SourceCode::NO_SUM ? distance : none, distances);
     }
 };
 

@@ -57,7 +57,7 @@ constexpr Kernels kernels_of() {
             Set::template run<PrepareCrossing>,
             Set::template run<Cross>,
             Set::template run<CrossNear>,
-            Set::template run<Choose>,
+            Set::template run<CrossSamples>,
             Set::template run<Meet>,
             Set::template run<PrepareSweepOfOne>,
             Set::template run<PrepareSweepOfEach>,

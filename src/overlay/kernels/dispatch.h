@@ -5,6 +5,7 @@
 #include <span>
 
 #include "src/overlay/codes.h"
+#include "src/overlay/tables.h"
 
 namespace geodesic {
 
@@ -33,6 +34,14 @@ struct NearRange {
     float reach;        // up to which a distance is near
     size_t first, last; // near places, and those between them; none if first > last
     bool is_near() const { return first <= last; }
+};
+
+// The samples of a border and the distances of one source from them.
+struct SampledBorder {
+    const float* distance; // infinity behind the last sample, up to whole blocks
+    float quantum;         // of the rows
+    std::span<const Samples::LongSegment> long_segments;
+    int16_t* code; // scratch, with room for whole blocks
 };
 
 // The places of a ring that a path crosses from one end to the other, and the segments that begin at them.
@@ -90,9 +99,11 @@ struct Kernels {
     // way does not always pass near the place with the least sum.
     void (*cross_near)(const BorderFromSource& border, const NearRange& range, Rows rows, float* distances);
 
-    // winners[r]: the place with the least sum of codes, or NO_PLACE. Of the border, it reads only places and
-    // code.
-    void (*choose)(const BorderFromSource& border, Rows rows, uint16_t* winners);
+    // Fills border.code. rows[i] belongs to the i-th sample and has an entry for each column. distances[c]:
+    // the least way over a sample to column c, or infinity; winners[c]: the first sample with the least way,
+    // if there is any. Both are written in whole blocks.
+    void (*cross_samples)(const SampledBorder& border, Rows rows, size_t columns, float* distances,
+                          uint16_t* winners);
 
     // The least way over any place, or straightened over any segment, or infinity.
     float (*meet)(const BorderBetween& border);

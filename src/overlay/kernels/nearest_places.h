@@ -124,15 +124,14 @@ template <size_t BYTES>
     }
 }
 
-// One place after the other, for what the sums of codes do not tell apart: ways of which one end is out of
-// reach. sum_of(k) is the way over place k. Returns NO_PLACE if there is no way.
-template <class SumOf>
-int32_t find_place(const BorderFromSource& border, const uint16_t* row, const SumOf& sum_of) {
+// One place after the other, by distances, of which codes are rounded, for what the sums of codes do not tell
+// apart: ways of which one end is out of reach. Returns NO_PLACE if there is no way.
+inline int32_t find_nearest_place(const BorderFromSource& border, const uint16_t* row) {
     float least = INFINITE;
     int32_t nearest = BorderFromSource::NO_PLACE;
     for (size_t k = 0; k < border.places; ++k) {
         if (border.code[k] == SourceCode::UNREACHED || row[k] == TableCode::UNREACHED) continue;
-        const float sum = sum_of(k);
+        const float sum = border.distance[k] + static_cast<float>(row[k]) * border.quantum;
         if (sum >= least) continue;
         least = sum;
         nearest = static_cast<int32_t>(k);
@@ -140,42 +139,24 @@ int32_t find_place(const BorderFromSource& border, const uint16_t* row, const Su
     return nearest;
 }
 
-// By distances, of which codes are rounded.
-inline int32_t find_nearest_place(const BorderFromSource& border, const uint16_t* row) {
-    return find_place(border, row, [&](size_t k) {
-        return border.distance[k] + static_cast<float>(row[k]) * border.quantum;
-    });
-}
-
-// By codes alone.
-inline int32_t choose_place(const BorderFromSource& border, const uint16_t* row) {
-    return find_place(border, row, [&](size_t k) { return static_cast<float>(border.code[k] + row[k]); });
-}
-
-// Where there is no way, the place is some one.
-template <class FindOne>
-[[gnu::always_inline]] inline Missing take_places(int32_t* keys, size_t count, const FindOne& find_one) {
-    Missing missing;
-    int32_t most = SourceCode::NO_SUM * (1 << PLACE_BITS) - 1;
-    for (size_t r = 0; r < count; ++r) most = std::max(most, keys[r]);
-    if (most >= SourceCode::NO_SUM * (1 << PLACE_BITS)) [[unlikely]]
-        for (size_t r = 0; r < count; ++r) {
-            if (keys[r] < SourceCode::NO_SUM * (1 << PLACE_BITS)) continue;
-            keys[r] = find_one(r);
-            if (keys[r] != BorderFromSource::NO_PLACE) continue;
-            keys[r] = Rings::REACH;
-            missing.bits |= uint64_t{1} << r;
-        }
-    for (size_t r = 0; r < count; ++r) keys[r] &= PLACE_MASK;
-    return missing;
-}
-
-// Of each of up to 64 rows.
+// Of each of up to 64 rows. Where there is no way, the place is some one.
 template <size_t BYTES>
 [[gnu::always_inline]] inline Missing find_nearest_places(const BorderFromSource& border, Rows rows,
                                                           int32_t* places) {
+    Missing missing;
     find_keys<BYTES>(border, rows, places);
-    return take_places(places, rows.size(), [&](size_t r) { return find_nearest_place(border, rows[r]); });
+    int32_t most = SourceCode::NO_SUM * (1 << PLACE_BITS) - 1;
+    for (size_t r = 0; r < rows.size(); ++r) most = std::max(most, places[r]);
+    if (most >= SourceCode::NO_SUM * (1 << PLACE_BITS)) [[unlikely]]
+        for (size_t r = 0; r < rows.size(); ++r) {
+            if (places[r] < SourceCode::NO_SUM * (1 << PLACE_BITS)) continue;
+            places[r] = find_nearest_place(border, rows[r]);
+            if (places[r] != BorderFromSource::NO_PLACE) continue;
+            places[r] = Rings::REACH;
+            missing.bits |= uint64_t{1} << r;
+        }
+    for (size_t r = 0; r < rows.size(); ++r) places[r] &= PLACE_MASK;
+    return missing;
 }
 
 }

@@ -2,18 +2,13 @@
 
 #include <algorithm>
 
+#include "src/overlay/sssd/vertex_finder.h"
+
 namespace geodesic {
 
 namespace {
 
 constexpr uint32_t REACH = Rings::REACH;
-
-// Writes the distances from an end to a range of its first border, which the index holds.
-void read_first_range(const OverlayIndex& index, const Ascent& ascent, BorderRange range, float* out) {
-    with_ring_distances(index, ascent.vertex, ascent.patches.front(), [&](const auto& distance_to) {
-        for (uint32_t i = 0; i < range.size(); ++i) out[i] = distance_to(range.first + i);
-    });
-}
 
 // Lets the crossing begin with the distances from a range of a patch's border. The kernel reads REACH places
 // on each side of a winner. Those outside of the range are at infinity, so that no way leads over them.
@@ -33,31 +28,54 @@ uint32_t begin_crossing(const OverlayIndex& index, uint32_t patch, BorderRange r
 }
 
 // Crosses from a range of a patch's border to places of another border inside of the same parent.
-// overlay_position(k) is the position of place k in the parent's overlay.
+// overlay_position(k) is the position of place k in the parent's overlay. Vertices that are in both ranges
+// keep their distances: no way from one of them to the other is shorter than that. Returns the place that
+// winners are counted from.
 template <class OverlayPosition>
-void cross(const OverlayIndex& index, uint32_t patch, BorderRange range, const float* distances,
-           BorderRange to, const OverlayPosition& overlay_position, BorderCrossing& crossing, float* out) {
-    const uint32_t first = begin_crossing(index, patch, range, distances, crossing.field);
-    if (!crossing.field.finish()) {
-        std::fill_n(out, to.size(), INFINITE);
-        return;
+uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, const float* distances,
+               BorderRange to, const OverlayPosition& overlay_position, BorderCrossing& crossing, float* out,
+               uint16_t* winners) {
+    const BorderRings& rings = index.rings;
+    const uint32_t first = std::max(range.first, rings.begin[patch] + REACH) - REACH;
+    VertexFinder common({rings.vertex.data() + range.first, range.size()});
+    crossing.reached.clear();
+    crossing.rows.clear();
+    const uint16_t* rows = index.hops.outer.data() + index.outer_row(patch, 0) + (first - rings.begin[patch]);
+    for (uint32_t i = 0; i < to.size(); ++i) {
+        const uint32_t at = common.find(rings.vertex[to.first + i]);
+        if (at != NONE) {
+            out[i] = distances[at];
+            winners[i] = static_cast<uint16_t>(range.first + at - first);
+            continue;
+        }
+        crossing.reached.push_back(i);
+        crossing.rows.push_back(rows + size_t{overlay_position(to.first + i)} * rings.size(patch));
     }
-    const uint16_t* rows =
-        index.hops.outer.data() + index.outer_row(patch, 0) + (first - index.rings.begin[patch]);
-    crossing.rows.resize(to.size());
-    for (uint32_t i = 0; i < to.size(); ++i)
-        crossing.rows[i] = rows + size_t{overlay_position(to.first + i)} * index.rings.size(patch);
-    crossing.field.cross(crossing.rows, out);
-    crossing.field.cross_near(crossing.rows, out);
+    if (crossing.rows.empty()) return first;
+    begin_crossing(index, patch, range, distances, crossing.field);
+    if (crossing.field.finish()) {
+        crossing.field.cross(crossing.rows, crossing.distances.data(), crossing.winners.data());
+        crossing.field.cross_near(crossing.rows, crossing.distances.data());
+    } else {
+        std::fill_n(crossing.distances.begin(), crossing.rows.size(), INFINITE);
+    }
+    for (size_t r = 0; r < crossing.reached.size(); ++r) {
+        out[crossing.reached[r]] = crossing.distances[r];
+        winners[crossing.reached[r]] = crossing.winners[r];
+    }
+    return first;
 }
 
 }
 
 MeasuredEnd::MeasuredEnd(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), stride_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK),
-      ranges_(memory), distances_(memory) {
-    ranges_.reserve(index.numbering.level_count());
-    distances_.resize(index.numbering.level_count() * stride_);
+      ranges_(memory), distances_(memory), winners_(memory), crossed_(memory) {
+    const size_t borders = index.numbering.level_count();
+    ranges_.reserve(borders);
+    distances_.resize(borders * stride_);
+    winners_.resize(borders * stride_);
+    crossed_.resize(borders);
 }
 
 void MeasuredEnd::measure(const Ascent& ascent, std::span<const BorderRange> ranges,
@@ -67,25 +85,28 @@ void MeasuredEnd::measure(const Ascent& ascent, std::span<const BorderRange> ran
     ranges_.resize(kept);
     if (kept == 0) {
         ranges_.push_back(ranges.front());
-        read_first_range(index_, ascent, ranges.front(), distances_of(0));
+        const RingRow& row = ascent.first_row;
+        for (uint32_t i = 0; i < ranges.front().size(); ++i) distances_[i] = row(ranges.front().first + i);
     }
     // A position in the border is the overlay position, too: the overlay of a patch begins with its border.
     const auto position = [this](uint32_t place) { return index_.rings.position[place]; };
     for (size_t b = ranges_.size(); b < ranges.size(); ++b) {
-        cross(index_, ascent.patches[b - 1], ranges_.back(), distances_of(b - 1), ranges[b], position,
-              crossing, distances_of(b));
+        crossed_[b - 1] = cross(index_, ascent.patches[b - 1], ranges_.back(), distances_of(b - 1), ranges[b],
+                                position, crossing, distances_of(b), winners_.data() + b * stride_);
         ranges_.push_back(ranges[b]);
     }
     std::fill_n(distances_of(ranges_.size() - 1) + last_range().size(), SourceCode::BLOCK, INFINITE);
 }
 
-void MeasuredEnd::cross_to(const Ascent& ascent, uint32_t sibling, BorderRange range,
-                           BorderCrossing& crossing, std::span<float> out) const {
+uint32_t MeasuredEnd::cross_to(const Ascent& ascent, uint32_t sibling, BorderRange range,
+                               BorderCrossing& crossing, std::span<float> out,
+                               std::span<uint16_t> winners) const {
     const uint32_t* positions =
         index_.numbering.overlay_position.data() + index_.numbering.border_begin[sibling];
-    cross(
+    return cross(
         index_, ascent.last_patch(), last_range(), last_distances(), range,
-        [&](uint32_t place) { return positions[index_.rings.position[place]]; }, crossing, out.data());
+        [&](uint32_t place) { return positions[index_.rings.position[place]]; }, crossing, out.data(),
+        winners.data());
 }
 
 }

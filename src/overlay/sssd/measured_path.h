@@ -3,11 +3,28 @@
 #include <memory_resource>
 #include <span>
 
+#include "src/overlay/border_field.h"
 #include "src/overlay/sssd/ascent.h"
-#include "src/overlay/sssd/border_crossing.h"
 #include "src/overlay/sssd/border_range.h"
 
 namespace geodesic {
+
+// Scratch for crossing one border. Both ends use the same one, in turn, and nothing stays in it.
+struct BorderCrossing {
+    BorderCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory)
+        : field(index, memory), rows(memory), reached(memory), distances(index.rings.largest_size(), memory),
+          winners(index.rings.largest_size(), memory) {
+        rows.reserve(index.rings.largest_size());
+        reached.reserve(index.rings.largest_size());
+    }
+
+    BorderField field;
+    Array<const uint16_t*> rows;
+    // Of the places that rows lead to: where in their range they are, and what the crossing finds.
+    Array<uint32_t> reached;
+    Array<float> distances;
+    Array<uint16_t> winners;
+};
 
 // The distances of one end from the vertices of its border ranges, border by border.
 class MeasuredEnd {
@@ -21,14 +38,22 @@ public:
     // before are kept from the first border on as long as their ranges cover those of this one.
     void measure(const Ascent& ascent, std::span<const BorderRange> ranges, BorderCrossing& crossing);
 
-    // The range of the last border, which may be wider than what was asked for, and the distances there, with
-    // infinity behind them up to whole blocks.
+    // The ranges that are measured, from the first border on, which may be wider than what was asked for, and
+    // the distances in the last one, with infinity behind them up to whole blocks.
+    std::span<const BorderRange> ranges() const { return ranges_; }
     BorderRange last_range() const { return ranges_.back(); }
     const float* last_distances() const { return distances_.data() + (ranges_.size() - 1) * stride_; }
 
-    // Crosses from the range of the last border to a range of a sibling's border.
-    void cross_to(const Ascent& ascent, uint32_t sibling, BorderRange range, BorderCrossing& crossing,
-                  std::span<float> out) const;
+    // The place, on the border before, that the way to a place of a measured range comes over.
+    uint32_t place_before(size_t border, uint32_t place) const {
+        return crossed_[border - 1] + winners_[border * stride_ + place - ranges_[border].first];
+    }
+
+    // Crosses from the range of the last border to a range of a sibling's border. winners[i]: the place, on
+    // the last border, that the way to the i-th place of the range comes over, counted from the place that is
+    // returned.
+    uint32_t cross_to(const Ascent& ascent, uint32_t sibling, BorderRange range, BorderCrossing& crossing,
+                      std::span<float> out, std::span<uint16_t> winners) const;
 
 private:
     // Where the distances of a border begin.
@@ -36,8 +61,10 @@ private:
 
     const OverlayIndex& index_;
     const size_t stride_;
-    Array<BorderRange> ranges_; // Those that are measured, from the first border on.
+    Array<BorderRange> ranges_;
     Array<float> distances_;
+    Array<uint16_t> winners_; // counted from `crossed_` of the border before
+    Array<uint32_t> crossed_; // per border: the first place that was crossed
 };
 
 }

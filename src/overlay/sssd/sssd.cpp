@@ -1,10 +1,11 @@
 #include "src/overlay/sssd/sssd.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 #include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/ring_segments.h"
+#include "src/overlay/unfolding.h"
 
 namespace geodesic {
 
@@ -12,22 +13,10 @@ namespace {
 
 // Borders that have no more pairs of places than this are crossed as a whole: that takes less time than
 // finding the part of them that a path may cross.
-constexpr size_t FEW_PAIRS = size_t{1} << 14;
+constexpr size_t FEW_PAIRS = size_t{1} << 13;
 
-// Returns the first level whose borders have few places on average and are all labelled whole, or the level
-// of the leaves if there is none.
-uint32_t first_level_of_short_borders(const OverlayIndex& index) {
-    constexpr uint32_t FEW = 128;
-    const auto& begin = index.rings.begin;
-    for (uint32_t level = 1; level < index.numbering.level_count(); ++level) {
-        const uint32_t first = index.numbering.level_begin[level],
-                       end = index.numbering.level_begin[level + 1];
-        bool whole = begin[end] - begin[first] <= FEW * (end - first);
-        for (uint32_t p = first; p < end; ++p) whole = whole && index.is_labelled_whole(p);
-        if (whole) return level;
-    }
-    return index.numbering.level_count();
-}
+// Ranges are moved along with the way at most this many times.
+constexpr int MOST_MOVES = 8;
 
 // Returns the lowest patch that two patches lie in. A parent has a smaller number than its children.
 uint32_t lowest_common_patch(const Numbering& numbering, uint32_t a, uint32_t b) {
@@ -35,100 +24,113 @@ uint32_t lowest_common_patch(const Numbering& numbering, uint32_t a, uint32_t b)
     return a;
 }
 
-// Returns the child of `top` that a patch inside of `top` lies in.
-uint32_t child_around(const Numbering& numbering, uint32_t top, uint32_t patch) {
-    while (numbering.parent[patch] != top) patch = numbering.parent[patch];
-    return patch;
+// The range near the way to a sample of a border that comes over a sample of the border before.
+BorderRange range_before(const OverlayIndex& index, uint32_t patch_before, const SampledAscent& sampled,
+                         size_t border, uint32_t before, uint32_t sample) {
+    const size_t count = index.pairs.samples.of(patch_before).size();
+    return range_near(index, patch_before, before,
+                      {before > 0 ? sampled.way_over(border, before - 1, sample) : INFINITE,
+                       sampled.way_over(border, before, sample),
+                       before + 1 < count ? sampled.way_over(border, before + 1, sample) : INFINITE});
 }
 
-// Whether the borders of an ascent are so short that all of each may be crossed.
-bool has_few_pairs(const Rings& rings, const Ascent& ascent) {
+// Of the places from both ends, the one with the least sum.
+uint32_t place_of_least_sum(const float* from, const float* to, uint32_t count) {
+    float least = INFINITE;
+    uint32_t place = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        if (from[i] + to[i] >= least) continue;
+        least = from[i] + to[i];
+        place = i;
+    }
+    return place;
+}
+
+}
+
+// ---- One end
+
+void OverlaySssd::End::climb(const OverlayIndex& index, uint32_t of, uint32_t top) {
+    geodesic::climb(index, of, top, ascent);
+    measured.begin();
+    if (!is_at_top()) prefetch(ascent.first_row.codes, index.rings.size(ascent.patches.front()));
+}
+
+// Whether the borders of the ascent are so short that all of each may be crossed.
+bool OverlaySssd::End::has_few_pairs(const Rings& rings) const {
     for (size_t b = 1; b < ascent.patches.size(); ++b)
         if (size_t{rings.size(ascent.patches[b - 1])} * rings.size(ascent.patches[b]) > FEW_PAIRS)
             return false;
     return true;
 }
 
-// Distances by vertex number, read by place.
-struct KnownDistances {
-    std::span<const float> of_vertex;
-    const uint32_t* vertex;
-
-    float operator()(size_t place) const { return of_vertex[vertex[place]]; }
-};
-
+// Whether any border of the ascent has segments.
+bool OverlaySssd::End::crosses_segments(const OverlayIndex& index) const {
+    return std::ranges::any_of(ascent.patches,
+                               [&](uint32_t patch) { return index.longest_segment[patch] > 0; });
 }
+
+// Returns whether each border has any vertex: around a separate part there may be none.
+bool OverlaySssd::End::take_whole_borders(const OverlayIndex& index) {
+    ranges.clear();
+    for (const uint32_t patch : ascent.patches) {
+        if (index.rings.size(patch) == 0) return false;
+        ranges.push_back(whole_border(index, patch));
+    }
+    return true;
+}
+
+// Takes the ranges near the way over samples to a sample of the last border, where `last_range` is, and asks
+// for the codes from each range to the next one.
+void OverlaySssd::End::take_ranges(const OverlayIndex& index, uint32_t sample, BorderRange last_range) {
+    ranges.resize(ascent.patches.size());
+    ranges.back() = last_range;
+    for (size_t b = ranges.size(); b-- > 1;) {
+        const uint32_t before = sampled.sample_before(b, sample);
+        ranges[b - 1] = range_before(index, ascent.patches[b - 1], sampled, b, before, sample);
+        sample = before;
+    }
+    const BorderRings& rings = index.rings;
+    for (const BorderRange& range : ranges) {
+        prefetch(rings.position.data() + range.first, range.size());
+        prefetch(rings.segment_length.data() + range.first, range.size());
+        prefetch(rings.half_inverse.data() + range.first, range.size());
+        prefetch(rings.is_own.data() + range.first, range.size());
+        prefetch(rings.vertex.data() + range.first, range.size());
+    }
+}
+
+// Asks for the codes from each range to the next one.
+void OverlaySssd::End::prefetch_rows(const OverlayIndex& index) const {
+    for (size_t b = 0; b + 1 < ranges.size(); ++b) {
+        const uint32_t patch = ascent.patches[b];
+        const uint16_t* rows = index.hops.outer.data() + index.outer_row(patch, 0) +
+                               (ranges[b].first - index.rings.begin[patch]);
+        for (uint32_t k = ranges[b + 1].first; k <= ranges[b + 1].last; ++k)
+            prefetch(rows + size_t{index.rings.position[k]} * index.rings.size(patch), ranges[b].size());
+    }
+}
+
+// Moves the ranges to where a shorter way may be than the one that was measured, which crosses the last
+// border at this place. Returns whether any has moved.
+bool OverlaySssd::End::move_ranges(const OverlayIndex& index, uint32_t place) {
+    bool moved = false;
+    for (size_t b = ranges.size(); b-- > 0;) {
+        const BorderRange measured_range = measured.ranges()[b];
+        ranges[b] = range_beside(index, ascent.patches[b], measured_range, place);
+        moved = moved || !measured_range.covers(ranges[b]);
+        if (b > 0) place = measured.place_before(b, place);
+    }
+    return moved;
+}
+
+// ---- Both ends
 
 OverlaySssd::OverlaySssd(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : index_(index), numbering_(index.numbering), prepared_level_(first_level_of_short_borders(index)),
-      crossing_(index, memory), from_(index, memory), to_(index, memory), samples_(index, memory),
-      from_distances_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, memory) {}
-
-void OverlaySssd::End::climb(const OverlayIndex& index, uint32_t vertex, uint32_t top) {
-    geodesic::climb(index, vertex, top, ascent);
-    measured.begin();
-}
-
-void OverlaySssd::End::read_samples(const OverlayIndex& index, BorderCrossing& crossing) {
-    geodesic::read_samples(index, crossing, ascent);
-    ranges.begin(ascent);
-}
-
-struct OverlaySssd::Climber {
-    OverlaySssd& search;
-    End& end;
-
-    void read_samples() const {
-        end.read_samples(search.index_, search.crossing_);
-        hop_to_sibling(search.index_, end.ascent.last_patch(), end.ascent.sample_distances,
-                       search.meeting_patch(), search.crossing_, search.samples_);
-    }
-
-    // Finds the ranges of paths to a sample and to its two neighbours.
-    bool find_ranges(uint32_t place) const {
-        const Samples& samples = search.index_.pairs.samples;
-        const uint32_t* sample = samples.sample_of_place.data() + samples.rings.begin[search.meeting_patch()];
-        const auto& winner = search.samples_.winner;
-        const std::array<uint16_t, 3> winners{winner[sample[place - 1]], winner[sample[place]],
-                                              winner[sample[place + 1]]};
-        return end.ranges.find(end.ascent, range_of_winners(winners));
-    }
-    bool find_ranges_within(float reach) const {
-        return end.ranges.find(end.ascent, samples_within(search.index_, end.ascent, reach));
-    }
-    // Whether the border that the other end climbs to is to be crossed as a whole from that of this end.
-    bool crosses_whole() const {
-        const Rings& rings = search.index_.rings;
-        return has_few_pairs(rings, end.ascent) &&
-               size_t{rings.size(search.meeting_patch())} * rings.size(end.ascent.last_patch()) <= FEW_PAIRS;
-    }
-    bool take_whole() const { return end.ranges.take_whole(end.ascent); }
-    void measure(BorderRange range, std::span<float> out) const {
-        end.measured.measure(end.ascent, end.ranges.ranges(), search.crossing_);
-        end.measured.cross_to(end.ascent, search.meeting_patch(), range, search.crossing_, out);
-    }
-};
-
-// distance_to(place) is the distance to a place of the ring where the ends meet. No border lies before this
-// one, so that there are no ranges to find.
-template <class DistanceTo>
-struct OverlaySssd::KnownVertex {
-    OverlaySssd& search;
-    DistanceTo distance_to;
-
-    void read_samples() const {
-        const uint32_t patch = search.meeting_patch();
-        search.samples_.distance.resize(search.index_.pairs.samples.of(patch).size());
-        geodesic::read_samples(search.index_, patch, distance_to, search.samples_.distance);
-    }
-    bool find_ranges(uint32_t) const { return true; }
-    bool find_ranges_within(float) const { return true; }
-    bool crosses_whole() const { return true; }
-    bool take_whole() const { return true; }
-    void measure(BorderRange range, std::span<float> out) const {
-        for (uint32_t i = 0; i < range.size(); ++i) out[i] = distance_to(range.first + i);
-    }
-};
+    : index_(index), numbering_(index.numbering), crossing_(index, memory), from_(index, memory),
+      to_(index, memory), from_samples_(memory), lengths_(memory),
+      from_distances_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, memory),
+      from_winners_(from_distances_.size(), memory) {}
 
 float OverlaySssd::distance(uint32_t low, uint32_t high) {
     const uint32_t low_patch = numbering_.innermost_patch(low), high_patch = numbering_.innermost_patch(high);
@@ -136,17 +138,11 @@ float OverlaySssd::distance(uint32_t low, uint32_t high) {
     const bool low_climbs = low_patch != top, high_climbs = high_patch != top;
     if (!low_climbs && !high_climbs) return distance_inside(top, low, high);
     const uint32_t climber = high_climbs ? high : low, other = high_climbs ? low : high;
+    if (!low_climbs || !high_climbs)
+        if (const float d = distance_to_border(other, climber); d < INFINITE) return d;
     to_.climb(index_, climber, top);
-    if (low_climbs && high_climbs) {
-        from_.climb(index_, other, top);
-        return meet(Climber{*this, from_});
-    }
-    const uint32_t patch = meeting_patch();
-    if (const float d = distance_to_border(patch, other, climber); d < INFINITE) return d;
-    const uint32_t position = numbering_.position_at_owner(other);
-    return meet(KnownVertex<RingRow>{*this,
-                                     {index_.hops.outer.data() + index_.outer_row(patch, position),
-                                      index_.rings.begin[patch], index_.quantum[top]}});
+    from_.climb(index_, other, top);
+    return meet();
 }
 
 // Returns the distance between two vertices of which a patch is the innermost one around both.
@@ -159,79 +155,142 @@ float OverlaySssd::distance_inside(uint32_t patch, uint32_t low, uint32_t high) 
     return index_.distance(index_.internal_code(patch, low - first, high - first), patch);
 }
 
-// Returns the distance between a vertex on the border of a patch and one inside of the patch if the index
-// holds it, and infinity otherwise.
-float OverlaySssd::distance_to_border(uint32_t patch, uint32_t border_vertex, uint32_t vertex) const {
-    if (patch != numbering_.innermost_patch(vertex) && !index_.is_labelled_whole(patch)) return INFINITE;
+// Returns the distance between two vertices if the first one lies on the border of the innermost patch around
+// the second one, and infinity otherwise.
+float OverlaySssd::distance_to_border(uint32_t border_vertex, uint32_t vertex) const {
+    const uint32_t patch = numbering_.innermost_patch(vertex);
     for (const PatchPosition& at : numbering_.borders_of(border_vertex)) {
         if (at.patch != patch) continue;
-        const uint32_t own = index_.rings.place_of_slot[numbering_.border_begin[patch] + at.position];
-        return with_ring_distances(index_, vertex, patch, [&](const auto& distance_to) {
-            return distance_to(index_.rings.begin[patch] + own);
-        });
+        const RingRow row = inner_row_of(index_, vertex);
+        return row(row.first + index_.rings.place_of_slot[numbering_.border_begin[patch] + at.position]);
     }
     return INFINITE;
 }
 
-float OverlaySssd::distance_from(uint32_t source, std::span<const float> known, uint32_t target) {
-    const uint32_t target_patch = numbering_.innermost_patch(target),
-                   source_patch = numbering_.innermost_patch(source);
-    if (target_patch < numbering_.level_begin[prepared_level_]) return known[target];
-    uint32_t patch = target_patch;
-    while (patch >= numbering_.level_begin[prepared_level_ + 1]) patch = numbering_.parent[patch];
-    if (numbering_.is_within(source_patch, patch)) {
-        const uint32_t top = lowest_common_patch(numbering_, source_patch, target_patch);
-        if (target_patch == top) return known[target];
-        patch = child_around(numbering_, top, target_patch);
-        if (source_patch == top)
-            if (const float d = distance_to_border(patch, source, target); d < INFINITE) return d;
+// Measures the path over whole borders if that takes little time, and over the ranges near each candidate
+// otherwise. Where no border has segments, samples alone tell.
+float OverlaySssd::meet() {
+    if (has_few_pairs()) {
+        uint32_t place;
+        return from_.take_whole_borders(index_) && to_.take_whole_borders(index_) ? measure(place) : INFINITE;
     }
-    to_.climb(index_, target, numbering_.parent[patch]);
-    return meet(KnownVertex<KnownDistances>{*this, {known, index_.rings.vertex.data()}});
-}
-
-// Measures the path over the whole border where `to_` ends its climb if that takes little time, and over the
-// ranges around each candidate otherwise. If the shortest path is so short that the straight way may pass
-// anywhere near the ends, measures once more, over all that lies within its length.
-//
-// to_.climb() comes before. `From` is a Climber or a KnownVertex and is asked in this order:
-// - crosses_whole(): whether all of the border may be taken;
-// - if so, take_whole(); otherwise read_samples(), and then, any number of times, find_ranges() or
-//   find_ranges_within(), which return whether a path leads over the ranges;
-// - after each of these, measure(range, out), once `to_` has been measured, which gives the range: the
-//   distances to its places on the border where `to_` ends its climb.
-template <class From>
-float OverlaySssd::meet(const From& from) {
-    if (has_few_pairs(index_.rings, to_.ascent) && from.crosses_whole())
-        return from.take_whole() && to_.ranges.take_whole(to_.ascent) ? measure(from) : INFINITE;
-    to_.read_samples(index_, crossing_);
-    from.read_samples();
     const uint32_t patch = meeting_patch();
+    const auto chains = index_.rings.chains_of(patch);
+    to_.sampled.climb(to_.ascent);
+    const std::span<const float> from = sample_from(), to = to_.sampled.last_distances();
+    measure_ways(from, to);
+    if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_))
+        return lengths_.empty() ? INFINITE : *std::ranges::min_element(lengths_);
+    const WaysOverSamples ways{from, to, lengths_, chains.size() == 1 && chains[0].is_closed};
     float shortest = INFINITE;
-    for (const uint32_t place :
-         find_candidates(index_, patch, samples_.distance, to_.ascent.sample_distances))
-        if (from.find_ranges(place) && to_.ranges.find(to_.ascent, {place, place}))
-            shortest = std::min(shortest, measure(from));
-    if (!(shortest <= index_.pairs.samples.shortest_told[patch])) return shortest;
-    const float reach = shortest + 2 * index_.pairs.samples.longest_gap[patch];
-    if (from.find_ranges_within(reach) &&
-        to_.ranges.find(to_.ascent, samples_within(index_, to_.ascent, reach)))
-        shortest = std::min(shortest, measure(from));
+    for (const uint32_t sample : find_candidates(ways, index_.pairs.samples.spacing[patch])) {
+        take_ranges(sample, range_near(index_, patch, sample,
+                                       {ways.length_of_previous(sample), ways.length(sample),
+                                        ways.length_of_next(sample)}));
+        shortest = std::min(shortest, follow(shortest));
+    }
     return shortest;
 }
 
-// Measures the path over the ranges that both ends have found. The kernel reads past the range up to whole
-// blocks; infinity there gives no way.
-template <class From>
-float OverlaySssd::measure(const From& from) {
-    to_.measured.measure(to_.ascent, to_.ranges.ranges(), crossing_);
+// Whether all borders may be crossed as a whole.
+bool OverlaySssd::has_few_pairs() const {
+    const Rings& rings = index_.rings;
+    return to_.has_few_pairs(rings) && from_.has_few_pairs(rings) &&
+           (from_.is_at_top() ||
+            size_t{rings.size(meeting_patch())} * rings.size(from_.ascent.last_patch()) <= FEW_PAIRS);
+}
+
+// Returns the distances of `from_` to the samples of the meeting border.
+std::span<const float> OverlaySssd::sample_from() {
+    if (!from_.is_at_top()) {
+        from_.sampled.climb(from_.ascent);
+        from_.sampled.hop_across(from_.ascent, meeting_patch());
+        return from_.sampled.last_distances();
+    }
+    const RingRow row = outer_row_of(index_, from_.ascent.vertex, meeting_patch());
+    from_samples_.clear();
+    for (const uint16_t place : index_.pairs.samples.of(meeting_patch()))
+        from_samples_.push_back(row(row.first + place));
+    return from_samples_;
+}
+
+// Measures the ways over the samples of the meeting border. A way over a long segment counts for both ends.
+void OverlaySssd::measure_ways(std::span<const float> from, std::span<const float> to) {
+    lengths_.resize(from.size());
+    for (size_t i = 0; i < from.size(); ++i) lengths_[i] = from[i] + to[i];
+    for (const auto& [first, second, length] : index_.pairs.samples.long_segments_of(meeting_patch())) {
+        const auto all = [](float value) { return BesideFloats{} + value; };
+        SegmentsFromSource<BesideFloats> from_source{{all(length), all(0.5f / length)}, {}, {}};
+        from_source.segments.place_point(all(from[first]), all(from[second]), from_source.foot,
+                                         from_source.height);
+        BesideFloats square;
+        from_source.square_across(all(to[first]), all(to[second]), square);
+        for (const uint32_t end : {first, second})
+            lengths_[end] = std::min(lengths_[end], std::sqrt(square[0]));
+    }
+}
+
+// Takes the ranges of both ends near the ways over samples to a sample of the meeting border.
+void OverlaySssd::take_ranges(uint32_t sample, BorderRange of_meeting_border) {
+    to_.take_ranges(index_, sample, of_meeting_border);
+    if (from_.is_at_top()) return;
+    const size_t meeting = from_.ascent.patches.size();
+    const uint32_t before = from_.sampled.sample_before(meeting, sample);
+    from_.take_ranges(
+        index_, before,
+        range_before(index_, from_.ascent.last_patch(), from_.sampled, meeting, before, sample));
+    to_.prefetch_rows(index_);
+    from_.prefetch_rows(index_);
+}
+
+// Measures the path over the ranges that both ends have taken, and moves the ranges along with it while it
+// gets shorter, unless it is longer than another way from the beginning.
+float OverlaySssd::follow(float other_way) {
+    float shortest = INFINITE;
+    for (int moves = 0; moves <= MOST_MOVES; ++moves) {
+        uint32_t place;
+        const float length = measure(place);
+        if (!(length < shortest)) break;
+        shortest = length;
+        if (shortest >= other_way || !move_ranges(place)) break;
+    }
+    return shortest;
+}
+
+// Moves the ranges of both ends to where a shorter way may be than the one that was measured, which crosses
+// the meeting border at this place. Returns whether any has moved.
+bool OverlaySssd::move_ranges(uint32_t place) {
+    bool moved = to_.move_ranges(index_, place);
+    if (!from_.is_at_top()) {
+        const uint16_t winner = from_winners_[place - to_.measured.last_range().first];
+        moved = from_.move_ranges(index_, from_crossed_ + winner) || moved;
+    }
+    if (!moved) return false;
+    to_.prefetch_rows(index_);
+    from_.prefetch_rows(index_);
+    return true;
+}
+
+// Measures the path over the ranges that both ends have taken, and finds the place where it crosses the
+// meeting border, if there is a path. The kernel reads past the range up to whole blocks; infinity there
+// gives no way.
+float OverlaySssd::measure(uint32_t& place) {
+    to_.measured.measure(to_.ascent, to_.ranges, crossing_);
     const BorderRange range = to_.measured.last_range();
-    from.measure(range, from_distances_);
+    if (from_.is_at_top()) {
+        const RingRow row = outer_row_of(index_, from_.ascent.vertex, meeting_patch());
+        for (uint32_t i = 0; i < range.size(); ++i) from_distances_[i] = row(range.first + i);
+    } else {
+        from_.measured.measure(from_.ascent, from_.ranges, crossing_);
+        from_crossed_ = from_.measured.cross_to(from_.ascent, meeting_patch(), range, crossing_,
+                                                from_distances_, from_winners_);
+    }
     std::fill_n(from_distances_.begin() + range.size(), SourceCode::BLOCK, INFINITE);
+    const float* to = to_.measured.last_distances();
+    place = range.first + place_of_least_sum(from_distances_.data(), to, range.size());
     const RingSegments segments = segments_from(index_.rings, range.first);
-    return runnable_kernels().back().meet({range.size(), from_distances_.data(),
-                                           to_.measured.last_distances(), segments.length,
-                                           segments.half_inverse});
+    return runnable_kernels().back().meet(
+        {range.size(), from_distances_.data(), to, segments.length, segments.half_inverse});
 }
 
 }

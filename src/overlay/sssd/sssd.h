@@ -4,66 +4,73 @@
 #include <span>
 
 #include "src/overlay/sssd/ascent.h"
-#include "src/overlay/sssd/border_crossing.h"
 #include "src/overlay/sssd/border_range.h"
 #include "src/overlay/sssd/candidates.h"
 #include "src/overlay/sssd/measured_path.h"
+#include "src/overlay/sssd/sampled_ascent.h"
+#include "src/overlay/tables.h"
 
 namespace geodesic {
 
 // Single source, single destination on overlay tables. Both ends climb to the children of the lowest patch
 // that has them both and meet on the border of one of these children. Short borders are crossed as a whole.
 // Of longer ones, samples give a few candidates; each is then measured over all vertices of the border ranges
-// around it. Vertices are given by their numbers. An object is the scratch of one thread.
+// around it, which move along with the way while it gets shorter. Vertices are given by their numbers. An
+// object is the scratch of one thread.
 class OverlaySssd {
 public:
+    // The index must have its samples.
     OverlaySssd(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
     float distance(uint32_t low, uint32_t high);
 
-    // Returns the distance from a source that was prepared: known[number] are its distances to the borders of
-    // all patches down to prepared_level(), as OverlaySsad::sweep_borders() gives them.
-    float distance_from(uint32_t source, std::span<const float> known, uint32_t target);
-    uint32_t prepared_level() const { return prepared_level_; }
-
 private:
     struct End {
         End(const OverlayIndex& index, std::pmr::memory_resource* memory)
-            : ascent(index, memory), ranges(index, memory), measured(index, memory) {}
-        void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top);
-        void read_samples(const OverlayIndex& index, BorderCrossing& crossing);
+            : ascent(memory), sampled(index, memory), ranges(memory), measured(index, memory) {
+            ascent.patches.reserve(index.numbering.level_count());
+            ranges.reserve(index.numbering.level_count());
+        }
+        void climb(const OverlayIndex& index, uint32_t of, uint32_t top);
+        // Whether the end lies inside of the patch where the ends meet, and on no border inside of that.
+        bool is_at_top() const { return ascent.patches.empty(); }
+        bool has_few_pairs(const Rings& rings) const;
+        bool crosses_segments(const OverlayIndex& index) const;
+        bool take_whole_borders(const OverlayIndex& index);
+        void take_ranges(const OverlayIndex& index, uint32_t sample, BorderRange last_range);
+        void prefetch_rows(const OverlayIndex& index) const;
+        bool move_ranges(const OverlayIndex& index, uint32_t place_of_last);
 
         Ascent ascent;
-        BorderRanges ranges;
+        SampledAscent sampled;
+        Array<BorderRange> ranges; // one for each patch of the ascent
         MeasuredEnd measured;
     };
-
-    // What the border where `to_` ends its climb is reached from: an end that has climbed, too, or a vertex
-    // whose distances to that border are known.
-    struct Climber;
-    template <class DistanceTo>
-    struct KnownVertex;
 
     // Where `to_` has climbed to: the ends meet on the border of this patch.
     uint32_t meeting_patch() const { return to_.ascent.last_patch(); }
 
     float distance_inside(uint32_t patch, uint32_t low, uint32_t high) const;
-    float distance_to_border(uint32_t patch, uint32_t border_vertex, uint32_t vertex) const;
-
-    template <class From>
-    float meet(const From& from);
-    template <class From>
-    float measure(const From& from);
+    float distance_to_border(uint32_t border_vertex, uint32_t vertex) const;
+    float meet();
+    bool has_few_pairs() const;
+    std::span<const float> sample_from();
+    void measure_ways(std::span<const float> from, std::span<const float> to);
+    void take_ranges(uint32_t sample, BorderRange of_meeting_border);
+    float follow(float other_way);
+    bool move_ranges(uint32_t place);
+    float measure(uint32_t& place);
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
-    const uint32_t prepared_level_;
     BorderCrossing crossing_;
     End from_, to_;
-    // The other end's distances to the samples of the meeting border.
-    ReachedSamples samples_;
+    Array<float> from_samples_; // the distances of `from_` to the samples of the meeting border
+    Array<float> lengths_;      // of the ways over these samples
     Array<float> from_distances_;
+    Array<uint16_t> from_winners_; // see MeasuredEnd::cross_to()
+    uint32_t from_crossed_ = 0;
 };
 
 }

@@ -1,0 +1,128 @@
+#include "src/overlay/sssd/sampled_ascent.h"
+
+#include <algorithm>
+
+#include "src/overlay/kernels/dispatch.h"
+#include "src/overlay/samples.h"
+#include "src/overlay/sssd/border_range.h"
+
+namespace geodesic {
+
+namespace {
+
+size_t largest_sample_count(const OverlayIndex& index) {
+    size_t largest = 0;
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p)
+        largest = std::max(largest, index.pairs.samples.of(p).size());
+    return largest;
+}
+
+}
+
+SampledAscent::SampledAscent(const OverlayIndex& index, std::pmr::memory_resource* memory)
+    : index_(index), stride_(SourceCode::whole_blocks(largest_sample_count(index))), borders_(memory),
+      distances_(memory), winners_(memory), rows_(memory), codes_(stride_, memory), column_distances_(memory),
+      column_winners_(memory) {
+    const size_t borders = index.numbering.level_count() + 1;
+    borders_.reserve(borders);
+    distances_.resize(borders * stride_);
+    winners_.resize(borders * stride_);
+    rows_.resize(borders * stride_);
+    column_distances_.resize(SourceCode::whole_blocks(LONGEST_WITHOUT_TABLE_ACROSS));
+    column_winners_.resize(column_distances_.size());
+}
+
+void SampledAscent::climb(const Ascent& ascent) {
+    const Samples& samples = index_.pairs.samples;
+    for (size_t b = 0; b + 1 < ascent.patches.size(); ++b)
+        prefetch(samples.codes.data() + samples.up_begin[ascent.patches[b]],
+                 samples.of(ascent.patches[b]).size() * samples.of(ascent.patches[b + 1]).size());
+    const auto innermost = samples.of(ascent.patches.front());
+    const RingRow& row = ascent.first_row;
+    for (size_t i = 0; i < innermost.size(); ++i) distances_[i] = row(row.first + innermost[i]);
+    std::fill(distances_.begin() + innermost.size(),
+              distances_.begin() + SourceCode::whole_blocks(innermost.size()), INFINITE);
+    borders_.assign(1, {.patch = ascent.patches.front(), .samples = innermost.size()});
+    for (size_t b = 1; b < ascent.patches.size(); ++b) {
+        const size_t columns = samples.of(ascent.patches[b]).size();
+        const uint16_t* table = samples.codes.data() + samples.up_begin[ascent.patches[b - 1]];
+        hop({.patch = ascent.patches[b], .samples = columns, .quantum = index_.quantum[ascent.patches[b]]},
+            columns, [&](size_t i) { return table + i * columns; });
+    }
+}
+
+void SampledAscent::hop_across(const Ascent& ascent, uint32_t sibling) {
+    const Samples& samples = index_.pairs.samples;
+    const uint32_t patch = ascent.last_patch();
+    const float quantum = index_.quantum[index_.numbering.parent[patch]];
+    const auto to = samples.of(sibling);
+    if (has_table_across(index_, sibling)) {
+        const uint16_t* table =
+            samples.codes.data() + samples.across_begin[sibling] + samples.first_row[patch] * to.size();
+        hop({.patch = sibling, .samples = to.size(), .quantum = quantum}, to.size(),
+            [&](size_t i) { return table + i * to.size(); });
+        return;
+    }
+    const uint16_t* from = samples.of(patch).data();
+    const uint32_t* position = index_.rings.position.data() + index_.rings.begin[patch];
+    const uint32_t* overlay_position =
+        index_.numbering.overlay_position.data() + index_.numbering.border_begin[patch];
+    hop({.patch = sibling, .samples = to.size(), .quantum = quantum, .places = to.data()},
+        index_.rings.size(sibling), [&](size_t i) {
+            return index_.hops.outer.data() + index_.outer_row(sibling, overlay_position[position[from[i]]]);
+        });
+}
+
+float SampledAscent::way_over(size_t border, uint32_t before, uint32_t sample) const {
+    const Border& to = borders_[border];
+    const uint16_t entry = to.rows[before][to.places ? to.places[sample] : sample];
+    return distances_of(border - 1)[before] + TableCode::distance(entry, to.quantum);
+}
+
+// row(i) is the row of the i-th sample of the last border.
+template <class Row>
+void SampledAscent::hop(const Border& to, size_t columns, const Row& row) {
+    const size_t border = borders_.size(), count = borders_.back().samples;
+    const uint16_t** rows = rows_.data() + border * stride_;
+    for (size_t i = 0; i < count; ++i) rows[i] = row(i);
+    float* distance = distances_of(border);
+    uint16_t* winner = winners_.data() + border * stride_;
+    runnable_kernels().back().cross_samples(
+        {distances_of(border - 1), to.quantum, index_.pairs.samples.long_segments_of(borders_.back().patch),
+         codes_.data()},
+        {rows, count}, columns, to.places ? column_distances_.data() : distance,
+        to.places ? column_winners_.data() : winner);
+    if (to.places)
+        for (size_t i = 0; i < to.samples; ++i) {
+            distance[i] = column_distances_[to.places[i]];
+            winner[i] = column_winners_[to.places[i]];
+        }
+    std::fill(distance + to.samples, distance + SourceCode::whole_blocks(to.samples), INFINITE);
+    const uint32_t before = borders_.back().patch;
+    borders_.push_back(to);
+    borders_.back().rows = rows;
+    if (index_.longest_segment[before] == 0) measure_over_vertices(before);
+}
+
+// Corrects the distances from the samples of the last border, which are those of rounded codes: the border
+// before has no segments, so that all of its vertices are samples, in its order.
+void SampledAscent::measure_over_vertices(uint32_t before) {
+    const size_t border = borders_.size() - 1;
+    const uint32_t patch = borders_.back().patch;
+    const auto places = index_.pairs.samples.of(patch);
+    float* distance = distances_of(border);
+    for (uint32_t i = 0; i < places.size(); ++i) {
+        uint16_t& winner = winners_[border * stride_ + i];
+        const uint32_t vertex = index_.rings.vertex[index_.rings.begin[patch] + places[i]];
+        const auto common =
+            std::ranges::find(index_.numbering.borders_of(vertex), before, &PatchPosition::patch);
+        if (common != index_.numbering.borders_of(vertex).end()) {
+            winner = static_cast<uint16_t>(common->position);
+            distance[i] = distances_of(border - 1)[winner];
+        } else if (distance[i] < INFINITE) {
+            distance[i] = way_over(border, winner, i);
+        }
+    }
+}
+
+}

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory_resource>
+#include <span>
+
+#include "src/overlay/sssd/ascent.h"
+#include "src/overlay/tables.h"
+
+namespace geodesic {
+
+// The distances of one end from the samples of all borders of its ascent, by ways over samples only. Borders
+// are counted from the innermost one, and samples from the first one of their border. Over borders without
+// segments these are the distances.
+class SampledAscent {
+public:
+    SampledAscent(const OverlayIndex& index, std::pmr::memory_resource* memory);
+
+    // Hops from border to border. The index must have its samples.
+    void climb(const Ascent& ascent);
+
+    // Hops from the samples of the last border to those of a sibling's border, which is then the last one.
+    void hop_across(const Ascent& ascent, uint32_t sibling);
+
+    // The distances from the samples of the last border.
+    std::span<const float> last_distances() const {
+        return {distances_of(borders_.size() - 1), borders_.back().samples};
+    }
+
+    // The sample, of the border before, that the way to a sample of a border comes over. There must be a way.
+    uint32_t sample_before(size_t border, uint32_t sample) const {
+        return winners_[border * stride_ + sample];
+    }
+
+    // How long the way to a sample of a border is over a sample of the border before.
+    float way_over(size_t border, uint32_t before, uint32_t sample) const;
+
+private:
+    // What a hop to a border reads: for each sample of the border before a row, which has one entry for each
+    // sample of the border or for each place of its ring.
+    struct Border {
+        uint32_t patch = 0;
+        size_t samples = 0;
+        float quantum = 0;
+        const uint16_t* const* rows = nullptr;
+        const uint16_t* places = nullptr; // of the samples; NULL where the entries are those of samples
+    };
+
+    float* distances_of(size_t border) { return distances_.data() + border * stride_; }
+    const float* distances_of(size_t border) const { return distances_.data() + border * stride_; }
+    template <class Row>
+    void hop(const Border& to, size_t columns, const Row& row);
+    void measure_over_vertices(uint32_t before);
+
+    const OverlayIndex& index_;
+    const size_t stride_; // room for what there is of one border, in whole blocks
+    Array<Border> borders_;
+    Array<float> distances_;
+    Array<uint16_t> winners_;
+    Array<const uint16_t*> rows_;
+    // Scratch of a hop.
+    Array<int16_t> codes_;
+    Array<float> column_distances_;
+    Array<uint16_t> column_winners_;
+};
+
+}
