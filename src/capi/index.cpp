@@ -78,8 +78,8 @@ public:
     explicit Opening(const geoidx_open_options* given)
         : options_(whole_or_default(given, geoidx_open_options_init)),
           index_(make_index(options_.allocator)) {
-        require((options_.flags & ~uint32_t{GEOIDX_OPEN_PAIRS | GEOIDX_OPEN_BORROW}) == 0,
-                "flags has bits that mean nothing");
+        constexpr uint32_t FLAGS = GEOIDX_OPEN_PAIRS | GEOIDX_OPEN_BORROW | GEOIDX_OPEN_NO_LABELS;
+        require((options_.flags & ~FLAGS) == 0, "flags has bits that mean nothing");
         if (options_.max_memory != 0) index_->memory.set_limit(options_.max_memory);
     }
 
@@ -113,6 +113,7 @@ private:
         prepare(read_index(container, {thread_count(options_.threads), options_.max_vertices}), index);
         list_sections(container, index_->sections);
         check_mesh_matches(options_.expected_mesh, index.description);
+        if (options_.flags & GEOIDX_OPEN_NO_LABELS) leave_out_labels(index);
         if (options_.flags & GEOIDX_OPEN_PAIRS) prepare_pairs(index);
         return index_.release();
     }

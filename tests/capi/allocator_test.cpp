@@ -126,7 +126,7 @@ TEST_CASE("flags of opening that mean nothing are refused") {
     geoidx_open_options options;
     geoidx_open_options_init(&options);
     CHECK(options.flags == 0);
-    options.flags = GEOIDX_OPEN_PAIRS | GEOIDX_OPEN_BORROW | 4;
+    options.flags = GEOIDX_OPEN_PAIRS | GEOIDX_OPEN_BORROW | 8;
     const Bytes file = save(build(small_mesh(), build_options()).get());
     geoidx* index = not_null();
     CHECK(geoidx_open_memory(file.data(), file.size(), &options, &index) == GEOIDX_ERROR_INVALID_ARGUMENT);

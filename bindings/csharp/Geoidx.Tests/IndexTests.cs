@@ -220,6 +220,30 @@ namespace Geoidx.Tests
             Assert.Equal(plane.Distance(0, plane.VertexCount - 1), opened.Distance(0, plane.VertexCount - 1));
         }
 
+        [Theory]
+        [InlineData(false)]
+        [InlineData(true)]
+        public void AnIndexIsOpenedWithoutLabels(bool pairs)
+        {
+            const int side = 40;
+            using GeodesicIndex built = GeodesicIndex.Build(Shapes.Plane(side));
+            byte[] bytes = built.ToBytes();
+            var counting = new CountingAllocator();
+            var countingLabels = new CountingAllocator();
+            using GeodesicIndex opened = GeodesicIndex.Open(
+                bytes, new OpenOptions { Pairs = pairs, Labels = false, Allocator = counting });
+            using GeodesicIndex labelled = GeodesicIndex.Open(
+                bytes, new OpenOptions { Pairs = pairs, Allocator = countingLabels });
+            for (int target = 0; target < side * side; target += 37)
+            {
+                AssertNearly(Shapes.PlaneDistance(side, 17, target), opened.Distance(17, target));
+                Assert.Equal(built.Distance(17, target), labelled.Distance(17, target));
+            }
+            Assert.InRange(counting.Bytes, 1, countingLabels.Bytes - 1);
+            Assert.Equal(built.FromSources(17), opened.FromSources(17));
+            Assert.Equal(bytes, opened.ToBytes());
+        }
+
         [Fact]
         public void AnIndexVerifies() => Assert.Empty(GeodesicIndex.Verify(plane.ToBytes()));
 

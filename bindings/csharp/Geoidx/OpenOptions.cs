@@ -15,6 +15,15 @@ namespace Geoidx
         /// </summary>
         public bool Pairs { get; set; }
 
+        /// <summary>
+        /// Makes labels a part of what distances between two vertices need: the distances of each vertex to a border
+        /// that lies farther out. Without labels all of this takes a quarter of the memory and a tenth of the time to
+        /// be made, and each distance between two vertices takes about twice as long and differs by
+        /// 0.01 % or so. Fields do not need labels and stay the same bits. An index that was just built has labels.
+        /// Default: true.
+        /// </summary>
+        public bool Labels { get; set; } = true;
+
         /// <summary>Threads that decode tables. Default: 0, one per processor.</summary>
         public int Threads { get; set; }
 

@@ -189,6 +189,7 @@ class Files(unittest.TestCase):
             self.assert_same(geoidx.Index.open(path))
             self.assert_same(geoidx.Index.open(path, expected_mesh=self.mesh))
             self.assertEqual(geoidx.Index.open(path, pairs=True, threads=2).sssd(0, 9), self.index.sssd(0, 9))
+            self.assert_same(geoidx.Index.open(path, labels=False))
         self.assertEqual(plain.read_bytes(), self.data)
         for path in ("a\0b", b"a\0b"):
             with self.assertRaises(ValueError):

@@ -95,8 +95,9 @@ class Layout(unittest.TestCase):
 
     def test_constants(self):
         expected = {prefix + member.name: int(member) for prefix, enum in ENUMS.items() for member in enum}
-        names = "POSITION_FLOAT", "POSITION_DOUBLE", "METRIC_UNFOLDABLE", "OPEN_PAIRS", "OPEN_BORROW", "MAX_LEVELS"
-        for name in names:
+        names = "POSITION_FLOAT", "POSITION_DOUBLE", "METRIC_UNFOLDABLE", "MAX_LEVELS"
+        flags = "OPEN_PAIRS", "OPEN_BORROW", "OPEN_NO_LABELS"
+        for name in names + flags:
             expected["GEOIDX_" + name] = getattr(_native, name)
         for name, number in zip(("MAJOR", "MINOR", "PATCH"), _native.HEADER_VERSION):
             expected["GEOIDX_VERSION_" + name] = number

@@ -163,6 +163,24 @@ class Closing(unittest.TestCase):
             limited.sssd(0, 1599)
         np.testing.assert_array_equal(limited.msad(0), field)
 
+    def test_pairs_without_labels_take_less_memory(self):
+        vertices, faces = plane(40, 40)
+        built = geoidx.Index.build(vertices, faces)
+        data = built.to_bytes()
+        targets = np.arange(0, 1600, 37)
+        for pairs in (False, True):
+            sizes = []
+            for labels in (False, True):
+                memory = Memory()
+                with geoidx.Index.from_bytes(data, pairs=pairs, labels=labels, allocator=memory.allocator) as opened:
+                    distances = opened.sssd(17, targets)
+                    sizes.append(sum(memory.blocks.values()))
+                    np.testing.assert_allclose(distances, straight(vertices, 17, targets), rtol=0.05)
+                    np.testing.assert_array_equal(opened.msad(17), built.msad(17))
+                    self.assertEqual(opened.to_bytes(), data)
+            np.testing.assert_array_equal(distances, built.sssd(17, targets))
+            self.assertLess(*sizes)
+
     def test_failures_leak_nothing(self):
         self.index.close()
 

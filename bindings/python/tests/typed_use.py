@@ -35,7 +35,7 @@ def ask(vertices: NDArray[np.float32], faces: NDArray[np.int64]) -> None:
         data: bytes = index.to_bytes(codec="packed")
         codec: geoidx.Codec = index.info.codec
         geoidx.Index.open("index.geoidx", max_vertices=len(vertices), max_memory=1 << 30).close()
-        geoidx.Index.from_bytes(data, max_memory=1 << 30, borrow=True).close()
+        geoidx.Index.from_bytes(data, max_memory=1 << 30, borrow=True, labels=False).close()
         sections: tuple[geoidx.Section, ...] = index.sections
     solver = geoidx.Solver(vertices, faces, metric=geoidx.Weighted(np.ones(len(faces))))
     exact: NDArray[np.float64] = solver.distances(0)

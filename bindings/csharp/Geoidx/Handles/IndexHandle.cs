@@ -51,6 +51,7 @@ namespace Geoidx
             native.expected_mesh = expected;
             if (options == null) return native;
             if (options.Pairs) native.flags |= (uint)OpenFlags.Pairs;
+            if (!options.Labels) native.flags |= (uint)OpenFlags.NoLabels;
             native.threads = Arguments.NotNegative(options.Threads, nameof(options.Threads));
             native.max_vertices = Arguments.NotNegative(options.MaxVertices, nameof(options.MaxVertices));
             native.max_memory = Arguments.NotNegative(options.MaxMemory, nameof(options.MaxMemory));

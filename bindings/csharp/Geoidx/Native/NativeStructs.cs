@@ -64,6 +64,7 @@ namespace Geoidx
     {
         Pairs = 1,
         Borrow = 2,
+        NoLabels = 4,
     }
 
     [StructLayout(LayoutKind.Sequential)]

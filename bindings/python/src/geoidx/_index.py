@@ -40,12 +40,13 @@ def _open_options(
     expected_mesh: tuple[ArrayLike, ArrayLike] | None,
     allocator: Allocator | None,
     pairs: bool,
+    labels: bool,
     threads: int,
     max_vertices: int,
     max_memory: int,
 ) -> OpenOptions:
     mesh = None if expected_mesh is None else _mesh_of(expected_mesh)
-    return OpenOptions(mesh, allocator, pairs, threads, max_vertices, max_memory)
+    return OpenOptions(mesh, allocator, pairs, labels, threads, max_vertices, max_memory)
 
 
 def _read_info(handle: Handle) -> Info:
@@ -144,6 +145,7 @@ class Index(Closable):
         expected_mesh: tuple[ArrayLike, ArrayLike] | None = None,
         allocator: Allocator | None = None,
         pairs: bool = False,
+        labels: bool = True,
         threads: int = 0,
         max_vertices: int = 0,
         max_memory: int = 0,
@@ -154,6 +156,11 @@ class Index(Closable):
             same faces, and vertices that are equal as float32, whichever of the two was given as float64.
         pairs: makes ready what distances between two vertices need. Otherwise the first one that is asked for does;
             where only fields are asked for, it is never made and takes no memory.
+        labels: makes labels a part of what distances between two vertices need: the distances of each vertex to a
+            border that lies farther out. Without labels all of this takes a quarter of the memory and a tenth of the
+            time to be made, and each distance between two vertices takes about twice as long and
+            differs by 0.01 % or so. Fields do not need labels and stay the same bits. An index that was just built has
+            labels.
         threads: that decode tables. 0: one per processor.
         max_vertices: the most vertices that the index may have, else LimitError. 0: any number.
         max_memory: the most bytes that the decoded sections of the file may take, and the most that the index with its
@@ -166,7 +173,7 @@ class Index(Closable):
         and FormatError, which is a ValueError. A path that no file can have is an InvalidArgumentError.
         """
         name = native_path(path)
-        options = _open_options(expected_mesh, allocator, pairs, threads, max_vertices, max_memory)
+        options = _open_options(expected_mesh, allocator, pairs, labels, threads, max_vertices, max_memory)
         return cls._opened(options, lambda *rest: library.geoidx_open(name, *rest), path)
 
     @classmethod
@@ -177,6 +184,7 @@ class Index(Closable):
         expected_mesh: tuple[ArrayLike, ArrayLike] | None = None,
         allocator: Allocator | None = None,
         pairs: bool = False,
+        labels: bool = True,
         threads: int = 0,
         max_vertices: int = 0,
         max_memory: int = 0,
@@ -194,7 +202,7 @@ class Index(Closable):
         if borrow and type(data) is not bytes:
             raise TypeError(f"only bytes can be borrowed, not {type(data).__name__}")
         view = bytes_of_buffer(data)
-        options = _open_options(expected_mesh, allocator, pairs, threads, max_vertices, max_memory)
+        options = _open_options(expected_mesh, allocator, pairs, labels, threads, max_vertices, max_memory)
         if borrow:
             options.borrow(view)
         return cls._opened(options, lambda *rest: library.geoidx_open_memory(address(view), view.size, *rest))

@@ -31,6 +31,7 @@ POSITION_DOUBLE = 1
 METRIC_UNFOLDABLE = 1
 OPEN_PAIRS = 1
 OPEN_BORROW = 2
+OPEN_NO_LABELS = 4
 
 AllocateFn = CFUNCTYPE(c_void_p, c_void_p, c_uint64, c_uint64)
 ReleaseFn = CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint64)

@@ -64,6 +64,7 @@ class OpenOptions:
         expected_mesh: MeshView | None,
         allocator: Allocator | None,
         pairs: bool,
+        labels: bool,
         threads: int,
         max_vertices: int,
         max_memory: int,
@@ -72,6 +73,8 @@ class OpenOptions:
         library.geoidx_open_options_init_sized(byref(self.struct), sizeof(self.struct))
         if pairs:
             self.struct.flags |= _native.OPEN_PAIRS
+        if not labels:
+            self.struct.flags |= _native.OPEN_NO_LABELS
         self.struct.threads = whole_number(threads, "threads")
         self.struct.max_vertices = whole_number(max_vertices, "max_vertices", UINT64_MAX)
         self.struct.max_memory = whole_number(max_memory, "max_memory", UINT64_MAX)
