@@ -9,9 +9,10 @@ namespace geodesic {
 
 namespace {
 
-// Every second vertex of a border is a sample, more or less, but of no border many more than MOST are. A
-// chain of at least FEWEST_OF_CHAIN vertices has as many samples or more.
-constexpr double SHARE = 0.5, MOST = 64;
+// A border has about WANTED samples, but no more than MOST_SHARE of its vertices and no fewer than
+// LEAST_SHARE of them. A chain has FEWEST_OF_CHAIN samples or more, or all of its vertices if these are
+// fewer: where nothing unfolds, each vertex is a chain by itself.
+constexpr double WANTED = 64, MOST_SHARE = 1.0 / 2, LEAST_SHARE = 1.0 / 8;
 constexpr uint32_t FEWEST_OF_CHAIN = 3;
 
 // Calls use(place, length) for each segment of a border. It begins at a place of its own, counted over all
@@ -25,7 +26,8 @@ void for_each_segment(const OverlayIndex& index, uint32_t patch, const Use& use)
 
 // The share of the vertices of a patch's border that are to be samples.
 double share_of(const OverlayIndex& index, uint32_t patch) {
-    return std::min(SHARE, MOST / std::max(1u, index.numbering.border_size(patch)));
+    const uint32_t size = std::max(1u, index.numbering.border_size(patch));
+    return std::clamp(WANTED / size, LEAST_SHARE, MOST_SHARE);
 }
 
 // How far samples are to be apart along a border, on average. Segments longer than this are long.
