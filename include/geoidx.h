@@ -239,7 +239,7 @@ static inline void geoidx_build_options_init(geoidx_build_options* options) {
 }
 
 /* Flags of geoidx_open_options. GEOIDX_OPEN_PAIRS makes an index ready for pairs of vertices while it is
- * opened. Without it, the first call that asks for a pair (geoidx_sssd, geoidx_query_prepare and the like)
+ * opened. Without it, the first call that asks for a pair (geoidx_sssd, geoidx_query_sssd and the like)
  * makes what pairs need, once for all threads: about 0.04 s for 40,000 vertices, and about half as much
  * memory as the rest of the index. An index of which only fields are asked never takes either. It is the same
  * for an index that was just built. The answers are the same bits. Nothing is made for GEOIDX_ENGINE_GRAPH.
@@ -251,7 +251,7 @@ enum {
     GEOIDX_OPEN_BORROW = 2,
     /* What pairs need is made without labels, the distances of each vertex to a border that lies farther out.
      * Pairs then take a tenth of the time to be made ready for, and a quarter of the memory, and each takes
-     * about twice as long. Answers differ from those with labels by 0.01 % on average, and by 1 % or so at
+     * about twice as long. Answers differ from those with labels by 0.01 % on average, and by 1 to 3 % at
      * most. An index that was just built has labels. */
     GEOIDX_OPEN_NO_LABELS = 4
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -37,10 +38,10 @@ void for_each_labelled(const OverlayIndex& index, const Use& use) {
 // vertices as sources at a time, and writes the distances into the labels of those inner vertices.
 class LabelSweep {
 public:
-    LabelSweep(const OverlayIndex& index, Labels& labels)
-        : index_(index), labels_(labels), numbering_(index.numbering),
-          sweep_(index, SOURCES, std::pmr::get_default_resource()),
-          distances_(SOURCES * index.numbering.vertex_count()), begin_(index.numbering.patch_count()) {}
+    LabelSweep(const OverlayIndex& index, Labels& labels, std::pmr::memory_resource* memory)
+        : index_(index), labels_(labels), numbering_(index.numbering), sweep_(index, SOURCES, memory),
+          distances_(SOURCES * index.numbering.vertex_count(), memory), of_border_(memory),
+          begin_(index.numbering.patch_count(), memory), codes_(memory) {}
 
     void label(uint32_t patch) {
         lay_out_distances(patch);
@@ -124,12 +125,12 @@ private:
     Labels& labels_;
     const Numbering& numbering_;
     InnerSweep sweep_;
-    std::vector<float> distances_; // [number * SOURCES + source], from the current sources
+    Array<float> distances_; // [number * SOURCES + source], from the current sources
     // From the whole border: a row for each inner vertex of each descendant.
-    std::vector<float> of_border_;
-    std::vector<size_t> begin_; // per patch: where its rows begin in of_border_
+    Array<float> of_border_;
+    Array<size_t> begin_; // per patch: where its rows begin in of_border_
     size_t border_size_ = 0;
-    std::vector<uint16_t> codes_; // of the rows of one patch, by border vertices
+    Array<uint16_t> codes_; // of the rows of one patch, by border vertices
 };
 
 }
@@ -160,7 +161,7 @@ void make_labels(const OverlayIndex& index, bool with_labels, Labels& labels) {
     });
     if (codes == 0) return;
     labels.codes.resize(codes + TableCode::PADDING);
-    LabelSweep sweep(index, labels);
+    LabelSweep sweep(index, labels, labels.codes.get_allocator().resource());
     for_each_labelled(index, [&](uint32_t patch) { sweep.label(patch); });
 }
 

@@ -42,7 +42,6 @@ struct HopTables {
 // every sample of the parent. Across: for each patch whose border is long, rows for the samples of all
 // children of its parent, in the order of their numbers, each with one code for every sample of the patch.
 // Where a border is not long, hops across read the outer table of its patch.
-//
 struct Samples {
     explicit Samples(std::pmr::memory_resource* memory)
         : begin(memory), place(memory), spacing(memory), long_begin(memory), long_segments(memory),

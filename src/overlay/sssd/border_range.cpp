@@ -7,7 +7,7 @@ namespace {
 // A range has so many places on each side of where a way is expected to cross.
 constexpr uint32_t EACH_SIDE = 5;
 
-// As far as the ring goes.
+// So many places on each side of one, as far as the ring goes.
 BorderRange range_about(const OverlayIndex& index, uint32_t patch, uint32_t place, uint32_t each_side) {
     const BorderRange whole = whole_border(index, patch);
     return {place - std::min(each_side, place - whole.first),
@@ -26,7 +26,7 @@ BorderRange whole_border(const OverlayIndex& index, uint32_t patch) {
     return {index.rings.begin[patch], index.rings.begin[patch + 1] - 1};
 }
 
-// The lengths are taken for those of a parabola.
+// A parabola through the three lengths has its lowest point where the shortest way is expected.
 BorderRange range_near(const OverlayIndex& index, uint32_t patch, uint32_t sample,
                        const WaysNearSample& ways) {
     const auto places = index.pairs.samples.of(patch);

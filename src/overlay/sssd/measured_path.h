@@ -49,8 +49,8 @@ public:
         return crossed_[border - 1] + winners_[border * stride_ + place - ranges_[border].first];
     }
 
-    // Crosses from the range of the last border to a range of a sibling's border. winners[i]: the place, on
-    // the last border, that the way to the i-th place of the range comes over, counted from the place that is
+    // Crosses from the range of the last border to a range of a sibling's border. The way to the i-th place
+    // of the range comes over the place first + winners[i] of the last border, where `first` is what is
     // returned.
     uint32_t cross_to(const Ascent& ascent, uint32_t sibling, BorderRange range, BorderCrossing& crossing,
                       std::span<float> out, std::span<uint16_t> winners) const;
@@ -63,8 +63,9 @@ private:
     const size_t stride_;
     Array<BorderRange> ranges_;
     Array<float> distances_;
-    Array<uint16_t> winners_; // counted from `crossed_` of the border before
-    Array<uint32_t> crossed_; // per border: the first place that was crossed
+    // The way to a place comes over the place crossed_[b - 1] + winner of the border before.
+    Array<uint16_t> winners_;
+    Array<uint32_t> crossed_; // per border: the first of the places that the kernel has crossed
 };
 
 }

@@ -81,7 +81,7 @@ bool OverlaySssd::End::take_whole_borders(const OverlayIndex& index) {
 }
 
 // Takes the ranges near the way over samples to a sample of the last border, where `last_range` is, and asks
-// for the codes from each range to the next one.
+// for what the rings hold of them.
 void OverlaySssd::End::take_ranges(const OverlayIndex& index, uint32_t sample, BorderRange last_range) {
     ranges.resize(ascent.patches.size());
     ranges.back() = last_range;
@@ -168,7 +168,8 @@ float OverlaySssd::distance_to_border(uint32_t border_vertex, uint32_t vertex) c
 }
 
 // Measures the path over whole borders if that takes little time, and over the ranges near each candidate
-// otherwise. Where no border has segments, samples alone tell.
+// otherwise. Where no border has segments, all vertices are samples, and
+// the shortest way over samples is the path.
 float OverlaySssd::meet() {
     if (has_few_pairs()) {
         uint32_t place;
@@ -214,7 +215,8 @@ std::span<const float> OverlaySssd::sample_from() {
     return from_samples_;
 }
 
-// Measures the ways over the samples of the meeting border. A way over a long segment counts for both ends.
+// Measures the ways over the samples of the meeting border. A way over a long segment counts for the
+// samples at both of its ends.
 void OverlaySssd::measure_ways(std::span<const float> from, std::span<const float> to) {
     lengths_.resize(from.size());
     for (size_t i = 0; i < from.size(); ++i) lengths_[i] = from[i] + to[i];
@@ -233,14 +235,19 @@ void OverlaySssd::measure_ways(std::span<const float> from, std::span<const floa
 // Takes the ranges of both ends near the ways over samples to a sample of the meeting border.
 void OverlaySssd::take_ranges(uint32_t sample, BorderRange of_meeting_border) {
     to_.take_ranges(index_, sample, of_meeting_border);
-    if (from_.is_at_top()) return;
-    const size_t meeting = from_.ascent.patches.size();
-    const uint32_t before = from_.sampled.sample_before(meeting, sample);
-    from_.take_ranges(
-        index_, before,
-        range_before(index_, from_.ascent.last_patch(), from_.sampled, meeting, before, sample));
+    if (!from_.is_at_top()) {
+        const size_t meeting = from_.ascent.patches.size();
+        const uint32_t before = from_.sampled.sample_before(meeting, sample);
+        from_.take_ranges(
+            index_, before,
+            range_before(index_, from_.ascent.last_patch(), from_.sampled, meeting, before, sample));
+    }
+    prefetch_rows();
+}
+
+void OverlaySssd::prefetch_rows() const {
     to_.prefetch_rows(index_);
-    from_.prefetch_rows(index_);
+    if (!from_.is_at_top()) from_.prefetch_rows(index_);
 }
 
 // Measures the path over the ranges that both ends have taken, and moves the ranges along with it while it
@@ -266,8 +273,7 @@ bool OverlaySssd::move_ranges(uint32_t place) {
         moved = from_.move_ranges(index_, from_crossed_ + winner) || moved;
     }
     if (!moved) return false;
-    to_.prefetch_rows(index_);
-    from_.prefetch_rows(index_);
+    prefetch_rows();
     return true;
 }
 

@@ -58,6 +58,7 @@ private:
     std::span<const float> sample_from();
     void measure_ways(std::span<const float> from, std::span<const float> to);
     void take_ranges(uint32_t sample, BorderRange of_meeting_border);
+    void prefetch_rows() const;
     float follow(float other_way);
     bool move_ranges(uint32_t place);
     float measure(uint32_t& place);
@@ -70,7 +71,7 @@ private:
     Array<float> lengths_;      // of the ways over these samples
     Array<float> from_distances_;
     Array<uint16_t> from_winners_; // see MeasuredEnd::cross_to()
-    uint32_t from_crossed_ = 0;
+    uint32_t from_crossed_ = 0;    // the place that winner 0 stands for
 };
 
 }
