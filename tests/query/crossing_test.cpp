@@ -306,8 +306,8 @@ TEST_CASE("crossing: two ends meet only where both reach the border") {
 TEST_CASE("crossing: over samples it takes the least sum, with every instruction set") {
     std::mt19937 random(11);
     const float quantum = 0.25f;
-    for (size_t samples : {1, 2, 31, 32, 33, 70})
-        for (size_t columns : {1, 15, 32, 33, 100}) {
+    for (const size_t samples : {1u, 2u, 31u, 32u, 33u, 70u})
+        for (const size_t columns : {1u, 15u, 32u, 33u, 100u}) {
             CAPTURE(samples);
             CAPTURE(columns);
             const size_t stride = SourceCode::whole_blocks(columns) + SourceCode::BLOCK;

@@ -40,8 +40,8 @@ void SampledAscent::climb(const Ascent& ascent) {
     const auto innermost = samples.of(ascent.patches.front());
     const RingRow& row = ascent.first_row;
     for (size_t i = 0; i < innermost.size(); ++i) distances_[i] = row(row.first + innermost[i]);
-    std::fill(distances_.begin() + innermost.size(),
-              distances_.begin() + SourceCode::whole_blocks(innermost.size()), INFINITE);
+    std::fill(distances_of(0) + innermost.size(),
+              distances_of(0) + SourceCode::whole_blocks(innermost.size()), INFINITE);
     borders_.assign(1, {.patch = ascent.patches.front(), .samples = innermost.size()});
     for (size_t b = 1; b < ascent.patches.size(); ++b) {
         const size_t columns = samples.of(ascent.patches[b]).size();
