@@ -27,7 +27,7 @@ public:
 private:
     void leave_gaps(uint32_t places);
 
-    const BorderRings& rings_;
+    const Rings& rings_;
     uint32_t any_ = NONE;
     bool are_several_ = false;
     RingSegments all_segments_{};

@@ -50,7 +50,7 @@ private:
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
-    const BorderRings& rings_;
+    const Rings& rings_;
     const Kernels& kernels_;
     size_t sources_;
     uint32_t patch_ = 0;

@@ -33,7 +33,7 @@ NearCrossing::NearCrossing(const OverlayIndex& index, size_t most_rows, std::pmr
       way_(most_rows, memory) {}
 
 void NearCrossing::cross_from_one(uint32_t patch, std::span<const NearVertex> vertices, const Ways& ways) {
-    const BorderRings& rings = index_.rings;
+    const Rings& rings = index_.rings;
     const uint32_t first = rings.begin[patch], places = rings.size(patch);
     const auto border = field_.begin(rings, first, places, ways.targets.quantum);
     for (const NearVertex& v : vertices) own_[v.border_vertex] = std::min(own_[v.border_vertex], v.distance);

@@ -41,7 +41,7 @@ private:
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
-    const BorderRings& rings_;
+    const Rings& rings_;
     BorderField field_;
     uint32_t child_ = 0;
     Array<const uint16_t*> rows_;

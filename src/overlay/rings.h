@@ -13,10 +13,10 @@
 
 namespace geodesic {
 
-// The border of each patch as a *ring*: an array with a place for each vertex of the border, or for some of
-// its vertices, in the order of the border. Two places side by side are the ends of a segment or of a gap. At
-// each end of a chain, two more places repeat vertices: those that follow around a closed chain, or the end
-// of an open one. So every vertex's own place has two segments or gaps on each side.
+// The border of each patch as a *ring*: an array with a place for each vertex of the border, in the order of
+// the border. Two places side by side are the ends of a segment or of a gap. At each end of a chain, two more
+// places repeat vertices: those that follow around a closed chain, or the end of an open one. So every
+// vertex's own place has two segments or gaps on each side.
 struct Rings {
     // A path over a border vertex is straightened over this many segments on each side of it.
     static constexpr uint32_t REACH = 2;
@@ -26,27 +26,29 @@ struct Rings {
     static constexpr float GAP = std::numeric_limits<float>::quiet_NaN();
 
     explicit Rings(std::pmr::memory_resource* memory)
-        : begin(memory), position(memory), segment_length(memory), half_inverse(memory), is_own(memory),
-          chain_begin(memory), chains(memory) {}
+        : begin(memory), position(memory), vertex(memory), segment_length(memory), half_inverse(memory),
+          is_own(memory), chain_begin(memory), chains(memory), place_of_slot(memory) {}
 
-    // The first and the last own place of a chain's vertices, counted over all rings.
-    struct ChainPlaces {
+    // The first and the last own place of a chain's vertices, counted over all rings. A chain is a sequence
+    // of vertices each of which is joined to the next one by a segment.
+    struct Chain {
         uint32_t first, last;
         uint32_t is_closed;
     };
 
     Array<uint32_t> begin; // per patch
     // Per place.
-    Array<uint32_t> position;    // the vertex's position in the border
-    Array<float> segment_length; // of the segment to the next place; GAP if there is none
-    Array<float> half_inverse;   // 0.5 / segment_length
-    Array<int32_t> is_own;       // -1 at the vertex's own place, 0 where it is repeated
-    Array<uint32_t> chain_begin; // per patch: where its chains begin
-    Array<ChainPlaces> chains;
+    Array<uint32_t> position;      // the vertex's position in the border
+    Array<uint32_t> vertex;        // the vertex's number
+    Array<float> segment_length;   // of the segment to the next place; GAP if there is none
+    Array<float> half_inverse;     // 0.5 / segment_length
+    Array<int32_t> is_own;         // -1 at the vertex's own place, 0 where it is repeated
+    Array<uint32_t> chain_begin;   // per patch: where its chains begin
+    Array<Chain> chains;           // in the order of their places
+    Array<uint32_t> place_of_slot; // per slot: the vertex's own place in the ring of its patch
 
     uint32_t size(uint32_t patch) const { return begin[patch + 1] - begin[patch]; }
-    // In the order of their places.
-    std::span<const ChainPlaces> chains_of(uint32_t patch) const {
+    std::span<const Chain> chains_of(uint32_t patch) const {
         return {chains.data() + chain_begin[patch], chains.data() + chain_begin[patch + 1]};
     }
     uint32_t largest_size() const {
@@ -54,15 +56,6 @@ struct Rings {
         for (size_t p = 0; p + 1 < begin.size(); ++p) largest = std::max(largest, begin[p + 1] - begin[p]);
         return largest;
     }
-};
-
-// Rings in which every vertex of every border has a place.
-struct BorderRings : Rings {
-    explicit BorderRings(std::pmr::memory_resource* memory)
-        : Rings(memory), vertex(memory), place_of_slot(memory) {}
-
-    Array<uint32_t> vertex;        // per place: the vertex's number
-    Array<uint32_t> place_of_slot; // the vertex's own place in the ring of its patch
 };
 
 // Border segments, per slot (see Numbering). `end` is the position, in the same border, of the vertex at the
@@ -75,37 +68,12 @@ struct BorderSegments {
     explicit BorderSegments(size_t slots) : end(slots, NONE), length(slots, 0) {}
 };
 
-// Consecutive vertices of a border, each joined to the next one by a segment.
-struct Chain {
-    std::span<const uint32_t> positions; // of the vertices in the border
-    // Of the segments to the next vertex; in a closed chain, the last one leads to the first vertex.
-    std::span<const float> lengths;
-    bool is_closed;
-};
-
-// Fills rings patch by patch: begin(), then for each patch its chains and end_ring(), then end().
-class RingWriter {
-public:
-    explicit RingWriter(Rings& rings) : rings_(rings) {}
-
-    void begin();
-    void add_chain(const Chain& chain);
-    void end_ring(); // throws Error LIMIT if the ring has too many places
-    void end();
-
-private:
-    Rings& rings_;
-};
-
-// The chains of a patch's border, which are valid as long as the rings are.
-std::vector<Chain> chains_of_ring(const Rings& rings, uint32_t patch);
-
 // Fills empty rings from the stored segments. Throws Error CORRUPT where a segment does not end at the next
-// position or at the first of its chain.
+// position or at the first of its chain, and LIMIT where a ring has too many places.
 void lay_out_rings(std::span<const uint32_t> segment_end, std::span<const float> segment_length,
-                   const Numbering& numbering, BorderRings& rings);
+                   const Numbering& numbering, Rings& rings);
 
 // The segments from which lay_out_rings() made these rings.
-BorderSegments segments_of_rings(const BorderRings& rings, const Numbering& numbering);
+BorderSegments segments_of_rings(const Rings& rings, const Numbering& numbering);
 
 }

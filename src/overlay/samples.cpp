@@ -75,7 +75,7 @@ private:
 
     // Goes once around a closed chain, from a vertex that is a sample already if there is one, or from one
     // end of an open chain to the other.
-    void mark_chain(const Rings::ChainPlaces& chain, double share) {
+    void mark_chain(const Rings::Chain& chain, double share) {
         if (!chain.is_closed) is_sample(chain.first) = is_sample(chain.last) = 1;
         const uint32_t count = chain.last - chain.first + 1, steps = count - !chain.is_closed;
         uint32_t start = 0;

@@ -105,7 +105,7 @@ struct OverlayIndex {
     Numbering numbering;
     Array<float> quantum; // per patch: the distance of one step of its codes
     Array<uint8_t> shift; // per patch: its stored codes are multiples of 2^shift; only files need it
-    BorderRings rings;
+    Rings rings;
     Array<float> longest_segment; // per patch: length of the longest segment of its border, or 0
     HopTables hops;
     mutable PairTables pairs;

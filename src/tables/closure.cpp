@@ -36,15 +36,15 @@ struct LeastSums {
 };
 
 // The own place of a border vertex, counted over all rings.
-size_t own_place(const BorderRings& rings, const Numbering& numbering, uint32_t patch, uint32_t position) {
+size_t own_place(const Rings& rings, const Numbering& numbering, uint32_t patch, uint32_t position) {
     return size_t{rings.begin[patch]} + rings.place_of_slot[numbering.border_begin[patch] + position];
 }
 
 // Fills the distances from one vertex of a patch's overlay to all others, over the tables of the children.
 class RowFromBelow {
 public:
-    RowFromBelow(uint32_t patch, const Numbering& numbering, const BorderRings& rings,
-                 const DistanceTables& tables, std::span<float> row)
+    RowFromBelow(uint32_t patch, const Numbering& numbering, const Rings& rings, const DistanceTables& tables,
+                 std::span<float> row)
         : patch_(patch), first_slot_(numbering.border_begin[numbering.child_begin[patch]]),
           numbering_(numbering), rings_(rings), tables_(tables), row_(row),
           changed_(numbering.border_begin[numbering.child_begin[patch + 1]] - first_slot_, uint8_t{0}),
@@ -107,7 +107,7 @@ private:
 
     const uint32_t patch_, first_slot_;
     const Numbering& numbering_;
-    const BorderRings& rings_;
+    const Rings& rings_;
     const DistanceTables& tables_;
     std::span<float> row_;
     std::vector<uint8_t> changed_;       // per slot of the children
@@ -126,8 +126,8 @@ void make_symmetric(std::vector<float>& table, size_t size) {
 // Lowers one row of a patch's overlay table by paths that leave the patch over its border and come back.
 class RowFromAbove {
 public:
-    RowFromAbove(uint32_t patch, const Numbering& numbering, const BorderRings& rings,
-                 const DistanceTables& tables, std::span<const float> outside)
+    RowFromAbove(uint32_t patch, const Numbering& numbering, const Rings& rings, const DistanceTables& tables,
+                 std::span<const float> outside)
         : numbering_(numbering), rings_(rings), patch_(patch), border_(numbering.border_size(patch)),
           size_(numbering.overlay_size(patch)), table_(tables.overlay[patch]), outside_(outside) {}
 
@@ -161,7 +161,7 @@ private:
     }
 
     const Numbering& numbering_;
-    const BorderRings& rings_;
+    const Rings& rings_;
     const uint32_t patch_;
     const size_t border_, size_;
     std::span<const float> table_, outside_;
@@ -183,7 +183,7 @@ std::vector<float> border_block(uint32_t patch, const Numbering& numbering, cons
 
 }
 
-void close_from_below(uint32_t patch, const Numbering& numbering, const BorderRings& rings, Workers& workers,
+void close_from_below(uint32_t patch, const Numbering& numbering, const Rings& rings, Workers& workers,
                       DistanceTables& tables) {
     const size_t size = numbering.overlay_size(patch);
     std::vector<float>& table = tables.overlay[patch];
@@ -194,7 +194,7 @@ void close_from_below(uint32_t patch, const Numbering& numbering, const BorderRi
     make_symmetric(table, size);
 }
 
-void close_from_above(uint32_t patch, const Numbering& numbering, const BorderRings& rings, Workers& workers,
+void close_from_above(uint32_t patch, const Numbering& numbering, const Rings& rings, Workers& workers,
                       DistanceTables& tables) {
     const size_t size = numbering.overlay_size(patch);
     const auto outside = border_block(patch, numbering, tables);

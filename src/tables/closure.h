@@ -8,12 +8,12 @@ namespace geodesic {
 
 // Puts the overlay table of a patch together from the tables of its children. Entries are shortest paths over
 // the children's borders, straightened where they cross a border between two vertices.
-void close_from_below(uint32_t patch, const Numbering& numbering, const BorderRings& rings, Workers& workers,
+void close_from_below(uint32_t patch, const Numbering& numbering, const Rings& rings, Workers& workers,
                       DistanceTables& tables);
 
 // Lowers the overlay table of a patch by paths that leave the patch and come back. The parent's table holds
 // their distances.
-void close_from_above(uint32_t patch, const Numbering& numbering, const BorderRings& rings, Workers& workers,
+void close_from_above(uint32_t patch, const Numbering& numbering, const Rings& rings, Workers& workers,
                       DistanceTables& tables);
 
 }

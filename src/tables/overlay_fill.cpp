@@ -92,8 +92,8 @@ private:
 // Lowers the tables by those of their parents. The table of a patch is handed over once its children's are
 // lowered; the leaves' need no closure.
 void close_downwards_and_hand_over(const Numbering& numbering, const std::vector<uint8_t>& exact,
-                                   const BorderRings& rings, std::span<const float> rounding,
-                                   Workers& workers, DistanceTables& tables, StoredIndex& stored) {
+                                   const Rings& rings, std::span<const float> rounding, Workers& workers,
+                                   DistanceTables& tables, StoredIndex& stored) {
     for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
         if (p < numbering.first_leaf())
             for (uint32_t child = numbering.child_begin[p]; child < numbering.child_begin[p + 1]; ++child)
@@ -127,7 +127,7 @@ void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_fac
     BorderSegments segments(numbering.border.size());
     if (options.unfold) segments = find_segments(mesh, leaf_of_face, vertex_of_number, tables, numbering);
     if (!can_be_squared(segments)) segments = BorderSegments(numbering.border.size());
-    BorderRings rings(std::pmr::get_default_resource());
+    Rings rings(std::pmr::get_default_resource());
     lay_out_rings(segments.end, segments.length, numbering, rings);
     workers.begin_stage("closure", options.stage_end, closure_rows(numbering, exact));
     for (uint32_t p = numbering.first_leaf(); p-- > 0;)

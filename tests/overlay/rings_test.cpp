@@ -61,7 +61,7 @@ uint32_t slot_before(const BorderSegments& segments, const Numbering& numbering,
 
 // Whether around the place of a vertex there are two steps along segments to either side, or, where these
 // end, gaps.
-void check_neighbours(const BorderRings& rings, const BorderSegments& segments, const Numbering& numbering,
+void check_neighbours(const Rings& rings, const BorderSegments& segments, const Numbering& numbering,
                       uint32_t patch, uint32_t place) {
     const uint32_t first_slot = numbering.border_begin[patch], begin = rings.begin[patch];
     REQUIRE(place >= begin + 2);
@@ -94,7 +94,7 @@ TEST_CASE("rings: every vertex has one place of its own, and its neighbours foll
     for (int repetition = 0; repetition < 20; ++repetition) {
         const Numbering numbering = numbering_of({1, 2, 0, 40, 3, 65});
         const BorderSegments segments = random_segments(numbering, random);
-        BorderRings rings(memory());
+        Rings rings(memory());
         lay_out_rings(segments.end, segments.length, numbering, rings);
         for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
             std::vector<uint32_t> own_places(numbering.border_size(p), 0);
@@ -119,14 +119,14 @@ TEST_CASE("rings: give back the segments that they were made of") {
     for (int repetition = 0; repetition < 20; ++repetition) {
         const Numbering numbering = numbering_of({30, 0, 7, 100});
         const BorderSegments segments = random_segments(numbering, random);
-        BorderRings rings(memory());
+        Rings rings(memory());
         lay_out_rings(segments.end, segments.length, numbering, rings);
         const BorderSegments back = segments_of_rings(rings, numbering);
         CHECK(back.end == segments.end);
         CHECK(back.length == segments.length);
         uint32_t next = 0;
-        for (const Chain& chain : chains_of_ring(rings, 4))
-            for (const uint32_t position : chain.positions) CHECK(position == next++);
+        for (const Rings::Chain& chain : rings.chains_of(4))
+            for (uint32_t k = chain.first; k <= chain.last; ++k) CHECK(rings.position[k] == next++);
         CHECK(next == 100);
     }
 }
@@ -140,7 +140,7 @@ TEST_CASE("rings: a segment to another vertex than the next one, or the chain's 
         BorderSegments segments(12);
         for (uint32_t i = 0; i < from; ++i) segments.end[6 + i] = i + 1;
         segments.end[6 + from] = to;
-        BorderRings rings(memory());
+        Rings rings(memory());
         CHECK(failure_of([&] { lay_out_rings(segments.end, segments.length, numbering, rings); }) ==
               GEOIDX_ERROR_CORRUPT);
     }
@@ -151,7 +151,7 @@ TEST_CASE("rings: a border of more places than a winner's number can tell is ref
         const Numbering numbering = numbering_of({vertices});
         BorderSegments segments(vertices);
         for (uint32_t i = 0; i + 1 < vertices; ++i) segments.end[i] = i + 1;
-        BorderRings rings(memory());
+        Rings rings(memory());
         return failure_of([&] { lay_out_rings(segments.end, segments.length, numbering, rings); });
     };
     CHECK(status_of(0x7fff - 4) == GEOIDX_OK); // two repetitions at each end

@@ -80,8 +80,7 @@ TEST_CASE("samples: a vertex that is one of a border is one of all borders besid
 }
 
 // The longest way along a chain from a sample to the next one, in vertices.
-uint32_t longest_gap(const Rings::ChainPlaces& chain, std::span<const uint16_t> samples,
-                     uint32_t first_place) {
+uint32_t longest_gap(const Rings::Chain& chain, std::span<const uint16_t> samples, uint32_t first_place) {
     std::vector<uint32_t> places;
     for (const uint16_t place : samples)
         if (first_place + place >= chain.first && first_place + place <= chain.last)

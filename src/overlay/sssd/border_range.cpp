@@ -46,8 +46,7 @@ BorderRange range_beside(const OverlayIndex& index, uint32_t patch, BorderRange 
     const uint32_t each_side = std::max(EACH_SIDE, range.size() / 2);
     const uint32_t own = own_place(index, patch, place);
     if (own < range.first || own > range.last) return range_about(index, patch, own, each_side);
-    const auto chain =
-        *std::ranges::lower_bound(index.rings.chains_of(patch), own, {}, &Rings::ChainPlaces::last);
+    const auto chain = *std::ranges::lower_bound(index.rings.chains_of(patch), own, {}, &Rings::Chain::last);
     if (chain.is_closed && own == chain.first && range.last < chain.last)
         return range_about(index, patch, chain.last, each_side);
     if (chain.is_closed && own == chain.last && range.first > chain.first)

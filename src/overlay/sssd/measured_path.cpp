@@ -35,7 +35,7 @@ template <class OverlayPosition>
 uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, const float* distances,
                BorderRange to, const OverlayPosition& overlay_position, BorderCrossing& crossing, float* out,
                uint16_t* winners) {
-    const BorderRings& rings = index.rings;
+    const Rings& rings = index.rings;
     const uint32_t first = std::max(range.first, rings.begin[patch] + REACH) - REACH;
     VertexFinder common({rings.vertex.data() + range.first, range.size()});
     crossing.reached.clear();

@@ -90,7 +90,7 @@ void OverlaySssd::End::take_ranges(const OverlayIndex& index, uint32_t sample, B
         ranges[b - 1] = range_before(index, ascent.patches[b - 1], sampled, b, before, sample);
         sample = before;
     }
-    const BorderRings& rings = index.rings;
+    const Rings& rings = index.rings;
     for (const BorderRange& range : ranges) {
         prefetch(rings.position.data() + range.first, range.size());
         prefetch(rings.segment_length.data() + range.first, range.size());
