@@ -58,6 +58,11 @@ struct Rings {
     }
 };
 
+// The own place of a vertex of a patch's border, counted over all rings.
+inline uint32_t own_place(const Rings& rings, const Numbering& numbering, uint32_t patch, uint32_t position) {
+    return rings.begin[patch] + rings.place_of_slot[numbering.border_begin[patch] + position];
+}
+
 // Border segments, per slot (see Numbering). `end` is the position, in the same border, of the vertex at the
 // other end of a segment that begins at the slot, or NONE, and `length` is the length of the segment. The
 // other end is the next position or, where the segment closes a chain, the first position of the chain.

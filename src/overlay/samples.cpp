@@ -131,9 +131,7 @@ private:
     // A segment that closes a chain ends at a place that repeats the chain's first vertex.
     void add_long_segments(uint32_t patch) {
         const auto sample_at = [&](uint32_t place) {
-            const uint32_t own =
-                index_.rings.begin[patch] +
-                index_.rings.place_of_slot[numbering_.border_begin[patch] + index_.rings.position[place]];
+            const uint32_t own = own_place(index_.rings, numbering_, patch, index_.rings.position[place]);
             const auto places = samples_.of(patch);
             return static_cast<uint32_t>(std::ranges::lower_bound(places, own - index_.rings.begin[patch]) -
                                          places.begin());

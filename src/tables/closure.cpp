@@ -35,11 +35,6 @@ struct LeastSums {
     }
 };
 
-// The own place of a border vertex, counted over all rings.
-size_t own_place(const Rings& rings, const Numbering& numbering, uint32_t patch, uint32_t position) {
-    return size_t{rings.begin[patch]} + rings.place_of_slot[numbering.border_begin[patch] + position];
-}
-
 // Fills the distances from one vertex of a patch's overlay to all others, over the tables of the children.
 class RowFromBelow {
 public:

@@ -14,12 +14,6 @@ BorderRange range_about(const OverlayIndex& index, uint32_t patch, uint32_t plac
             place + std::min(each_side, whole.last - place)};
 }
 
-// The place of the vertex at a place that may repeat it.
-uint32_t own_place(const OverlayIndex& index, uint32_t patch, uint32_t place) {
-    const uint32_t slot = index.numbering.border_begin[patch] + index.rings.position[place];
-    return index.rings.begin[patch] + index.rings.place_of_slot[slot];
-}
-
 }
 
 BorderRange whole_border(const OverlayIndex& index, uint32_t patch) {
@@ -44,7 +38,7 @@ BorderRange range_near(const OverlayIndex& index, uint32_t patch, uint32_t sampl
 BorderRange range_beside(const OverlayIndex& index, uint32_t patch, BorderRange range, uint32_t place) {
     const BorderRange whole = whole_border(index, patch);
     const uint32_t each_side = std::max(EACH_SIDE, range.size() / 2);
-    const uint32_t own = own_place(index, patch, place);
+    const uint32_t own = own_place(index.rings, index.numbering, patch, index.rings.position[place]);
     if (own < range.first || own > range.last) return range_about(index, patch, own, each_side);
     const auto chain = *std::ranges::lower_bound(index.rings.chains_of(patch), own, {}, &Rings::Chain::last);
     if (chain.is_closed && own == chain.first && range.last < chain.last)

@@ -161,8 +161,7 @@ float OverlaySssd::distance_to_border(uint32_t border_vertex, uint32_t vertex) c
     const uint32_t patch = numbering_.innermost_patch(vertex);
     for (const PatchPosition& at : numbering_.borders_of(border_vertex)) {
         if (at.patch != patch) continue;
-        const RingRow row = inner_row_of(index_, vertex);
-        return row(row.first + index_.rings.place_of_slot[numbering_.border_begin[patch] + at.position]);
+        return inner_row_of(index_, vertex)(own_place(index_.rings, numbering_, patch, at.position));
     }
     return INFINITE;
 }
