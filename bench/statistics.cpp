@@ -9,12 +9,6 @@ namespace geodesic::bench {
 
 namespace {
 
-// Nearest rank.
-double quantile(std::span<const double> sorted, double q) {
-    const auto rank = static_cast<size_t>(std::ceil(q * static_cast<double>(sorted.size())));
-    return sorted[std::clamp<size_t>(rank, 1, sorted.size()) - 1];
-}
-
 ErrorSummary summary(std::vector<double> errors) {
     ErrorSummary result;
     if (errors.empty()) return result;
@@ -37,6 +31,11 @@ double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const size_t middle = values.size() / 2;
     return values.size() % 2 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+double quantile(std::span<const double> sorted, double share) {
+    const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+    return sorted[std::clamp<size_t>(rank, 1, sorted.size()) - 1];
 }
 
 Duration median(std::span<const Duration> durations) {

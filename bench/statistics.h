@@ -11,6 +11,10 @@ namespace geodesic::bench {
 // NaN where there are no values.
 double median(std::vector<double> values);
 
+// The smallest of the values that at least this share of them does not exceed: "nearest rank". `sorted` is in
+// ascending order and not empty.
+double quantile(std::span<const double> sorted, double share);
+
 // Medians of wall and of CPU time, each by itself.
 Duration median(std::span<const Duration> durations);
 
