@@ -5,15 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "src/base/numbers.h"
 
 namespace geodesic {
 
 // In the overlay engine a stored distance is a code: a whole number of steps of a quantum. This file has all
-// kinds of codes and all rounding of distances to them. (kernels/rounding.h rounds as StepsOf does, many
-// distances at a time; a test holds one against the other.)
+// kinds of codes and the rounding of table entries; kernels/rounding.h rounds the distances of sources.
 
 // An entry of a table: the distance of two vertices, in steps of the quantum of the table's patch.
 struct TableCode {
@@ -75,33 +73,5 @@ struct SourceCode {
 inline float steps_per_distance(float quantum) {
     return quantum > 0 ? std::min(1 / quantum, std::numeric_limits<float>::max()) : 0;
 }
-
-// Rounds the distances of one source from a border to codes that count steps beyond the nearest vertex. That
-// vertex is at least nearest() whole steps away.
-class StepsOf {
-public:
-    StepsOf(std::span<const float> distances, float quantum) : scale_(steps_per_distance(quantum)) {
-        float nearest = INFINITE;
-        for (const float d : distances) nearest = std::min(nearest, d);
-        if (nearest < INFINITE)
-            nearest_ = std::trunc(std::min(nearest * scale_, std::numeric_limits<float>::max()));
-    }
-
-    // Whole, and too large for any integer where the distances are long and the quantum is that of a tiny
-    // part.
-    float nearest() const { return nearest_; }
-
-    int16_t code(float distance) const {
-        if (distance == INFINITE) return SourceCode::UNREACHED;
-        const float steps = std::clamp(distance * scale_ - nearest_ + 0.5f, 0.f, MOST);
-        return static_cast<int16_t>(SourceCode::NEAREST + static_cast<int32_t>(steps));
-    }
-
-private:
-    static constexpr float MOST = SourceCode::UNREACHED - 2 - SourceCode::NEAREST;
-
-    float scale_;
-    float nearest_ = 0;
-};
 
 }

@@ -6,7 +6,10 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/overlay/steps_of.h"
+
 using namespace geodesic;
+using namespace geodesic::test;
 
 namespace {
 

@@ -8,8 +8,10 @@
 #include <doctest/doctest.h>
 
 #include "src/overlay/kernels/dispatch.h"
+#include "tests/overlay/steps_of.h"
 
 using namespace geodesic;
+using namespace geodesic::test;
 
 namespace {
 
