@@ -104,6 +104,20 @@ private:
     std::vector<uint8_t> is_sample_; // per border vertex
 };
 
+// The number of codes in the tables of all samples. begin[p] is the first sample of patch p.
+uint64_t count_codes(const OverlayIndex& index, std::span<const uint32_t> begin) {
+    const Numbering& numbering = index.numbering;
+    uint64_t codes = 0;
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
+        const uint32_t first = numbering.child_begin[p], end = numbering.child_begin[p + 1];
+        uint64_t columns = begin[p + 1] - begin[p];
+        for (uint32_t child = first; child < end; ++child)
+            if (has_table_across(index, child)) columns += begin[child + 1] - begin[child];
+        codes += columns * (begin[end] - begin[first]);
+    }
+    return codes;
+}
+
 class SampleWriter {
 public:
     SampleWriter(const OverlayIndex& index, Samples& samples)
@@ -119,8 +133,7 @@ public:
             samples_.spacing.push_back(spacing_of(index_, patch));
             add_long_segments(patch);
         });
-        samples_.first_row.assign(patch_count, 0);
-        samples_.codes.reserve(count_sample_codes(index_) + TableCode::PADDING);
+        samples_.codes.reserve(count_codes(index_, samples_.begin) + TableCode::PADDING);
         for (uint32_t p = 0; p < patch_count; ++p) write_up(p);
         samples_.across_begin.assign(patch_count, 0);
         for (uint32_t p = 0; p < numbering_.first_leaf(); ++p) write_across_children_of(p);
@@ -173,11 +186,7 @@ private:
 
     void write_across_children_of(uint32_t patch) {
         const uint32_t first = numbering_.child_begin[patch], end = numbering_.child_begin[patch + 1];
-        uint32_t rows = 0;
-        for (uint32_t child = first; child < end; ++child) {
-            samples_.first_row[child] = rows;
-            rows += static_cast<uint32_t>(samples_.of(child).size());
-        }
+        const uint32_t rows = samples_.begin[end] - samples_.begin[first];
         for (uint32_t child = first; child < end; ++child) {
             samples_.across_begin[child] = samples_.codes.size();
             if (!has_table_across(index_, child)) continue;
@@ -200,20 +209,11 @@ private:
 }
 
 uint64_t count_sample_codes(const OverlayIndex& index) {
-    const Numbering& numbering = index.numbering;
-    std::vector<uint64_t> count; // of samples, per patch
-    SampleChoice(index).for_each_patch(
-        [&](uint32_t, std::span<const uint16_t> places) { count.push_back(places.size()); });
-    uint64_t codes = 0;
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
-        uint64_t of_children = 0, across = 0;
-        for (uint32_t child = numbering.child_begin[p]; child < numbering.child_begin[p + 1]; ++child) {
-            of_children += count[child];
-            if (has_table_across(index, child)) across += count[child];
-        }
-        codes += of_children * (count[p] + across);
-    }
-    return codes;
+    std::vector<uint32_t> begin(1, 0);
+    SampleChoice(index).for_each_patch([&](uint32_t, std::span<const uint16_t> places) {
+        begin.push_back(begin.back() + static_cast<uint32_t>(places.size()));
+    });
+    return count_codes(index, begin);
 }
 
 bool has_table_across(const OverlayIndex& index, uint32_t patch) {

@@ -45,7 +45,7 @@ struct HopTables {
 struct Samples {
     explicit Samples(std::pmr::memory_resource* memory)
         : begin(memory), place(memory), spacing(memory), long_begin(memory), long_segments(memory),
-          first_row(memory), up_begin(memory), across_begin(memory), codes(memory) {}
+          up_begin(memory), across_begin(memory), codes(memory) {}
 
     struct LongSegment {
         uint32_t first, second; // samples, counted from the first one of the border
@@ -57,13 +57,17 @@ struct Samples {
     Array<float> spacing;       // per patch: how far apart samples are to be, on average
     Array<uint32_t> long_begin; // per patch: where its long segments begin in `long_segments`
     Array<LongSegment> long_segments;
-    Array<uint32_t> first_row;    // per patch: the first row of its samples in tables across
     Array<uint64_t> up_begin;     // per patch: where its table up begins in `codes`
     Array<uint64_t> across_begin; // per patch: where its table across begins in `codes`
     Array<uint16_t> codes;
 
     std::span<const uint16_t> of(uint32_t patch) const {
         return {place.data() + begin[patch], place.data() + begin[patch + 1]};
+    }
+    // The first row for the samples of a patch in the table across of a sibling, which must have one.
+    const uint16_t* rows_across(const Numbering& numbering, uint32_t patch, uint32_t sibling) const {
+        const uint32_t row = begin[patch] - begin[numbering.child_begin[numbering.parent[patch]]];
+        return codes.data() + across_begin[sibling] + size_t{row} * of(sibling).size();
     }
     std::span<const LongSegment> long_segments_of(uint32_t patch) const {
         return {long_segments.data() + long_begin[patch], long_segments.data() + long_begin[patch + 1]};

@@ -172,8 +172,7 @@ TEST_CASE("samples: their tables are entries of the overlay tables") {
             if (!has_table_across(overlay, p)) continue;
             for (uint32_t s = numbering.child_begin[parent]; s < numbering.child_begin[parent + 1]; ++s) {
                 const auto beside = samples.of(s);
-                const uint16_t* row =
-                    samples.codes.data() + samples.across_begin[p] + samples.first_row[s] * from.size();
+                const uint16_t* row = samples.rows_across(numbering, s, p);
                 for (size_t i = 0; i < beside.size(); ++i)
                     for (size_t j = 0; j < from.size(); ++j, ++across)
                         wrong += *row++ != overlay.overlay_code(parent, overlay_position(s, beside[i]),

@@ -42,12 +42,12 @@ void SampledAscent::climb(const Ascent& ascent) {
     for (size_t i = 0; i < innermost.size(); ++i) distances_[i] = row(row.first + innermost[i]);
     std::fill(distances_of(0) + innermost.size(),
               distances_of(0) + SourceCode::whole_blocks(innermost.size()), INFINITE);
-    borders_.assign(1, {.patch = ascent.patches.front(), .samples = innermost.size()});
+    borders_.assign(1, {.patch = ascent.patches.front()});
     for (size_t b = 1; b < ascent.patches.size(); ++b) {
         const size_t columns = samples.of(ascent.patches[b]).size();
         const uint16_t* table = samples.codes.data() + samples.up_begin[ascent.patches[b - 1]];
-        hop({.patch = ascent.patches[b], .samples = columns, .quantum = index_.quantum[ascent.patches[b]]},
-            columns, [&](size_t i) { return table + i * columns; });
+        hop({.patch = ascent.patches[b], .quantum = index_.quantum[ascent.patches[b]]}, columns,
+            [&](size_t i) { return table + i * columns; });
     }
 }
 
@@ -57,9 +57,8 @@ void SampledAscent::hop_across(const Ascent& ascent, uint32_t sibling) {
     const float quantum = index_.quantum[index_.numbering.parent[patch]];
     const auto to = samples.of(sibling);
     if (has_table_across(index_, sibling)) {
-        const uint16_t* table =
-            samples.codes.data() + samples.across_begin[sibling] + samples.first_row[patch] * to.size();
-        hop({.patch = sibling, .samples = to.size(), .quantum = quantum}, to.size(),
+        const uint16_t* table = samples.rows_across(index_.numbering, patch, sibling);
+        hop({.patch = sibling, .quantum = quantum}, to.size(),
             [&](size_t i) { return table + i * to.size(); });
         return;
     }
@@ -67,22 +66,24 @@ void SampledAscent::hop_across(const Ascent& ascent, uint32_t sibling) {
     const uint32_t* position = index_.rings.position.data() + index_.rings.begin[patch];
     const uint32_t* overlay_position =
         index_.numbering.overlay_position.data() + index_.numbering.border_begin[patch];
-    hop({.patch = sibling, .samples = to.size(), .quantum = quantum, .places = to.data()},
-        index_.rings.size(sibling), [&](size_t i) {
+    hop({.patch = sibling, .quantum = quantum, .places = to.data()}, index_.rings.size(sibling),
+        [&](size_t i) {
             return index_.hops.outer.data() + index_.outer_row(sibling, overlay_position[position[from[i]]]);
         });
 }
 
 float SampledAscent::way_over(size_t border, uint32_t before, uint32_t sample) const {
     const Border& to = borders_[border];
-    const uint16_t entry = to.rows[before][to.places ? to.places[sample] : sample];
+    const uint16_t* row = rows_[border * stride_ + before];
+    const uint16_t entry = row[to.places ? to.places[sample] : sample];
     return distances_of(border - 1)[before] + TableCode::distance(entry, to.quantum);
 }
 
 // row(i) is the row of the i-th sample of the last border.
 template <class Row>
 void SampledAscent::hop(const Border& to, size_t columns, const Row& row) {
-    const size_t border = borders_.size(), count = borders_.back().samples;
+    const size_t border = borders_.size(), count = samples_of(borders_.back()).size();
+    const size_t samples = samples_of(to).size();
     const uint16_t** rows = rows_.data() + border * stride_;
     for (size_t i = 0; i < count; ++i) rows[i] = row(i);
     float* distance = distances_of(border);
@@ -93,14 +94,13 @@ void SampledAscent::hop(const Border& to, size_t columns, const Row& row) {
         {rows, count}, columns, to.places ? column_distances_.data() : distance,
         to.places ? column_winners_.data() : winner);
     if (to.places)
-        for (size_t i = 0; i < to.samples; ++i) {
+        for (size_t i = 0; i < samples; ++i) {
             distance[i] = column_distances_[to.places[i]];
             winner[i] = column_winners_[to.places[i]];
         }
-    std::fill(distance + to.samples, distance + SourceCode::whole_blocks(to.samples), INFINITE);
+    std::fill(distance + samples, distance + SourceCode::whole_blocks(samples), INFINITE);
     const uint32_t before = borders_.back().patch;
     borders_.push_back(to);
-    borders_.back().rows = rows;
     if (index_.longest_segment[before] == 0) measure_over_vertices(before);
 }
 
@@ -109,7 +109,7 @@ void SampledAscent::hop(const Border& to, size_t columns, const Row& row) {
 void SampledAscent::measure_over_vertices(uint32_t before) {
     const size_t border = borders_.size() - 1;
     const uint32_t patch = borders_.back().patch;
-    const auto places = index_.pairs.samples.of(patch);
+    const auto places = samples_of(borders_.back());
     float* distance = distances_of(border);
     for (uint32_t i = 0; i < places.size(); ++i) {
         uint16_t& winner = winners_[border * stride_ + i];

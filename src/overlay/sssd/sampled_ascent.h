@@ -23,7 +23,7 @@ public:
 
     // The distances from the samples of the last border.
     std::span<const float> last_distances() const {
-        return {distances_of(borders_.size() - 1), borders_.back().samples};
+        return {distances_of(borders_.size() - 1), samples_of(borders_.back()).size()};
     }
 
     // The sample, of the border before, that the way to a sample of a border comes over. There must be a way.
@@ -35,15 +35,17 @@ public:
     float way_over(size_t border, uint32_t before, uint32_t sample) const;
 
 private:
-    // What a hop to a border reads: for each sample of the border before a row, which has one entry for each
-    // sample of the border or for each place of its ring.
+    // A border, and what a hop to it reads: for each sample of the border before a row, which has one entry
+    // for each sample of this border or for each place of its ring.
     struct Border {
         uint32_t patch = 0;
-        size_t samples = 0;
         float quantum = 0;
-        const uint16_t* const* rows = nullptr;
         const uint16_t* places = nullptr; // of the samples; NULL where the entries are those of samples
     };
+
+    std::span<const uint16_t> samples_of(const Border& border) const {
+        return index_.pairs.samples.of(border.patch);
+    }
 
     float* distances_of(size_t border) { return distances_.data() + border * stride_; }
     const float* distances_of(size_t border) const { return distances_.data() + border * stride_; }
@@ -56,7 +58,7 @@ private:
     Array<Border> borders_;
     Array<float> distances_;
     Array<uint16_t> winners_;
-    Array<const uint16_t*> rows_;
+    Array<const uint16_t*> rows_; // that the hop to each border has read
     // Scratch of a hop.
     Array<int16_t> codes_;
     Array<float> column_distances_;
