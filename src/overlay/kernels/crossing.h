@@ -266,7 +266,8 @@ struct CrossSamples {
             std::fill_n(distances, SourceCode::whole_blocks(columns), INFINITE);
             return;
         }
-        encode(border, rows.size(), nearest);
+        round_all<BYTES>(border.distance, rows.size(), Floats<BYTES>{} + nearest,
+                         steps_per_distance(border.quantum), border.code);
         for (size_t c = 0; c < SourceCode::whole_blocks(columns); c += LANES) {
             Codes least{}, winner{}, sample{}, entries;
             least += std::numeric_limits<int16_t>::max();
@@ -295,18 +296,6 @@ private:
             lower(nearest, distance);
         }
         return least_of<BYTES>(nearest);
-    }
-
-    [[gnu::always_inline]] static void encode(const SampledBorder& border, size_t samples, float nearest) {
-        const float scale = steps_per_distance(border.quantum);
-        const Floats<BYTES> nearest_lanes = Floats<BYTES>{} + nearest;
-        for (size_t i = 0; i < samples; i += Lanes<BYTES>::FLOATS) {
-            Floats<BYTES> distance;
-            Numbers codes;
-            load(border.distance + i, distance);
-            round_to_codes<BYTES>(distance, nearest_lanes, scale, codes);
-            store(__builtin_convertvector(codes, HalfCodes), border.code + i);
-        }
     }
 
     [[gnu::always_inline]] static void straighten(const SampledBorder& border,
@@ -345,8 +334,8 @@ private:
         load(sums, half);
         const Numbers sum = __builtin_convertvector(half, Numbers);
         const Floats<BYTES> none = Floats<BYTES>{} + INFINITE;
-        const Floats<BYTES> distance =
-            nearest + __builtin_convertvector(sum - SourceCode::NEAREST, Floats<BYTES>) * quantum;
+        Floats<BYTES> distance;
+        decode_sums<HalfCodes, Floats<BYTES>>(half, quantum, Floats<BYTES>{} + nearest, distance);
         store(sum < SourceCode::NO_SUM ? distance : none, distances);
     }
 };

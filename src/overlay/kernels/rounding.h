@@ -17,4 +17,27 @@ template <size_t BYTES>
     codes = distance < INFINITE ? codes : Numbers{} + SourceCode::UNREACHED;
 }
 
+// Rounds the distances of one source. Both arrays are whole vectors long.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void round_all(const float* distances, size_t count,
+                                             const Floats<BYTES>& nearest, float scale, int16_t* codes) {
+    using Codes = typename VectorOf<int16_t, BYTES / 2>::Type;
+    for (size_t i = 0; i < count; i += Lanes<BYTES>::FLOATS) {
+        Floats<BYTES> distance;
+        typename Lanes<BYTES>::Keys rounded;
+        load(distances + i, distance);
+        round_to_codes<BYTES>(distance, nearest, scale, rounded);
+        store(__builtin_convertvector(rounded, Codes), codes + i);
+    }
+}
+
+// distances = nearest + sums, which are counted from the smallest number.
+template <class Narrow, class Wide>
+[[gnu::always_inline]] inline void decode_sums(const Narrow& sums, float quantum, const Wide& nearest,
+                                               Wide& distances) {
+    using Numbers = typename VectorOf<int32_t, sizeof(Wide)>::Type;
+    const Numbers steps = __builtin_convertvector(sums, Numbers) - SourceCode::NEAREST;
+    distances = nearest + __builtin_convertvector(steps, Wide) * quantum;
+}
+
 }

@@ -23,7 +23,6 @@ template <size_t BYTES, size_t COUNT>
 struct PrepareSweep {
     using Distances = Floats<BYTES>;
     using Numbers = typename Lanes<BYTES>::Keys;
-    using Codes = typename VectorOf<int16_t, BYTES / 2>::Type;
     static constexpr size_t LANES = Lanes<BYTES>::FLOATS;
     static constexpr size_t VECTORS = COUNT == 1 ? 1 : COUNT / LANES; // of nearest distances
 
@@ -76,13 +75,10 @@ private:
                                               const Distances* nearest, int16_t* codes) {
         const float scale = steps_per_distance(border.quantum);
         const size_t places_filled = border.places + border.places % 2;
-        Numbers of_place, of_next;
         if constexpr (COUNT == 1) {
-            for (size_t k = 0; k < border.places; k += LANES) {
-                round_lanes(distances + k, *nearest, scale, of_place);
-                store(__builtin_convertvector(of_place, Codes), codes + k);
-            }
+            round_all<BYTES>(distances, border.places, *nearest, scale, codes);
         } else {
+            Numbers of_place, of_next;
             for (size_t k = 0; k < places_filled; k += 2)
                 for (size_t v = 0; v < VECTORS; ++v) {
                     const float* of_sources = distances + k * COUNT + v * LANES;
@@ -120,16 +116,6 @@ template <class V>
     std::memcpy(bits, &mask, sizeof mask);
     for (int64_t part : bits) all |= part;
     return all != 0;
-}
-
-// distances = nearest + sums, counted from the smallest number.
-template <class Narrow, class Wide>
-[[gnu::always_inline]] inline void decode_sums(const Narrow& sums, float quantum, const Wide& nearest,
-                                               float* distances) {
-    using Numbers = typename VectorOf<int32_t, sizeof(Wide)>::Type;
-    const Numbers steps = __builtin_convertvector(sums, Numbers) - SourceCode::NEAREST;
-    const Wide distance = nearest + __builtin_convertvector(steps, Wide) * quantum;
-    store(distance, distances);
 }
 
 // least[i]: the least lane of eight[i].
@@ -197,8 +183,9 @@ struct Sweep {
         for (size_t r = 0; r < ROWS; ++r) fold(least[r], folded[r]);
         least_lanes_of_eight(folded, sums);
         using EightFloats = Floats<ROWS * sizeof(float)>;
-        const EightFloats nearest = EightFloats{} + *codes.nearest;
-        decode_sums(sums, border.quantum, nearest, distances);
+        EightFloats decoded;
+        decode_sums<Eight, EightFloats>(sums, border.quantum, EightFloats{} + *codes.nearest, decoded);
+        store(decoded, distances);
         if (any(sums >= static_cast<int16_t>(SourceCode::NO_SUM))) [[unlikely]]
             for (size_t r = 0; r < ROWS; ++r)
                 if (sums[r] >= SourceCode::NO_SUM)
@@ -266,9 +253,10 @@ struct SweepEach {
             const Pairs pairs = reinterpret_cast<Pairs>(least[i]);
             Pairs sums = pairs >> 16;
             lower<Pairs>(sums, (pairs << 16) >> 16);
-            Floats<BYTES> nearest;
+            Floats<BYTES> nearest, decoded;
             load(codes.nearest + i % VECTORS * LANES, nearest);
-            decode_sums(sums, border.quantum, nearest, distances + first * SOURCES + i * LANES);
+            decode_sums(sums, border.quantum, nearest, decoded);
+            store(decoded, distances + first * SOURCES + i * LANES);
             if (any(sums >= SourceCode::NO_SUM)) [[unlikely]]
                 for (size_t lane = 0; lane < LANES; ++lane)
                     if (sums[lane] >= SourceCode::NO_SUM)
