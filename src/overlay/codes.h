@@ -5,13 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "src/base/numbers.h"
 
 namespace geodesic {
 
 // In the overlay engine a stored distance is a code: a whole number of steps of a quantum. This file has all
-// kinds of codes and the rounding of table entries; kernels/rounding.h rounds the distances of sources.
+// kinds of codes and the rounding of entries; kernels/rounding.h rounds the distances of sources.
 
 // An entry of a table: the distance of two vertices, in steps of the quantum of the table's patch.
 struct TableCode {
@@ -36,6 +37,17 @@ struct TableCode {
     static uint16_t converted(uint16_t code, float from_quantum, float to_quantum) {
         if (code == 0 || code == UNREACHED || !(to_quantum > 0)) return code;
         return in_range(std::round(code * double{from_quantum} / double{to_quantum}));
+    }
+
+    // The nearest code for each of many distances, of which none is longer than LARGEST steps. steps_each is
+    // steps_per_distance() of the quantum. Quicker than nearest_to(), by a division and by rounding in float.
+    static void round_all(std::span<const float> distances, float steps_each, uint16_t* codes) {
+        for (size_t i = 0; i < distances.size(); ++i) {
+            const float distance = distances[i], least = distance > 0 ? 1 : 0;
+            const float steps = std::min(std::max(distance * steps_each + 0.5f, least), float{LARGEST});
+            codes[i] =
+                static_cast<uint16_t>(static_cast<int32_t>(distance < INFINITE ? steps : float{UNREACHED}));
+        }
     }
 
     // The code of a distance that is counted in steps already, of at most LARGEST of them.

@@ -20,7 +20,7 @@ constexpr size_t SOURCES = InnerSweep::MOST_SOURCES;
 // A labelled border has at most so many places.
 constexpr uint32_t MOST_PLACES = 200;
 
-// Calls use(patch) for each labelled patch.
+// Calls use(patch) for each patch to be labelled.
 template <class Use>
 void for_each_labelled(const OverlayIndex& index, const Use& use) {
     const Numbering& numbering = index.numbering;
@@ -32,6 +32,20 @@ void for_each_labelled(const OverlayIndex& index, const Use& use) {
         is_inside[p] = 1;
         use(p);
     }
+}
+
+// Calls use(patch, inside, begin) for each patch to be labelled and each patch inside of it, where the labels
+// of that patch's inner vertices begin. Returns where the last ones end.
+template <class Use>
+uint64_t lay_out_labels(const OverlayIndex& index, const Use& use) {
+    uint64_t codes = 0;
+    for_each_labelled(index, [&](uint32_t patch) {
+        descend_into(index.numbering, patch, [&](uint32_t inside) {
+            use(patch, inside, codes);
+            codes += uint64_t{index.numbering.inner_size(inside)} * index.rings.size(patch);
+        });
+    });
+    return codes;
 }
 
 // Sweeps from the border of a patch down to the inner vertices of all its descendants, with SOURCES border
@@ -101,24 +115,13 @@ private:
     void encode(uint32_t patch, uint32_t labelled, float quantum) {
         const size_t count = numbering_.inner_size(patch);
         codes_.resize(count * border_size_);
-        encode({of_border_.data() + begin_[patch], codes_.size()}, steps_per_distance(quantum));
+        TableCode::round_all({of_border_.data() + begin_[patch], codes_.size()}, steps_per_distance(quantum),
+                             codes_.data());
         const uint32_t* position = index_.rings.position.data() + index_.rings.begin[labelled];
         const uint32_t places = index_.rings.size(labelled);
         uint16_t* code = labels_.codes.data() + labels_.begin[patch];
         for (size_t row = 0; row < codes_.size(); row += border_size_)
             for (uint32_t k = 0; k < places; ++k) *code++ = codes_[row + position[k]];
-    }
-
-    // Only a distance of 0 is 0 steps, so that different vertices never are at distance 0.
-    void encode(std::span<const float> distances, float steps_each) {
-        for (size_t i = 0; i < distances.size(); ++i) {
-            const float distance = distances[i];
-            const float least = distance > 0 ? 1 : 0;
-            const float steps =
-                std::min(std::max(distance * steps_each + 0.5f, least), float{TableCode::LARGEST});
-            codes_[i] = static_cast<uint16_t>(
-                static_cast<int32_t>(distance < INFINITE ? steps : float{TableCode::UNREACHED}));
-        }
     }
 
     const OverlayIndex& index_;
@@ -136,13 +139,7 @@ private:
 }
 
 uint64_t count_label_codes(const OverlayIndex& index) {
-    uint64_t codes = 0;
-    for_each_labelled(index, [&](uint32_t patch) {
-        descend_into(index.numbering, patch, [&](uint32_t inside) {
-            codes += uint64_t{index.numbering.inner_size(inside)} * index.rings.size(patch);
-        });
-    });
-    return codes;
+    return lay_out_labels(index, [](uint32_t, uint32_t, uint64_t) {});
 }
 
 void make_labels(const OverlayIndex& index, bool with_labels, Labels& labels) {
@@ -151,13 +148,9 @@ void make_labels(const OverlayIndex& index, bool with_labels, Labels& labels) {
     if (!with_labels) return;
     labels.quantum.assign(numbering.patch_count(), 0.f);
     labels.begin.assign(numbering.patch_count(), 0);
-    uint64_t codes = 0;
-    for_each_labelled(index, [&](uint32_t patch) {
+    const uint64_t codes = lay_out_labels(index, [&](uint32_t patch, uint32_t inside, uint64_t begin) {
         labels.is_labelled[patch] = 1;
-        descend_into(numbering, patch, [&](uint32_t inside) {
-            labels.begin[inside] = codes;
-            codes += uint64_t{numbering.inner_size(inside)} * index.rings.size(patch);
-        });
+        labels.begin[inside] = begin;
     });
     if (codes == 0) return;
     labels.codes.resize(codes + TableCode::PADDING);
