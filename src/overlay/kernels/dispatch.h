@@ -100,8 +100,9 @@ struct Kernels {
     void (*cross_near)(const BorderFromSource& border, const NearRange& range, Rows rows, float* distances);
 
     // Fills border.code. rows[i] belongs to the i-th sample and has an entry for each column. distances[c]:
-    // the least way over a sample to column c, or infinity; winners[c]: the first sample with the least way,
-    // if there is any. Both are written in whole blocks.
+    // the least way over a sample to column c, or straightened over a long segment where that is shorter, or
+    // infinity; winners[c]: the first sample with the least way, or the first end of that segment, if there
+    // is any way. Both are written in whole blocks.
     void (*cross_samples)(const SampledBorder& border, Rows rows, size_t columns, float* distances,
                           uint16_t* winners);
 

@@ -1,5 +1,7 @@
 #include "src/overlay/sssd/border_range.h"
 
+#include <algorithm>
+
 namespace geodesic {
 
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
 
 #include "src/overlay/tables.h"
@@ -33,13 +31,5 @@ BorderRange range_near(const OverlayIndex& index, uint32_t patch, uint32_t sampl
 // Where a shorter way may cross a border than the one that was measured over `range` and crosses at `place`:
 // the same range, unless that place is at an end of it and other places of the border lie beyond.
 BorderRange range_beside(const OverlayIndex& index, uint32_t patch, BorderRange range, uint32_t place);
-
-// Asks the processor to load memory that is going to be read soon.
-template <class T>
-void prefetch(const T* first, size_t count) {
-    constexpr size_t LINE = 64;
-    const char* end = reinterpret_cast<const char*>(first + count);
-    for (const char* at = reinterpret_cast<const char*>(first); at < end; at += LINE) __builtin_prefetch(at);
-}
 
 }

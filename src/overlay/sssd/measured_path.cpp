@@ -10,49 +10,51 @@ namespace {
 
 constexpr uint32_t REACH = Rings::REACH;
 
-// Lets the crossing begin with the distances from a range of a patch's border. The kernel reads REACH places
-// on each side of a winner. Those outside of the range are at infinity, so that no way leads over them.
-// Returns the first of all these places.
-uint32_t begin_crossing(const OverlayIndex& index, uint32_t patch, BorderRange range, const float* distances,
-                        BorderField& field) {
-    const Rings& rings = index.rings;
-    const uint32_t first = std::max(range.first, rings.begin[patch] + REACH) - REACH;
-    const uint32_t last = std::min(range.last + REACH, rings.begin[patch + 1] - 1);
+// The kernel reads REACH places on each side of a winner. This is what it reads of a border for ways over a
+// range.
+BorderRange range_read(const OverlayIndex& index, uint32_t patch, BorderRange range) {
+    const BorderRange whole = whole_border(index, patch);
+    return {std::max(range.first, whole.first + REACH) - REACH, std::min(range.last + REACH, whole.last)};
+}
+
+// Lets the crossing begin with the distances from a range of a patch's border. Places that are read outside
+// of the range are at infinity, so that no way leads over them.
+void begin_crossing(const OverlayIndex& index, uint32_t patch, BorderRange read, BorderRange range,
+                    const float* distances, BorderField& field) {
     const auto places =
-        field.begin(rings, first, last - first + 1, index.quantum[index.numbering.parent[patch]]);
-    const auto inside = places.subspan(range.first - first, range.size());
+        field.begin(index.rings, read.first, read.size(), index.quantum[index.numbering.parent[patch]]);
+    const auto inside = places.subspan(range.first - read.first, range.size());
     std::fill(places.begin(), inside.begin(), INFINITE);
     std::copy_n(distances, inside.size(), inside.begin());
     std::fill(inside.end(), places.end(), INFINITE);
-    return first;
 }
 
 // Crosses from a range of a patch's border to places of another border inside of the same parent.
 // overlay_position(k) is the position of place k in the parent's overlay. Vertices that are in both ranges
-// keep their distances: no way from one of them to the other is shorter than that. Returns the place that
-// winners are counted from.
+// keep their distances. Returns the place that winners are counted from.
 template <class OverlayPosition>
 uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, const float* distances,
                BorderRange to, const OverlayPosition& overlay_position, BorderCrossing& crossing, float* out,
                uint16_t* winners) {
     const Rings& rings = index.rings;
-    const uint32_t first = std::max(range.first, rings.begin[patch] + REACH) - REACH;
+    const BorderRange read = range_read(index, patch, range);
     VertexFinder common({rings.vertex.data() + range.first, range.size()});
     crossing.reached.clear();
     crossing.rows.clear();
-    const uint16_t* rows = index.hops.outer.data() + index.outer_row(patch, 0) + (first - rings.begin[patch]);
+    const uint16_t* rows =
+        index.hops.outer.data() + index.outer_row(patch, 0) + (read.first - rings.begin[patch]);
     for (uint32_t i = 0; i < to.size(); ++i) {
         const uint32_t at = common.find(rings.vertex[to.first + i]);
         if (at != NONE) {
             out[i] = distances[at];
-            winners[i] = static_cast<uint16_t>(range.first + at - first);
+            winners[i] = static_cast<uint16_t>(range.first + at - read.first);
             continue;
         }
         crossing.reached.push_back(i);
         crossing.rows.push_back(rows + size_t{overlay_position(to.first + i)} * rings.size(patch));
     }
-    if (crossing.rows.empty()) return first;
-    begin_crossing(index, patch, range, distances, crossing.field);
+    if (crossing.rows.empty()) return read.first;
+    begin_crossing(index, patch, read, range, distances, crossing.field);
     if (crossing.field.finish()) {
         crossing.field.cross(crossing.rows, crossing.distances.data(), crossing.winners.data());
         crossing.field.cross_near(crossing.rows, crossing.distances.data());
@@ -63,7 +65,7 @@ uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, con
         out[crossing.reached[r]] = crossing.distances[r];
         winners[crossing.reached[r]] = crossing.winners[r];
     }
-    return first;
+    return read.first;
 }
 
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "src/base/prefetch.h"
 #include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/samples.h"
-#include "src/overlay/sssd/border_range.h"
 
 namespace geodesic {
 

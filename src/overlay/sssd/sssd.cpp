@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/prefetch.h"
 #include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/ring_segments.h"
 #include "src/overlay/unfolding.h"
@@ -167,8 +168,8 @@ float OverlaySssd::distance_to_border(uint32_t border_vertex, uint32_t vertex) c
 }
 
 // Measures the path over whole borders if that takes little time, and over the ranges near each candidate
-// otherwise. Where no border has segments, all vertices are samples, and
-// the shortest way over samples is the path.
+// otherwise. Where no border has segments, all vertices are samples, and the shortest way over samples is the
+// path.
 float OverlaySssd::meet() {
     if (has_few_pairs()) {
         uint32_t place;
