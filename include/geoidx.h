@@ -187,8 +187,8 @@ typedef struct geoidx_build_options {
     /* Levels below the whole mesh, at most GEOIDX_MAX_LEVELS; 0 (default): automatic. */
     uint32_t level_count;
     /* patches[0] is n1, the number of patches of level 1; patches[i] how many each patch of level i is split
-     * into (patches[1] is n2). A patch with several border rings is split further, so there can be more. 0
-     * (default): in proportion to the vertices. */
+     * into (patches[1] is n2). A patch is connected, so there can be more. 0 (default): in proportion to the
+     * vertices. */
     uint32_t patches[8];
     uint32_t lloyd_iterations; /* relaxations of the seeds (paper 3.1); default 4 */
     /* GEOIDX_METRIC_EDGES: the costs of some edges; the others cost their length. */

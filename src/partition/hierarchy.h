@@ -54,8 +54,8 @@ inline constexpr SplitShape GRAPH_SPLIT{120, 40}, OVERLAY_SPLIT{64, 6};
 std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_count,
                                       std::span<const uint32_t> given, const SplitShape& shape);
 
-// Builds the hierarchy (paper section 3.1). The faces of each patch are connected over edges, and each patch
-// has at most one border ring. To reach that, a level may get more patches than were asked for.
+// Builds the hierarchy (paper section 3.1). The faces of each patch are connected over edges. To reach that,
+// a level may get more patches than were asked for.
 Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Workers& workers);
 
 }

@@ -16,25 +16,17 @@ namespace {
 
 using Faces = std::vector<uint32_t>;
 
-// The arguments and the scratch of one call of split_patch.
-struct Splitter {
-    const Mesh& mesh;
-    uint32_t lloyd_iterations;
-    FieldSolver& solver;
-    Random& random;
-    std::vector<uint8_t> inside; // per face of the mesh; scratch of has_one_ring
-};
-
-std::vector<uint32_t> relaxed_cells(Splitter& splitter, std::span<const uint32_t> faces, uint32_t count) {
+std::vector<uint32_t> relaxed_cells(const Mesh& mesh, std::span<const uint32_t> faces, uint32_t count,
+                                    uint32_t lloyd_iterations, FieldSolver& solver, Random& random) {
     if (count == 1) return std::vector<uint32_t>(faces.size(), 0);
-    const auto vertices = vertices_of(splitter.mesh, faces);
-    auto seeds = poisson_disk_samples(splitter.solver, vertices, count, splitter.random);
-    auto cell = voronoi_cells(splitter.solver, splitter.mesh, faces, seeds);
-    for (uint32_t i = 0; i < splitter.lloyd_iterations; ++i) {
-        relax_seeds(splitter.solver, splitter.mesh, faces, cell, seeds);
-        cell = voronoi_cells(splitter.solver, splitter.mesh, faces, seeds);
+    const auto vertices = vertices_of(mesh, faces);
+    auto seeds = poisson_disk_samples(solver, vertices, count, random);
+    auto cell = voronoi_cells(solver, mesh, faces, seeds);
+    for (uint32_t i = 0; i < lloyd_iterations; ++i) {
+        relax_seeds(solver, mesh, faces, cell, seeds);
+        cell = voronoi_cells(solver, mesh, faces, seeds);
     }
-    straighten_borders(splitter.mesh, faces, cell);
+    straighten_borders(mesh, faces, cell);
     return cell;
 }
 
@@ -97,45 +89,13 @@ std::vector<Faces> connected_patches(const Mesh& mesh, std::span<const uint32_t>
     return patches;
 }
 
-bool has_one_ring(Splitter& splitter, const Faces& faces) {
-    for (uint32_t f : faces) splitter.inside[f] = 1;
-    const uint32_t rings = count_border_rings(splitter.mesh, faces, splitter.inside);
-    for (uint32_t f : faces) splitter.inside[f] = 0;
-    return rings <= 1;
-}
-
-// Makes the first face a patch of its own. This is the last resort where cells cannot divide a patch.
-std::vector<Faces> cut_off_one_face(const Mesh& mesh, const Faces& faces) {
-    std::vector<uint32_t> cell(faces.size(), 1);
-    cell[0] = 0;
-    const Components components = connected_components(mesh, faces, cell);
-    std::vector<Faces> patches(components.count);
-    for (size_t i = 0; i < faces.size(); ++i) patches[components.of_face[i]].push_back(faces[i]);
-    return patches;
-}
-
-// A patch with several rings, such as an annulus, is cut in halves until each part has one ring.
-void split_until_one_ring(Splitter& splitter, Faces faces, std::vector<Faces>& done) {
-    if (faces.size() == 1 || has_one_ring(splitter, faces)) {
-        done.push_back(std::move(faces));
-        return;
-    }
-    auto parts = connected_patches(splitter.mesh, faces, relaxed_cells(splitter, faces, 2));
-    if (parts.size() == 1) parts = cut_off_one_face(splitter.mesh, faces);
-    for (Faces& part : parts) split_until_one_ring(splitter, std::move(part), done);
-}
-
 }
 
 std::vector<std::vector<uint32_t>> split_patch(const Mesh& mesh, std::span<const uint32_t> faces,
                                                uint32_t count, uint32_t lloyd_iterations, FieldSolver& solver,
                                                Random& random) {
-    Splitter splitter{mesh, lloyd_iterations, solver, random, {}};
-    splitter.inside.assign(mesh.face_count(), 0);
-    std::vector<Faces> patches;
-    for (Faces& part : connected_patches(mesh, faces, relaxed_cells(splitter, faces, count)))
-        split_until_one_ring(splitter, std::move(part), patches);
-    return patches;
+    return connected_patches(mesh, faces,
+                             relaxed_cells(mesh, faces, count, lloyd_iterations, solver, random));
 }
 
 }

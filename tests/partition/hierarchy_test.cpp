@@ -85,25 +85,6 @@ bool edge_connected(const Mesh& mesh, const Faces& faces) {
     return !faces.empty();
 }
 
-// Edges where the patch ends, because of another patch or with the mesh, hang together at vertices; each
-// such group with an edge to another patch is a ring.
-uint32_t border_rings(const Mesh& mesh, const Faces& faces) {
-    Faces all(mesh.face_count());
-    std::iota(all.begin(), all.end(), 0u);
-    const auto of_mesh = faces_at_edges(mesh, all);
-    Groups groups;
-    std::vector<uint32_t> at_other_patches;
-    for (const auto& [edge, inside] : faces_at_edges(mesh, faces)) {
-        const size_t around = of_mesh.at(edge).size();
-        if (around == inside.size() && around > 1) continue;
-        groups.join(edge[0], edge[1]);
-        if (around > inside.size()) at_other_patches.push_back(edge[0]);
-    }
-    std::set<uint32_t> rings;
-    for (uint32_t v : at_other_patches) rings.insert(groups.find(v));
-    return static_cast<uint32_t>(rings.size());
-}
-
 Hierarchy build(const Mesh& mesh, std::vector<uint32_t> split, uint64_t seed = 1, uint32_t threads = 1) {
     const ExactMetric metric(mesh);
     Workers workers(metric, threads, {});
@@ -147,7 +128,7 @@ std::vector<Faces> faces_of_patches(const Hierarchy& h) {
 
 }
 
-TEST_CASE("hierarchy: every face in one leaf, patches connected, nested, with one border ring at most") {
+TEST_CASE("hierarchy: every face in one leaf, patches connected and nested") {
     for (const auto& [name, soup] : surfaces()) {
         const auto& surface_name = name; // clang 14 captures no structured binding
         CAPTURE(surface_name);
@@ -163,24 +144,23 @@ TEST_CASE("hierarchy: every face in one leaf, patches connected, nested, with on
                 REQUIRE(leaf < h.patch_count());
             }
             const auto faces = faces_of_patches(h);
-            for (uint32_t p = 1; p < h.patch_count(); ++p) {
-                CHECK(edge_connected(mesh, faces[p]));
-                CHECK(border_rings(mesh, faces[p]) <= 1);
-            }
+            for (uint32_t p = 1; p < h.patch_count(); ++p) CHECK(edge_connected(mesh, faces[p]));
         }
     }
 }
 
 TEST_CASE("hierarchy: about as many patches as asked for, of about the same size") {
-    for (const Soup& soup : {bumpy_sphere(4, 1), grid(30, 30, 1, 1), torus(50, 24, 2, 0.8)}) {
+    // Sections of the thin torus and of the tube have two border rings.
+    for (const Soup& soup : {bumpy_sphere(4, 1), grid(30, 30, 1, 1), torus(50, 24, 2, 0.8),
+                             torus(200, 6, 10, 0.3), prism(6, 200, 100)}) {
         const Mesh mesh = mesh_of(soup);
         const Hierarchy h = build(mesh, {12, 6});
         const uint32_t first = h.level_begin[2] - h.level_begin[1],
                        second = h.level_begin[3] - h.level_begin[2];
         CHECK(first >= 10);
-        CHECK(first <= 18); // a patch with two rings is split in three
+        CHECK(first <= 12);
         CHECK(second >= 5 * first);
-        CHECK(second <= 9 * first);
+        CHECK(second <= 6 * first);
         const auto faces = faces_of_patches(h);
         for (uint32_t p = 1; p < h.level_begin[2]; ++p)
             CHECK(faces[p].size() <= 4 * mesh.face_count() / first); // Poisson disks: no giant among them
@@ -210,10 +190,7 @@ TEST_CASE("hierarchy: other metrics split, too, also with edges of no length") {
         const Hierarchy h = build_hierarchy(mesh, {{5, 3}, 4, 1}, workers);
         check_numbering(h, 2);
         const auto faces = faces_of_patches(h);
-        for (uint32_t p = 1; p < h.patch_count(); ++p) {
-            CHECK(edge_connected(mesh, faces[p]));
-            CHECK(border_rings(mesh, faces[p]) <= 1);
-        }
+        for (uint32_t p = 1; p < h.patch_count(); ++p) CHECK(edge_connected(mesh, faces[p]));
     }
 }
 
@@ -239,7 +216,6 @@ TEST_CASE("split_patch: a part of the mesh, into a partition of just its faces")
             Faces together;
             for (const Faces& patch : split_patch(mesh, faces, count, 2, *solver, random)) {
                 CHECK(edge_connected(mesh, patch));
-                CHECK(border_rings(mesh, patch) <= 1);
                 together.insert(together.end(), patch.begin(), patch.end());
             }
             std::sort(together.begin(), together.end());
