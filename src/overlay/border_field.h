@@ -9,16 +9,15 @@
 
 namespace geodesic {
 
-// The vertices that a hop leads to, each with a row of a table: a border (none if the hop leads down), and
-// then vertices with consecutive numbers, which are the inner vertices of a patch.
+// The vertices that a hop leads to, each with a row of a table.
 struct HopTargets {
     Rows rows;
-    float quantum; // of the rows
-    std::span<const uint32_t> border;
-    uint32_t first_inner;
+    float quantum;           // of the rows
+    const uint32_t* numbers; // of the vertices; NULL if they are consecutive
+    uint32_t first;          // the number of the first one
 
     uint32_t operator[](size_t row) const {
-        return row < border.size() ? border[row] : first_inner + static_cast<uint32_t>(row - border.size());
+        return numbers ? numbers[row] : first + static_cast<uint32_t>(row);
     }
 };
 

@@ -73,7 +73,7 @@ std::span<float> InnerSweep::result() {
 }
 
 HopTargets InnerSweep::targets() {
-    return {rows(), index_.quantum[patch_], {}, numbering_.first_inner(patch_)};
+    return {rows(), index_.quantum[patch_], nullptr, numbering_.first_inner(patch_)};
 }
 
 // Prepares the border for one of the sources. Returns whether that source reaches it.

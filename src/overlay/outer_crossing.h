@@ -29,23 +29,22 @@ public:
     // Does the same with other segments, which must stay valid until the hop is done.
     bool begin(uint32_t child, DistanceField distance, const RingSegments& segments);
 
-    // Hops to each position of the parent's overlay; call it only if begin() returned true. The result is
-    // infinite on the child's own border, whose distances are known. Kernels describes `winners`.
+    // Hops to each vertex of the parent's overlay that is not on the child's own border, whose distances are
+    // known; call it only if begin() returned true. Kernels describes `winners`.
     std::span<float> cross(uint16_t* winners = nullptr);
 
-    // The vertices of the parent's overlay, by their positions, with the rows of the outer table.
+    // These vertices, with the rows of the outer table.
     HopTargets targets() const;
 
 private:
-    Rows rows() const { return {rows_.data(), numbering_.overlay_size(numbering_.parent[child_])}; }
-
     const OverlayIndex& index_;
     const Numbering& numbering_;
     const Rings& rings_;
     BorderField field_;
     uint32_t child_ = 0;
     Array<const uint16_t*> rows_;
-    Array<float> outside_; // per row
+    Array<uint32_t> numbers_; // per row: of its vertex
+    Array<float> outside_;    // per row: the distance
 };
 
 }

@@ -28,13 +28,14 @@ void measure_segments(OverlayIndex& index) {
 // codes behind each kind, up to a whole block.
 template <class Code>
 struct HopParts {
-    std::span<Code> outer, inner, inner_middles, internal;
+    std::span<Code> outer, kept, inner, inner_middles, internal;
 };
 
 uint64_t size_of_part(uint64_t codes) { return SourceCode::whole_blocks(codes + TableCode::PADDING); }
 
 uint64_t hop_code_count(const OverlayIndex& index) {
-    return size_of_part(index.hops.outer_begin.back()) + 2 * size_of_part(index.hops.inner_begin.back()) +
+    return size_of_part(index.hops.outer_begin.back()) + size_of_part(index.hops.kept_begin.back()) +
+           2 * size_of_part(index.hops.inner_begin.back()) +
            size_of_part(index.numbering.internal_table_begin.back());
 }
 
@@ -47,6 +48,7 @@ HopParts<Code> parts_of(const OverlayIndex& index, std::span<Code> codes) {
     };
     HopParts<Code> parts;
     parts.outer = take(index.hops.outer_begin.back());
+    parts.kept = take(index.hops.kept_begin.back());
     parts.inner = take(index.hops.inner_begin.back());
     parts.inner_middles = take(index.hops.inner_begin.back());
     parts.internal = take(index.numbering.internal_table_begin.back());
@@ -57,30 +59,69 @@ void view_hop_codes(OverlayIndex& index, std::span<const uint16_t> codes) {
     const auto parts = parts_of(index, codes);
     index.hops.codes = codes;
     index.hops.outer = parts.outer;
+    index.hops.kept = parts.kept;
     index.hops.inner = parts.inner;
     index.hops.inner_middles = parts.inner_middles;
     index.hops.internal = parts.internal;
 }
 
+// Finds the rows that a patch's outer table leaves out. Returns how many others there are.
+uint32_t number_outer_rows(const Numbering& numbering, uint32_t patch, HopTables& hops) {
+    if (numbering.border_size(patch) == 0) {
+        hops.row_begin.push_back(hops.own_before.size());
+        return 0;
+    }
+    const uint32_t size = numbering.overlay_size(numbering.parent[patch]);
+    const auto first = hops.own_before.insert(hops.own_before.end(), size, 0);
+    for (uint32_t slot = numbering.border_begin[patch]; slot < numbering.border_begin[patch + 1]; ++slot)
+        first[numbering.overlay_position[slot]] = HopTables::OWN;
+    uint16_t own = 0;
+    for (uint32_t i = 0; i < size; ++i)
+        if (first[i] == HopTables::OWN)
+            ++own;
+        else
+            first[i] = own;
+    hops.row_begin.push_back(hops.own_before.size());
+    return size - own;
+}
+
+// Numbers the vertices that each patch keeps. Returns how many there are, per patch.
+std::vector<uint16_t> number_kept_vertices(const Numbering& numbering, HopTables& hops) {
+    std::vector<uint16_t> count(numbering.patch_count(), 0);
+    hops.kept_number.assign(numbering.border.size(), 0);
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
+        for (uint32_t i = 0; i < numbering.overlay_size(p); ++i) {
+            const uint32_t slot = kept_slot(numbering, p, i);
+            hops.kept_number[slot] = count[numbering.patch_of_slot[slot]]++;
+        }
+    return count;
+}
+
 void lay_out_hop_tables(OverlayIndex& index) {
     const Numbering& numbering = index.numbering;
     HopTables& hops = index.hops;
-    hops.outer_begin.assign(2, 0);
-    hops.inner_begin.assign(2, 0);
+    const auto kept = number_kept_vertices(numbering, hops);
+    for (auto* begin : {&hops.outer_begin, &hops.kept_begin, &hops.inner_begin, &hops.row_begin})
+        begin->assign(2, 0);
+    const auto add_table = [](Array<uint64_t>& begin, uint64_t codes) {
+        begin.push_back(begin.back() + codes);
+        require_room_for(begin.back());
+    };
+    uint64_t rows = 0;
+    for (uint32_t p = 1; p < numbering.patch_count(); ++p)
+        if (numbering.border_size(p) > 0) rows += numbering.overlay_size(numbering.parent[p]);
+    hops.own_before.reserve(rows);
     for (uint32_t p = 1; p < numbering.patch_count(); ++p) {
         const uint64_t places = index.rings.size(p);
-        hops.outer_begin.push_back(hops.outer_begin.back() +
-                                   numbering.overlay_size(numbering.parent[p]) * places);
-        hops.inner_begin.push_back(hops.inner_begin.back() + numbering.inner_size(p) * places);
-        require_room_for(hops.outer_begin.back());
-        require_room_for(hops.inner_begin.back());
+        add_table(hops.outer_begin, number_outer_rows(numbering, p, hops) * places);
+        add_table(hops.kept_begin, triangle_size(kept[p]));
+        add_table(hops.inner_begin, numbering.inner_size(p) * places);
     }
 }
 
 // ---- From the stored tables to rows along rings
 
-// The overlay table of a patch as a square. Entries for two vertices on the patch's border are 0, since the
-// file does not store them.
+// The overlay table of a patch as a square.
 class OverlaySquare {
 public:
     OverlaySquare(const Numbering& numbering, uint32_t patch, const uint16_t* stored)
@@ -90,6 +131,16 @@ public:
             for (size_t j = 0; j < border; ++j) set(border + i, j, *stored++);
         for (size_t i = 0; i < owned; ++i)
             for (size_t j = 0; j < i; ++j) set(border + i, border + j, *stored++);
+    }
+
+    // The distances of vertices on the patch's border are stored in the table of its parent only.
+    void take_border_from(const OverlayIndex& index, uint32_t patch, const OverlaySquare& of_parent) {
+        const Numbering& numbering = index.numbering;
+        const float from = index.quantum[numbering.parent[patch]], to = index.quantum[patch];
+        const uint32_t* position = numbering.overlay_position.data() + numbering.border_begin[patch];
+        for (size_t i = 0; i < numbering.border_size(patch); ++i)
+            for (size_t j = 0; j < i; ++j)
+                set(i, j, TableCode::converted(of_parent.row(position[i])[position[j]], from, to));
     }
 
     const uint16_t* row(size_t i) const { return codes_.data() + i * size_; }
@@ -116,14 +167,26 @@ void write_rows(const OverlayIndex& index, uint32_t patch, uint32_t count, std::
     }
 }
 
-void write_outer_table(const OverlayIndex& index, const OverlaySquare& of_parent, uint32_t patch,
-                       std::span<uint16_t> outer) {
+// Writes the outer table of a patch and its kept one.
+void write_outer_tables(const OverlayIndex& index, const OverlaySquare& of_parent, uint32_t patch,
+                        const HopParts<uint16_t>& parts) {
     const Numbering& numbering = index.numbering;
-    const std::span<const uint32_t> overlay_position{
-        numbering.overlay_position.data() + numbering.border_begin[patch], numbering.border_size(patch)};
+    const uint32_t parent = numbering.parent[patch], first = numbering.border_begin[patch],
+                   size = numbering.border_size(patch) > 0 ? numbering.overlay_size(parent) : 0;
+    const std::span<const uint32_t> overlay_position{numbering.overlay_position.data() + first,
+                                                     numbering.border_size(patch)};
+    std::vector<uint32_t> outside, kept;
+    for (uint32_t i = 0; i < size; ++i) {
+        if (index.outer_row(patch, i)) outside.push_back(i);
+        if (numbering.patch_of_slot[kept_slot(numbering, parent, i)] == patch) kept.push_back(i);
+    }
     write_rows(
-        index, patch, numbering.overlay_size(numbering.parent[patch]), overlay_position,
-        [&](uint32_t i) { return of_parent.row(i); }, outer.data() + index.outer_row(patch, 0));
+        index, patch, static_cast<uint32_t>(outside.size()), overlay_position,
+        [&](uint32_t i) { return of_parent.row(outside[i]); },
+        parts.outer.data() + index.hops.outer_begin[patch]);
+    uint16_t* code = parts.kept.data() + index.hops.kept_begin[patch];
+    for (size_t i = 0; i < kept.size(); ++i)
+        for (size_t j = 0; j < i; ++j) *code++ = of_parent.row(kept[i])[kept[j]];
 }
 
 // 0, 1, 2 ...
@@ -133,22 +196,41 @@ std::vector<uint32_t> numbers_to(uint32_t end) {
     return numbers;
 }
 
-void write_overlay_tables(const StoredIndex& stored, const OverlayIndex& index,
-                          const HopParts<uint16_t>& parts) {
-    const Numbering& numbering = index.numbering;
-    const uint16_t* codes = stored.overlay_codes.data();
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
-        const OverlaySquare square(numbering, p, codes);
-        codes += numbering.overlay_entries(p);
-        for (uint32_t child = numbering.child_begin[p]; child < numbering.child_begin[p + 1]; ++child)
-            write_outer_table(index, square, child, parts.outer);
-        if (p == 0) continue;
-        const uint32_t border = numbering.border_size(p);
-        write_rows(
-            index, p, numbering.inner_size(p), numbers_to(border),
-            [&](uint32_t i) { return square.row(border + i); }, parts.inner.data() + index.inner_row(p, 0));
+// Writes the tables that are made from overlay tables, those of parents before those of their children.
+class OverlayTableWriter {
+public:
+    OverlayTableWriter(const StoredIndex& stored, const OverlayIndex& index, const HopParts<uint16_t>& parts)
+        : index_(index), numbering_(index.numbering), parts_(parts) {
+        const uint16_t* codes = stored.overlay_codes.data();
+        for (uint32_t p = 0; p < numbering_.first_leaf(); ++p) {
+            codes_.push_back(codes);
+            codes += numbering_.overlay_entries(p);
+        }
     }
-}
+
+    void write(uint32_t patch, const OverlaySquare* of_parent) const {
+        OverlaySquare square(numbering_, patch, codes_[patch]);
+        if (of_parent) {
+            square.take_border_from(index_, patch, *of_parent);
+            const uint32_t border = numbering_.border_size(patch);
+            write_rows(
+                index_, patch, numbering_.inner_size(patch), numbers_to(border),
+                [&](uint32_t i) { return square.row(border + i); },
+                parts_.inner.data() + index_.inner_row(patch, 0));
+        }
+        for (uint32_t child = numbering_.child_begin[patch]; child < numbering_.child_begin[patch + 1];
+             ++child) {
+            write_outer_tables(index_, square, child, parts_);
+            if (child < numbering_.first_leaf()) write(child, &square);
+        }
+    }
+
+private:
+    const OverlayIndex& index_;
+    const Numbering& numbering_;
+    const HopParts<uint16_t>& parts_;
+    std::vector<const uint16_t*> codes_; // per inner patch: those of its overlay table
+};
 
 void write_leaf_tables(const StoredIndex& stored, const OverlayIndex& index,
                        const HopParts<uint16_t>& parts) {
@@ -169,39 +251,12 @@ void write_leaf_tables(const StoredIndex& stored, const OverlayIndex& index,
     std::ranges::copy(stored.internal_codes, parts.internal.begin());
 }
 
-// The distance of two positions on the border of a patch, from the table of its parent, in steps of the
-// patch's own quantum.
-uint16_t code_by_parent(const OverlayIndex& index, uint32_t patch, uint32_t i, uint32_t j) {
-    const Numbering& numbering = index.numbering;
-    const uint32_t first_slot = numbering.border_begin[patch];
-    const uint64_t row = index.outer_row(patch, numbering.overlay_position[first_slot + i]);
-    return TableCode::converted(index.hops.outer[row + index.rings.place_of_slot[first_slot + j]],
-                                index.quantum[numbering.parent[patch]], index.quantum[patch]);
-}
-
-// The distance of two vertices on a patch's border is stored only in the table of the patch's parent. Parents
-// are treated before their children, so that their own tables are complete.
-void take_border_codes_from_parents(const OverlayIndex& index, std::span<uint16_t> outer) {
-    const Numbering& numbering = index.numbering;
-    for (uint32_t child = numbering.child_begin[1]; child < numbering.patch_count(); ++child) {
-        const uint32_t patch = numbering.parent[child], border = numbering.border_size(patch);
-        const uint32_t* overlay_position = numbering.overlay_position.data() + numbering.border_begin[child];
-        const uint32_t* position = index.rings.position.data() + index.rings.begin[child];
-        uint16_t* code = outer.data() + index.outer_row(child, 0);
-        for (uint32_t i = 0; i < border; ++i)
-            for (uint32_t k = 0; k < index.rings.size(child); ++k, ++code)
-                if (const uint32_t j = overlay_position[position[k]]; j < border && i != j)
-                    *code = code_by_parent(index, patch, std::max(i, j), std::min(i, j));
-    }
-}
-
 void make_hop_codes(const StoredIndex& stored, OverlayIndex& index) {
     index.hops.made.resize(hop_code_count(index));
     view_hop_codes(index, index.hops.made);
     const auto parts = parts_of(index, std::span(index.hops.made));
-    write_overlay_tables(stored, index, parts);
+    OverlayTableWriter(stored, index, parts).write(0, nullptr);
     write_leaf_tables(stored, index, parts);
-    take_border_codes_from_parents(index, parts.outer);
     make_middle_tables(index, parts.inner_middles);
 }
 

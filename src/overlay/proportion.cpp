@@ -1,6 +1,7 @@
 #include "src/overlay/proportion.h"
 
 #include <string>
+#include <vector>
 
 #include "format/error.h"
 #include "src/overlay/labels.h"
@@ -13,15 +14,26 @@ namespace {
 // The size of the outer table of a patch, and of the inner ones.
 uint64_t outer_and_inner(const OverlayIndex& index, uint32_t patch) {
     const Numbering& numbering = index.numbering;
-    return index.rings.size(patch) * (uint64_t{numbering.overlay_size(numbering.parent[patch])} +
-                                      2 * uint64_t{numbering.inner_size(patch)});
+    const uint32_t outside = numbering.overlay_size(numbering.parent[patch]) - numbering.border_size(patch);
+    return index.rings.size(patch) * (uint64_t{outside} + 2 * uint64_t{numbering.inner_size(patch)});
+}
+
+// The size of all kept tables.
+uint64_t kept(const Numbering& numbering) {
+    std::vector<uint64_t> count(numbering.patch_count(), 0);
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
+        for (uint32_t i = 0; i < numbering.overlay_size(p); ++i)
+            ++count[numbering.patch_of_slot[kept_slot(numbering, p, i)]];
+    uint64_t codes = 0;
+    for (const uint64_t vertices : count) codes += triangle_size(vertices);
+    return codes;
 }
 
 }
 
 // No sum wraps around, since a ring has fewer than 2^15 places and there are fewer than 2^32 vertices.
 uint64_t derived_codes(const OverlayIndex& index) {
-    uint64_t codes = count_sample_codes(index) + count_label_codes(index);
+    uint64_t codes = kept(index.numbering) + count_sample_codes(index) + count_label_codes(index);
     for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) codes += outer_and_inner(index, p);
     return codes;
 }

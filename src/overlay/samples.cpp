@@ -164,6 +164,12 @@ private:
         return numbering_.overlay_position[numbering_.border_begin[patch] + position(patch, place)];
     }
 
+    uint32_t vertex_at(uint32_t patch, uint16_t place) const {
+        return index_.rings.vertex[index_.rings.begin[patch] + place];
+    }
+    // Of two vertices on the border that is hopped from or to.
+    static uint16_t code_on_border(uint32_t a, uint32_t b) { return a == b ? 0 : TableCode::UNREACHED; }
+
     // Makes room for a table and returns it.
     uint16_t* add_table(size_t rows, size_t columns) {
         samples_.codes.resize(samples_.codes.size() + rows * columns);
@@ -179,8 +185,11 @@ private:
         const auto from = samples_.of(patch), to = samples_.of(parent);
         uint16_t* table = add_table(from.size(), to.size());
         for (size_t j = 0; j < to.size(); ++j) {
-            const uint16_t* row = index_.hops.outer.data() + index_.outer_row(patch, position(parent, to[j]));
-            for (size_t i = 0; i < from.size(); ++i) table[i * to.size() + j] = row[from[i]];
+            const uint32_t vertex = vertex_at(parent, to[j]);
+            const uint16_t* row = index_.outer_row(patch, position(parent, to[j]));
+            for (size_t i = 0; i < from.size(); ++i)
+                table[i * to.size() + j] =
+                    row ? row[from[i]] : code_on_border(vertex, vertex_at(patch, from[i]));
         }
     }
 
@@ -194,9 +203,10 @@ private:
             uint16_t* entry = add_table(rows, to.size());
             for (uint32_t sibling = first; sibling < end; ++sibling)
                 for (const uint16_t from : samples_.of(sibling)) {
-                    const uint16_t* row =
-                        index_.hops.outer.data() + index_.outer_row(child, overlay_position(sibling, from));
-                    for (const uint16_t k : to) *entry++ = row[k];
+                    const uint32_t vertex = vertex_at(sibling, from);
+                    const uint16_t* row = index_.outer_row(child, overlay_position(sibling, from));
+                    for (const uint16_t k : to)
+                        *entry++ = row ? row[k] : code_on_border(vertex, vertex_at(child, k));
                 }
         }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory_resource>
@@ -14,18 +15,32 @@
 namespace geodesic {
 
 // The tables that hops read: codes of distances, in rows along a ring, with one code for each place of the
-// ring. Every patch has two such tables. Its outer table has a row for each vertex of its parent's overlay,
-// in steps of the parent's quantum; hops up and across read it. Its inner table has a row for each of its own
-// inner vertices, in steps of its own quantum; hops down read it. Beside each row of an inner table lies a
-// row of inner_middles, which has, for each place, the distance to the middle of the segment that begins
-// there. All codes lie one table kind after the other, so that a mapped file can hold them as they are.
+// ring. Every patch has two such tables. Its outer table has a row for each vertex of its parent's overlay
+// that is not on its own border, in steps of the parent's quantum; hops up and across read it. Its inner
+// table has a row for each of its own inner vertices, in steps of its own quantum; hops down read it. Beside
+// each row of an inner table lies a row of inner_middles, which has, for each place, the distance to the
+// middle of the segment that begins there.
+//
+// Two vertices that lie on the borders of the very same children of a patch are in no outer table together.
+// One of these children keeps their distance: its kept table has all pairs of the vertices that it keeps,
+// below the diagonal.
+//
+// All codes lie one table kind after the other, so that a mapped file can hold them as they are.
 struct HopTables {
     explicit HopTables(std::pmr::memory_resource* memory)
-        : outer_begin(memory), inner_begin(memory), made(memory) {}
+        : outer_begin(memory), kept_begin(memory), inner_begin(memory), row_begin(memory), own_before(memory),
+          kept_number(memory), made(memory) {}
 
-    Array<uint64_t> outer_begin, inner_begin; // per patch
-    std::span<const uint16_t> codes;          // those of the following four, in this order
-    std::span<const uint16_t> outer, inner, inner_middles;
+    static constexpr uint16_t OWN = 0xffff;
+
+    Array<uint64_t> outer_begin, kept_begin, inner_begin; // per patch
+    Array<uint64_t> row_begin;                            // per patch: where its rows begin in own_before
+    // Of patches with a border, per position of the parent's overlay: how many of those before it are on the
+    // patch's own border, or OWN if it is itself. (A border has fewer vertices than a ring may have places.)
+    Array<uint16_t> own_before;
+    Array<uint16_t> kept_number;     // per slot whose patch keeps the vertex: its row in the kept table
+    std::span<const uint16_t> codes; // those of the following five, in this order
+    std::span<const uint16_t> outer, kept, inner, inner_middles;
     std::span<const uint16_t> internal; // of leaves, below the diagonal, at Numbering::internal_entry()
     Array<uint16_t> made;               // `codes`, unless they lie in a file
 };
@@ -41,7 +56,9 @@ struct HopTables {
 // Up: for each patch whose parent has a border, rows for the samples of the patch, each with one code for
 // every sample of the parent. Across: for each patch whose border is long, rows for the samples of all
 // children of its parent, in the order of their numbers, each with one code for every sample of the patch.
-// Where a border is not long, hops across read the outer table of its patch.
+// Where a border is not long, hops across read the outer table of its patch. Two samples that lie on both
+// borders have no path in these tables, since each has its distance without a hop; a sample and itself are at
+// distance 0.
 struct Samples {
     explicit Samples(std::pmr::memory_resource* memory)
         : begin(memory), place(memory), spacing(memory), long_begin(memory), long_segments(memory),
@@ -100,6 +117,15 @@ struct PairTables {
     std::atomic<bool> are_made = false;
 };
 
+// The slot of a vertex of a patch's overlay on the border of the child that keeps it. It is the same child
+// for all vertices that lie on the borders of the same children; different ones take turns.
+inline uint32_t kept_slot(const Numbering& numbering, uint32_t patch, uint32_t overlay_position) {
+    const auto slots = numbering.slots_of(patch, overlay_position);
+    const uint32_t first = numbering.patch_of_slot[slots.front()],
+                   last = numbering.patch_of_slot[slots.back()];
+    return slots[(first + last) % slots.size()];
+}
+
 // What the overlay engine answers from.
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
@@ -116,19 +142,29 @@ struct OverlayIndex {
 
     float distance(uint16_t code, uint32_t patch) const { return TableCode::distance(code, quantum[patch]); }
 
-    // Where a row begins in the outer table of a patch, which has a row for each position in its parent's
-    // overlay, and in its inner table, which has one for each of its inner vertices.
-    uint64_t outer_row(uint32_t patch, uint32_t overlay_position) const {
-        return hops.outer_begin[patch] + uint64_t{overlay_position} * rings.size(patch);
+    // The row of a vertex in the outer table of a patch, or NULL if the vertex is on the patch's own border,
+    // or if that is empty. The vertex is given by its position in the overlay of the patch's parent.
+    const uint16_t* outer_row(uint32_t patch, uint32_t overlay_position) const {
+        if (rings.size(patch) == 0) return nullptr;
+        const uint16_t own_before = hops.own_before[hops.row_begin[patch] + overlay_position];
+        if (own_before == HopTables::OWN) return nullptr;
+        return hops.outer.data() + hops.outer_begin[patch] +
+               size_t{overlay_position - own_before} * rings.size(patch);
     }
+    // Where a row begins in the inner table of a patch, which has one for each of its inner vertices.
     uint64_t inner_row(uint32_t patch, uint32_t inner) const {
         return hops.inner_begin[patch] + uint64_t{inner} * rings.size(patch);
     }
 
     // The entry for the overlay positions i and j in the overlay table of an inner patch.
     uint16_t overlay_code(uint32_t patch, uint32_t i, uint32_t j) const {
-        const uint32_t slot = numbering.slots_of(patch, j).front();
-        return hops.outer[outer_row(numbering.patch_of_slot[slot], i) + rings.place_of_slot[slot]];
+        if (i == j) return 0;
+        if (const uint16_t* const code = outer_code(patch, i, j)) return *code;
+        if (const uint16_t* const code = outer_code(patch, j, i)) return *code;
+        const uint32_t slot = kept_slot(numbering, patch, i);
+        const uint32_t a = hops.kept_number[slot], b = hops.kept_number[kept_slot(numbering, patch, j)];
+        return hops.kept[hops.kept_begin[numbering.patch_of_slot[slot]] +
+                         below_diagonal(std::max(a, b), std::min(a, b))];
     }
     uint16_t border_internal_code(uint32_t leaf, uint32_t border_position, uint32_t internal) const {
         return hops.inner[inner_row(leaf, internal) +
@@ -136,6 +172,16 @@ struct OverlayIndex {
     }
     uint16_t internal_code(uint32_t leaf, uint32_t i, uint32_t j) const {
         return hops.internal[numbering.internal_entry(leaf, i, j)];
+    }
+
+private:
+    // The entry in the row of the overlay position i of the outer table of a child that has j on its border,
+    // or NULL if all these children have i there, too.
+    const uint16_t* outer_code(uint32_t patch, uint32_t i, uint32_t j) const {
+        for (const uint32_t slot : numbering.slots_of(patch, j))
+            if (const uint16_t* const row = outer_row(numbering.patch_of_slot[slot], i))
+                return row + rings.place_of_slot[slot];
+        return nullptr;
     }
 };
 

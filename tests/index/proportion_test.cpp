@@ -19,8 +19,8 @@ uint64_t label_codes(const OverlayIndex& index) {
     return codes > 0 ? codes - TableCode::PADDING : 0;
 }
 uint64_t codes_made(const OverlayIndex& index) {
-    return index.hops.outer_begin.back() + 2 * index.hops.inner_begin.back() + sample_codes(index) +
-           label_codes(index);
+    return index.hops.outer_begin.back() + index.hops.kept_begin.back() + 2 * index.hops.inner_begin.back() +
+           sample_codes(index) + label_codes(index);
 }
 
 }

@@ -168,9 +168,14 @@ Tally hop_up(const Built& built) {
     for (uint32_t child = 1; child < numbering.patch_count(); ++child) {
         const uint32_t parent = numbering.parent[child];
         const StoredBorder border = built.tables.border(child);
+        std::vector<uint32_t> targets; // whose distances are not known
         std::vector<std::vector<uint16_t>> rows;
-        for (uint32_t i = 0; i < numbering.overlay_size(parent); ++i)
-            rows.push_back(built.tables.row_up(child, numbering.overlay_number(parent, i)));
+        for (uint32_t i = 0; i < numbering.overlay_size(parent); ++i) {
+            const uint32_t x = numbering.overlay_number(parent, i);
+            if (std::ranges::find(border.vertices, x) != border.vertices.end()) continue;
+            targets.push_back(x);
+            rows.push_back(built.tables.row_up(child, x));
+        }
         for (const Field& field : built.fields) {
             if (!built.is_source_in(field, child)) continue;
             const PlainHop plain = plain_hop(border, field, built.tables.quantum(parent));
@@ -181,12 +186,9 @@ Tally hop_up(const Built& built) {
             const auto answers = crossing.cross(winners.data());
             REQUIRE(answers.size() == rows.size());
             for (uint32_t i = 0; i < rows.size(); ++i) {
-                const uint32_t x = numbering.overlay_number(parent, i);
-                if (std::ranges::find(border.vertices, x) != border.vertices.end())
-                    CHECK(answers[i] == INFINITE); // its distance is known
-                else
-                    tally.add(plain.over_vertices(rows[i]), answers[i],
-                              position_of(built.overlay(), child, winners[i]));
+                CHECK(crossing.targets()[i] == targets[i]);
+                tally.add(plain.over_vertices(rows[i]), answers[i],
+                          position_of(built.overlay(), child, winners[i]));
             }
         }
     }

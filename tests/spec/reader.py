@@ -251,6 +251,7 @@ class Index:
         self.border = [numbers[a:b] for a, b in zip(self.border_begin, self.border_begin[1:])]
         self.entry = numpy.repeat(numpy.arange(self.patch_count), counts)
         self.leaves = range(self.inner_count, self.patch_count)
+        self._on_border = [set(border.tolist()) for border in self.border]
 
     def is_border(self, number):
         return number < self.border_vertex_count
@@ -321,14 +322,18 @@ class Index:
         codes = Fields(self.sections["HOPS"].bytes())
         places, patches = [self.places(patch) for patch in range(self.patch_count)], range(1, self.patch_count)
         insides, rings = [len(inside) for inside in self.inside], [len(on) for on, _ in places]
-        outer = self._part(codes, [(len(self.overlay(self.parent[p])), rings[p]) for p in patches])
+        outside = {p: [v for v in self.overlay(self.parent[p]) if v not in self._on_border[p]] for p in patches}
+        outer = self._part(codes, [(len(outside[p]), rings[p]) for p in patches])
+        kept = self._kept_vertices()
+        kept_codes = self._part(codes, [(1, len(kept[p]) * (len(kept[p]) - 1) // 2) for p in patches])
         inner = self._part(codes, [(insides[p], rings[p]) for p in patches])
         middles = self._part(codes, [(insides[p], rings[p]) for p in patches])
         triangles = self._part(codes, [(1, n * (n - 1) // 2) for n in (insides[p] for p in self.leaves)])
         require(codes.at == len(codes.content), "HOPS is longer than its tables")
-        self.overlay_table = [self._from_children(patch, places, outer) for patch in range(self.inner_count)]
+        of_child = {p: (outside[p], outer[p - 1], kept[p], kept_codes[p - 1][0]) for p in patches}
+        self.overlay_table = [self._from_children(patch, places, of_child) for patch in range(self.inner_count)]
         for patch in patches:
-            self._check_repeated(patch, places[patch][0], outer[patch - 1], inner[patch - 1], middles[patch - 1])
+            self._check_repeated(patch, places[patch][0], inner[patch - 1], middles[patch - 1])
         self.border_internal = {p: inner[p - 1][:, places[p][1]].T for p in self.leaves}
         self.internal = {p: self._triangle(entries[0], insides[p]) for p, entries in zip(self.leaves, triangles)}
 
@@ -356,21 +361,38 @@ class Index:
             at += rows * columns
         return tables
 
-    def _from_children(self, patch, places, outer):
+    def _kept_vertices(self):
+        """For each patch the vertices of its parent's overlay whose distances among each other it keeps."""
+        kept = {patch: [] for patch in range(1, self.patch_count)}
+        for patch in range(self.inner_count):
+            for number in self.overlay(patch):
+                around = [child for child in self.children[patch] if number in self._on_border[child]]
+                kept[around[(around[0] + around[-1]) % len(around)]].append(number)
+        return kept
+
+    def _from_children(self, patch, places, of_child):
         position = {number: i for i, number in enumerate(self.overlay(patch))}
         table = numpy.full((len(position), len(position)), numpy.nan, "f4")
+        numpy.fill_diagonal(table, 0)
+
+        def take(rows, columns, entries):
+            at = numpy.ix_([position[number] for number in rows], [position[number] for number in columns])
+            known = ~numpy.isnan(table[at])
+            numpy.testing.assert_array_equal(table[at][known], entries[known])
+            table[at] = entries
+
         for child in self.children[patch]:
-            at = [position[number] for number in self.border[child]]
-            table[:, at] = outer[child - 1][:, places[child][1]]
-        numpy.testing.assert_array_equal(table, table.T)
+            outside, outer, kept, among_kept = of_child[child]
+            take(outside, self.border[child], outer[:, places[child][1]])
+            take(self.border[child], outside, outer[:, places[child][1]].T)
+            take(kept, kept, self._triangle(among_kept, len(kept)))
+            on = places[child][0]
+            numpy.testing.assert_array_equal(outer, outer[:, places[child][1]][:, on])
+        require(not numpy.isnan(table).any(), "a pair of an overlay without a distance")
         return table
 
-    def _check_repeated(self, patch, on, outer, inner, middles):
+    def _check_repeated(self, patch, on, inner, middles):
         """Entries that follow from others."""
-        parent = self.parent[patch]
-        position = {number: i for i, number in enumerate(self.overlay(parent))}
-        at = [position[self.border[patch][i]] for i in on]
-        numpy.testing.assert_array_equal(outer, self.overlay_table[parent][:, at])
         if patch < self.inner_count:
             size = len(self.border[patch])
             numpy.testing.assert_array_equal(inner, self.overlay_table[patch][size:][:, on])

@@ -22,12 +22,6 @@ inline RingRow inner_row_of(const OverlayIndex& index, uint32_t vertex) {
             index.rings.begin[patch], index.quantum[patch]};
 }
 
-// The row of a border vertex to the ring of a child of its owner.
-inline RingRow outer_row_of(const OverlayIndex& index, uint32_t vertex, uint32_t child) {
-    return {index.hops.outer.data() + index.outer_row(child, index.numbering.position_at_owner(vertex)),
-            index.rings.begin[child], index.quantum[index.numbering.parent[child]]};
-}
-
 // The label of a vertex that lies deeper inside of a labelled patch than its inner vertices.
 inline RingRow label_of(const OverlayIndex& index, uint32_t vertex, uint32_t labelled) {
     const Numbering& numbering = index.numbering;

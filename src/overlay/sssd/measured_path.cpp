@@ -1,6 +1,7 @@
 #include "src/overlay/sssd/measured_path.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "src/overlay/sssd/vertex_finder.h"
 
@@ -29,9 +30,26 @@ void begin_crossing(const OverlayIndex& index, uint32_t patch, BorderRange read,
     std::fill(inside.end(), places.end(), INFINITE);
 }
 
+// Goes from either end of a patch's border range to another vertex of the border, which the outer table has
+// no row for: returns the length, and the end as a place of the range.
+std::pair<float, uint32_t> go_along(const OverlayIndex& index, uint32_t patch, BorderRange range,
+                                    const float* distances, uint32_t overlay_position) {
+    const uint32_t parent = index.numbering.parent[patch];
+    const uint32_t* positions = index.numbering.overlay_position.data() + index.numbering.border_begin[patch];
+    std::pair<float, uint32_t> least{INFINITE, 0};
+    for (const uint32_t end : {0u, range.size() - 1}) {
+        const uint32_t from = positions[index.rings.position[range.first + end]];
+        const float length =
+            distances[end] + index.distance(index.overlay_code(parent, from, overlay_position), parent);
+        if (length < least.first) least = {length, end};
+    }
+    return least;
+}
+
 // Crosses from a range of a patch's border to places of another border inside of the same parent.
 // overlay_position(k) is the position of place k in the parent's overlay. Vertices that are in both ranges
-// keep their distances. Returns the place that winners are counted from.
+// keep their distances. Returns the place
+// that winners are counted from.
 template <class OverlayPosition>
 uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, const float* distances,
                BorderRange to, const OverlayPosition& overlay_position, BorderCrossing& crossing, float* out,
@@ -41,8 +59,6 @@ uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, con
     VertexFinder common({rings.vertex.data() + range.first, range.size()});
     crossing.reached.clear();
     crossing.rows.clear();
-    const uint16_t* rows =
-        index.hops.outer.data() + index.outer_row(patch, 0) + (read.first - rings.begin[patch]);
     for (uint32_t i = 0; i < to.size(); ++i) {
         const uint32_t at = common.find(rings.vertex[to.first + i]);
         if (at != NONE) {
@@ -50,8 +66,16 @@ uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, con
             winners[i] = static_cast<uint16_t>(range.first + at - read.first);
             continue;
         }
+        const uint32_t position = overlay_position(to.first + i);
+        const uint16_t* const row = index.outer_row(patch, position);
+        if (!row) {
+            const auto [length, end] = go_along(index, patch, range, distances, position);
+            out[i] = length;
+            winners[i] = static_cast<uint16_t>(range.first + end - read.first);
+            continue;
+        }
         crossing.reached.push_back(i);
-        crossing.rows.push_back(rows + size_t{overlay_position(to.first + i)} * rings.size(patch));
+        crossing.rows.push_back(row + (read.first - rings.begin[patch]));
     }
     if (crossing.rows.empty()) return read.first;
     begin_crossing(index, patch, read, range, distances, crossing.field);

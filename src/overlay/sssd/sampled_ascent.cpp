@@ -21,13 +21,14 @@ size_t largest_sample_count(const OverlayIndex& index) {
 
 SampledAscent::SampledAscent(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), stride_(SourceCode::whole_blocks(largest_sample_count(index))), borders_(memory),
-      distances_(memory), winners_(memory), rows_(memory), codes_(stride_, memory), column_distances_(memory),
-      column_winners_(memory) {
+      distances_(memory), winners_(memory), rows_(memory), no_path_(memory), codes_(stride_, memory),
+      column_distances_(memory), column_winners_(memory) {
     const size_t borders = index.numbering.level_count() + 1;
     borders_.reserve(borders);
     distances_.resize(borders * stride_);
     winners_.resize(borders * stride_);
     rows_.resize(borders * stride_);
+    no_path_.resize(SourceCode::whole_blocks(LONGEST_WITHOUT_TABLE_ACROSS), TableCode::UNREACHED);
     column_distances_.resize(SourceCode::whole_blocks(LONGEST_WITHOUT_TABLE_ACROSS));
     column_winners_.resize(column_distances_.size());
 }
@@ -68,7 +69,8 @@ void SampledAscent::hop_across(const Ascent& ascent, uint32_t sibling) {
         index_.numbering.overlay_position.data() + index_.numbering.border_begin[patch];
     hop({.patch = sibling, .quantum = quantum, .places = to.data()}, index_.rings.size(sibling),
         [&](size_t i) {
-            return index_.hops.outer.data() + index_.outer_row(sibling, overlay_position[position[from[i]]]);
+            const uint16_t* const row = index_.outer_row(sibling, overlay_position[position[from[i]]]);
+            return row ? row : no_path_.data();
         });
 }
 
@@ -101,26 +103,32 @@ void SampledAscent::hop(const Border& to, size_t columns, const Row& row) {
     std::fill(distance + samples, distance + SourceCode::whole_blocks(samples), INFINITE);
     const uint32_t before = borders_.back().patch;
     borders_.push_back(to);
-    if (index_.longest_segment[before] == 0) measure_over_vertices(before);
+    const bool has_segments = index_.longest_segment[before] > 0;
+    if (!has_segments) measure_over_vertices();
+    if (to.places || !has_segments) keep_common(before);
 }
 
-// Corrects the distances from the samples of the last border, which are those of rounded codes: the border
-// before has no segments, so that all of its vertices are samples, in its order.
-void SampledAscent::measure_over_vertices(uint32_t before) {
+// Measures the ways to the samples of the last border, whose distances are those of rounded codes.
+void SampledAscent::measure_over_vertices() {
     const size_t border = borders_.size() - 1;
-    const uint32_t patch = borders_.back().patch;
-    const auto places = samples_of(borders_.back());
-    float* distance = distances_of(border);
-    for (uint32_t i = 0; i < places.size(); ++i) {
-        uint16_t& winner = winners_[border * stride_ + i];
-        const uint32_t vertex = index_.rings.vertex[index_.rings.begin[patch] + places[i]];
-        const auto common =
-            std::ranges::find(index_.numbering.borders_of(vertex), before, &PatchPosition::patch);
-        if (common != index_.numbering.borders_of(vertex).end()) {
-            winner = static_cast<uint16_t>(common->position);
-            distance[i] = distances_of(border - 1)[winner];
-        } else if (distance[i] < INFINITE) {
-            distance[i] = way_over(border, winner, i);
+    for (uint32_t i = 0; i < samples_of(borders_.back()).size(); ++i)
+        if (distances_of(border)[i] < INFINITE)
+            distances_of(border)[i] = way_over(border, sample_before(border, i), i);
+}
+
+// Vertices that are samples of the border before, too, keep the distances that they have there.
+void SampledAscent::keep_common(uint32_t before) {
+    const size_t border = borders_.size() - 1;
+    const auto samples_before = index_.pairs.samples.of(before);
+    const auto samples = samples_of(borders_.back());
+    for (uint32_t i = 0; i < samples.size(); ++i) {
+        const uint32_t vertex = index_.rings.vertex[index_.rings.begin[borders_.back().patch] + samples[i]];
+        for (const PatchPosition& at : index_.numbering.borders_of(vertex)) {
+            if (at.patch != before) continue;
+            const uint32_t place = own_place(index_.rings, index_.numbering, before, at.position);
+            const auto sample = std::ranges::lower_bound(samples_before, place - index_.rings.begin[before]);
+            winners_[border * stride_ + i] = static_cast<uint16_t>(sample - samples_before.begin());
+            distances_of(border)[i] = distances_of(border - 1)[sample - samples_before.begin()];
         }
     }
 }

@@ -51,7 +51,8 @@ private:
     const float* distances_of(size_t border) const { return distances_.data() + border * stride_; }
     template <class Row>
     void hop(const Border& to, size_t columns, const Row& row);
-    void measure_over_vertices(uint32_t before);
+    void keep_common(uint32_t before);
+    void measure_over_vertices();
 
     const OverlayIndex& index_;
     const size_t stride_; // room for what there is of one border, in whole blocks
@@ -59,6 +60,7 @@ private:
     Array<float> distances_;
     Array<uint16_t> winners_;
     Array<const uint16_t*> rows_; // that the hop to each border has read
+    Array<uint16_t> no_path_;     // a row in place of one that an outer table does not have
     // Scratch of a hop.
     Array<int16_t> codes_;
     Array<float> column_distances_;

@@ -105,10 +105,9 @@ void OverlaySssd::End::take_ranges(const OverlayIndex& index, uint32_t sample, B
 void OverlaySssd::End::prefetch_rows(const OverlayIndex& index) const {
     for (size_t b = 0; b + 1 < ranges.size(); ++b) {
         const uint32_t patch = ascent.patches[b];
-        const uint16_t* rows = index.hops.outer.data() + index.outer_row(patch, 0) +
-                               (ranges[b].first - index.rings.begin[patch]);
         for (uint32_t k = ranges[b + 1].first; k <= ranges[b + 1].last; ++k)
-            prefetch(rows + size_t{index.rings.position[k]} * index.rings.size(patch), ranges[b].size());
+            if (const uint16_t* const row = index.outer_row(patch, index.rings.position[k]))
+                prefetch(row + (ranges[b].first - index.rings.begin[patch]), ranges[b].size());
     }
 }
 
@@ -201,6 +200,16 @@ bool OverlaySssd::has_few_pairs() const {
             size_t{rings.size(meeting_patch())} * rings.size(from_.ascent.last_patch()) <= FEW_PAIRS);
 }
 
+// Returns the distance of `from_`, which is at the top, from the vertex at a place of the meeting border.
+float OverlaySssd::distance_from_top(uint32_t place) const {
+    const uint32_t patch = meeting_patch(), top = numbering_.parent[patch];
+    const uint32_t from = numbering_.position_at_owner(from_.ascent.vertex);
+    if (const uint16_t* const row = index_.outer_row(patch, from))
+        return index_.distance(row[place - index_.rings.begin[patch]], top);
+    const uint32_t slot = numbering_.border_begin[patch] + index_.rings.position[place];
+    return index_.distance(index_.overlay_code(top, from, numbering_.overlay_position[slot]), top);
+}
+
 // Returns the distances of `from_` to the samples of the meeting border.
 std::span<const float> OverlaySssd::sample_from() {
     if (!from_.is_at_top()) {
@@ -208,10 +217,9 @@ std::span<const float> OverlaySssd::sample_from() {
         from_.sampled.hop_across(from_.ascent, meeting_patch());
         return from_.sampled.last_distances();
     }
-    const RingRow row = outer_row_of(index_, from_.ascent.vertex, meeting_patch());
     from_samples_.clear();
     for (const uint16_t place : index_.pairs.samples.of(meeting_patch()))
-        from_samples_.push_back(row(row.first + place));
+        from_samples_.push_back(distance_from_top(index_.rings.begin[meeting_patch()] + place));
     return from_samples_;
 }
 
@@ -284,8 +292,7 @@ float OverlaySssd::measure(uint32_t& place) {
     to_.measured.measure(to_.ascent, to_.ranges, crossing_);
     const BorderRange range = to_.measured.last_range();
     if (from_.is_at_top()) {
-        const RingRow row = outer_row_of(index_, from_.ascent.vertex, meeting_patch());
-        for (uint32_t i = 0; i < range.size(); ++i) from_distances_[i] = row(range.first + i);
+        for (uint32_t i = 0; i < range.size(); ++i) from_distances_[i] = distance_from_top(range.first + i);
     } else {
         from_.measured.measure(from_.ascent, from_.ranges, crossing_);
         from_crossed_ = from_.measured.cross_to(from_.ascent, meeting_patch(), range, crossing_,

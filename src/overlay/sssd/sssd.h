@@ -55,6 +55,7 @@ private:
     float distance_to_border(uint32_t border_vertex, uint32_t vertex) const;
     float meet();
     bool has_few_pairs() const;
+    float distance_from_top(uint32_t place) const;
     std::span<const float> sample_from();
     void measure_ways(std::span<const float> from, std::span<const float> to);
     void take_ranges(uint32_t sample, BorderRange of_meeting_border);
