@@ -262,7 +262,10 @@ typedef struct geoidx_open_options {
     /* May be NULL; otherwise the index must have been built from this very mesh, else
      * GEOIDX_ERROR_MESH_MISMATCH: the same triangles in the same order, and positions that are equal as
      * floats, so that it does not matter which of the two was given in double precision. (Two meshes that
-     * differ by less than a float can tell, which may be much far from the origin, count as one.) */
+     * differ by less than a float can tell, which may be much far from the origin, count as one.) A file of
+     * GEOIDX_SAVE_NO_POSITIONS needs it: NULL is GEOIDX_ERROR_INVALID_ARGUMENT then, and positions that are
+     * equal as floats only may be GEOIDX_ERROR_MESH_MISMATCH. Those that the index was built from, in the
+     * same precision, are always right. */
     const geoidx_mesh* expected_mesh;
     geoidx_allocator allocator;
     uint32_t threads;  /* that decode tables; 0 (default): one per processor; at most 1024 */
@@ -290,9 +293,17 @@ static inline void geoidx_open_options_init(geoidx_open_options* options) {
  * short (geoidx_save replaces a file, which is no harm except on Windows, where it fails). */
 enum { GEOIDX_CODEC_PACKED = 0, GEOIDX_CODEC_LOSSLESS = 1, GEOIDX_CODEC_MAPPED = 2 };
 
+/* Flags of geoidx_save_options. GEOIDX_SAVE_NO_POSITIONS leaves the positions of vertices out of the file,
+ * some 3.5 bytes a vertex, for whoever has the mesh at hand whenever the file is opened: it opens only with
+ * geoidx_open_options.expected_mesh, whose positions it takes. The answers are the same bits, and the index
+ * can be saved with positions again. */
+enum { GEOIDX_SAVE_NO_POSITIONS = 1 };
+
 typedef struct geoidx_save_options {
     uint32_t struct_size;
-    uint32_t codec; /* GEOIDX_CODEC_*; others are GEOIDX_ERROR_INVALID_ARGUMENT */
+    uint32_t codec;    /* GEOIDX_CODEC_*; others are GEOIDX_ERROR_INVALID_ARGUMENT */
+    uint32_t flags;    /* GEOIDX_SAVE_*, added up; other bits are GEOIDX_ERROR_INVALID_ARGUMENT */
+    uint32_t reserved; /* not read */
 } geoidx_save_options;
 
 GEOIDX_API void geoidx_save_options_init_sized(geoidx_save_options* options, uint32_t struct_size);
@@ -332,9 +343,9 @@ typedef struct geoidx_info {
     /* The mean error if paths crossed borders at vertices only: what unfolding is worth on this mesh;
      * error_mean where they do. */
     double error_mean_at_vertices;
-    uint32_t codec;    /* GEOIDX_CODEC_* of the file that it was opened from; of one that was built, what
-                          geoidx_save takes by default */
-    uint32_t reserved; /* 0 */
+    uint32_t codec;      /* GEOIDX_CODEC_* of the file that it was opened from; of one that was built, what
+                            geoidx_save takes by default */
+    uint32_t file_flags; /* GEOIDX_SAVE_* of the file that it was opened from; 0 for one that was built */
     /* GEOIDX_ENGINE_OVERLAY: what the distances of a table are multiples of, for the table with the smallest
      * and with the largest steps; half of it is the most that rounding changes an entry by. 0 for
      * GEOIDX_ENGINE_GRAPH, whose distances are floats. */
@@ -363,8 +374,8 @@ GEOIDX_API geoidx_status geoidx_build(const geoidx_mesh* mesh, const geoidx_buil
 
 /* Writes the index to a file, replacing what is there: a sibling file is written, synced and renamed, so that
  * a failure leaves neither a partial file nor a damaged old one. `options` may be NULL: the file then has the
- * codec that geoidx_info names. GEOIDX_ERROR_CORRUPT if the index came from a mapped file whose tables
- * contradict each other, and another codec is asked for. */
+ * codec and the flags that geoidx_info names. GEOIDX_ERROR_CORRUPT if the index came from a mapped file whose
+ * tables contradict each other, and another codec is asked for. */
 GEOIDX_API geoidx_status geoidx_save(const geoidx* index, const char* utf8_path,
                                      const geoidx_save_options* options);
 
@@ -461,8 +472,10 @@ typedef int32_t (*geoidx_issue_fn)(void* user, const geoidx_issue* issue);
 
 /* Checks an index in memory as geoidx_open_memory does, and accepts what that accepts, but goes on after a
  * problem where it can: all problems of the container are told, and if there are none, the first one of what
- * the sections hold. Returns GEOIDX_OK when there is none, otherwise the first problem's status. `issue` may
- * be NULL. */
+ * the sections hold. Of a file without positions it needs no mesh, and checks all that does not depend on
+ * them: not whether they belong to the mesh, and of the tables of GEOIDX_CODEC_PACKED their sizes, but not
+ * every entry, so that geoidx_open may still refuse one. Returns GEOIDX_OK when there is none, otherwise the
+ * first problem's status. `issue` may be NULL. */
 GEOIDX_API geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user);
 
 /* ---- Queries (paper section 3.4)

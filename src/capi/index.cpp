@@ -1,5 +1,6 @@
 // The handle of an index: built, saved, opened, closed.
 #include <cstring>
+#include <optional>
 
 #include "format/file_io.h"
 #include "geoidx.h"
@@ -30,20 +31,6 @@ OwnedIndex make_index(const geoidx_allocator& allocator) {
     check_allocator(allocator);
     CallerMemory memory(allocator);
     return OwnedIndex(std::pmr::polymorphic_allocator<>(&memory).new_object<geoidx>(allocator));
-}
-
-void check_mesh_matches(const geoidx_mesh* expected, const Description& about) {
-    if (!expected) return;
-    const geoidx_mesh mesh = whole(*expected, geoidx_mesh_init);
-    if (mesh.vertex_count != about.id_count || mesh.triangle_count != about.triangle_count)
-        throw Error(GEOIDX_ERROR_MESH_MISMATCH,
-                    "the index was built from a mesh of " + std::to_string(about.id_count) +
-                        " vertices and " + std::to_string(about.triangle_count) +
-                        " triangles, this one has " + std::to_string(mesh.vertex_count) + " and " +
-                        std::to_string(mesh.triangle_count));
-    if (mesh_fingerprint(mesh) != about.mesh_fingerprint)
-        throw Error(GEOIDX_ERROR_MESH_MISMATCH,
-                    "the index was built from a mesh with other positions or triangles");
 }
 
 void list_sections(const format::Container& container, Array<geoidx_section>& sections) {
@@ -81,6 +68,7 @@ public:
         constexpr uint32_t FLAGS = GEOIDX_OPEN_PAIRS | GEOIDX_OPEN_BORROW | GEOIDX_OPEN_NO_LABELS;
         require((options_.flags & ~FLAGS) == 0, "flags has bits that mean nothing");
         if (options_.max_memory != 0) index_->memory.set_limit(options_.max_memory);
+        if (options_.expected_mesh) mesh_ = whole(*options_.expected_mesh, geoidx_mesh_init);
     }
 
     geoidx* file(const std::string& utf8_path) {
@@ -110,26 +98,35 @@ private:
         Index& index = index_->index;
         const auto container = format::Container::parse(file, INDEX_TAGS);
         check_limits(container, options_);
-        prepare(read_index(container, {thread_count(options_.threads), options_.max_vertices}), index);
+        prepare(read_index(container, read_options()), index);
         list_sections(container, index_->sections);
-        check_mesh_matches(options_.expected_mesh, index.description);
         if (options_.flags & GEOIDX_OPEN_NO_LABELS) leave_out_labels(index);
         if (options_.flags & GEOIDX_OPEN_PAIRS) prepare_pairs(index);
         return index_.release();
     }
 
+    ReadOptions read_options() const {
+        return {.threads = thread_count(options_.threads),
+                .max_vertices = options_.max_vertices,
+                .mesh = mesh_ ? &*mesh_ : nullptr};
+    }
+
     const geoidx_open_options options_;
+    std::optional<geoidx_mesh> mesh_; // that the index must be of
     OwnedIndex index_;
 };
 
-// The bytes of a file of the index, with the codec that is asked for.
+void apply(const geoidx_save_options& options, Description& about) {
+    require(options.codec <= GEOIDX_CODEC_MAPPED, "codec is not a GEOIDX_CODEC_*");
+    require((options.flags & ~uint32_t{GEOIDX_SAVE_NO_POSITIONS}) == 0, "flags has bits that mean nothing");
+    if (about.engine == GEOIDX_ENGINE_OVERLAY) about.codec = options.codec;
+    about.file_flags = options.flags;
+}
+
+// The bytes of a file of the index, as it is asked for.
 std::vector<std::byte> file_of(const geoidx& index, const geoidx_save_options* given) {
     StoredIndex stored = restore(index.index);
-    if (given) {
-        const uint32_t codec = whole(*given, geoidx_save_options_init).codec;
-        require(codec <= GEOIDX_CODEC_MAPPED, "codec is not a GEOIDX_CODEC_*");
-        if (stored.description.engine == GEOIDX_ENGINE_OVERLAY) stored.description.codec = codec;
-    }
+    if (given) apply(whole(*given, geoidx_save_options_init), stored.description);
     // Other forms hold fewer tables, from which the others must follow.
     if (index.index.description.codec == GEOIDX_CODEC_MAPPED &&
         stored.description.codec != GEOIDX_CODEC_MAPPED)

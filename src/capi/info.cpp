@@ -51,6 +51,7 @@ void fill_info(const Index& index, geoidx_info& info) {
     info.error_max = about.error.max;
     info.error_mean_at_vertices = about.error.mean_at_vertices;
     info.codec = about.codec;
+    info.file_flags = about.file_flags;
     if (const auto* overlay = std::get_if<OverlayIndex>(&index.engine)) fill_steps(*overlay, info);
 }
 

@@ -6,6 +6,7 @@
 #include "format/bytes.h"
 #include "src/base/numbers.h"
 #include "src/file/sections.h"
+#include "src/mesh/intake.h"
 
 namespace geodesic {
 
@@ -81,6 +82,20 @@ void read_meta(const format::Container& container, Description& meta) {
     meta.codec = reader.u32();
     reader.expect_end();
     check_meta(meta);
+}
+
+// ---- The mesh that META describes
+
+void require_mesh_of(const Description& about, const geoidx_mesh& mesh) {
+    if (mesh.vertex_count != about.id_count || mesh.triangle_count != about.triangle_count)
+        throw Error(GEOIDX_ERROR_MESH_MISMATCH,
+                    "the index was built from a mesh of " + std::to_string(about.id_count) +
+                        " vertices and " + std::to_string(about.triangle_count) +
+                        " triangles, this one has " + std::to_string(mesh.vertex_count) + " and " +
+                        std::to_string(mesh.triangle_count));
+    if (mesh_fingerprint(mesh) != about.mesh_fingerprint)
+        throw Error(GEOIDX_ERROR_MESH_MISMATCH,
+                    "the index was built from a mesh with other positions or triangles");
 }
 
 // ---- HIER
@@ -217,19 +232,20 @@ void write_common(const StoredIndex& stored, format::ContainerWriter& writer) {
     writer.add_bytes(TAG_BORDERS, border_bytes(stored));
 }
 
-void read_common(const format::Container& container, uint64_t max_vertices, StoredIndex& stored) {
+void read_common(const format::Container& container, const ReadOptions& options, StoredIndex& stored) {
     about_section(TAG_META, [&] { read_meta(container, stored.description); });
-    if (max_vertices != 0 && stored.description.id_count > max_vertices)
-        throw Error(GEOIDX_ERROR_LIMIT, "the mesh of the index has " +
-                                            std::to_string(stored.description.id_count) +
-                                            " vertices, more than the " + std::to_string(max_vertices) +
-                                            " that max_vertices allows");
+    if (options.max_vertices != 0 && stored.description.id_count > options.max_vertices)
+        throw Error(GEOIDX_ERROR_LIMIT,
+                    "the mesh of the index has " + std::to_string(stored.description.id_count) +
+                        " vertices, more than the " + std::to_string(options.max_vertices) +
+                        " that max_vertices allows");
+    if (options.mesh) require_mesh_of(stored.description, *options.mesh);
     const auto border_bytes = container.read_bytes(TAG_BORDERS, MAX_BYTES);
     const uint64_t patch_room = border_bytes.size() / sizeof(uint32_t);
     const uint32_t leaf_count =
         about_section(TAG_HIERARCHY, [&] { return read_hierarchy(container, patch_room, stored); });
     about_section(TAG_VERTICES, [&] { read_vertices(container, stored); });
-    about_section(TAG_POSITIONS, [&] { read_positions(container, stored); });
+    about_section(TAG_POSITIONS, [&] { read_positions(container, options, stored); });
     about_section(TAG_BORDERS, [&] { read_borders(border_bytes, leaf_count, stored); });
 }
 

@@ -43,9 +43,9 @@ std::vector<std::byte> write_index(const StoredIndex& stored) {
 
 StoredIndex read_index(const format::Container& container, const ReadOptions& options) {
     StoredIndex stored;
-    read_common(container, options.max_vertices, stored);
+    read_common(container, options, stored);
     check_tags(container, stored);
-    is_overlay(stored) ? read_overlay(container, options.threads, stored)
+    is_overlay(stored) ? read_overlay(container, options, stored)
                        : read_graph(container, options.threads, stored);
     return stored;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "format/container.h"
+#include "src/file/read_options.h"
 #include "src/index/stored.h"
 
 namespace geodesic {
@@ -13,13 +14,8 @@ namespace geodesic {
 // The bytes of an index as format/SPEC.md describes them.
 std::vector<std::byte> write_index(const StoredIndex& stored);
 
-struct ReadOptions {
-    uint32_t threads = 1;      // that decode tables, at most
-    uint64_t max_vertices = 0; // that the caller's vertex array may have had; 0: any
-};
-
-// Throws Error if the sections are not those of an index, INDEX_TAGS. prepare() checks what can be checked
-// only with the numbering at hand. The tables of a mapped file stay in
+// Throws Error if the sections are not those of an index, INDEX_TAGS, or not those of the given mesh.
+// prepare() checks what can be checked only with the numbering at hand. The tables of a mapped file stay in
 // the file, whose bytes must outlive what is read from it and be aligned as a uint16_t.
 StoredIndex read_index(const format::Container& container, const ReadOptions& options);
 

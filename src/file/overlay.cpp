@@ -77,16 +77,16 @@ void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer) {
     }
 }
 
-void read_overlay(const format::Container& container, uint32_t threads, StoredIndex& stored) {
+void read_overlay(const format::Container& container, const ReadOptions& options, StoredIndex& stored) {
     about_section(TAG_QUANTA, [&] { read_quanta(container, stored); });
     about_section(TAG_SEGMENTS, [&] { read_segments(container, stored); });
     switch (stored.description.codec) {
     case GEOIDX_CODEC_PACKED:
-        return read_packed_tables(container, threads, stored);
+        return read_packed_tables(container, options, stored);
     case GEOIDX_CODEC_MAPPED:
         return read_mapped_tables(container, stored);
     default:
-        return read_lossless_tables(container, threads, stored);
+        return read_lossless_tables(container, options.threads, stored);
     }
 }
 

@@ -89,6 +89,16 @@ bool read_table(const StoredIndex& stored, const CodeTable& table, const std::by
     return all_right;
 }
 
+// Reads what can be read of a table without predicting it. Returns whether the entries that are far off are
+// codes.
+bool are_codes(std::span<const std::byte> far, int32_t most) {
+    for (size_t i = 0; i < far.size(); i += sizeof(uint16_t)) {
+        const auto stated = format::load_little_endian<uint16_t>(far.data() + i);
+        if (stated != NO_PATH_STORED && stated > most) return false;
+    }
+    return true;
+}
+
 // Where the two bytes of the entries that are far off begin, for each table.
 std::vector<uint64_t> begin_of_far(std::span<const CodeTable> tables, std::span<const std::byte> raw) {
     uint64_t at = entry_count(tables);
@@ -102,7 +112,19 @@ std::vector<uint64_t> begin_of_far(std::span<const CodeTable> tables, std::span<
     return begin;
 }
 
-void read_tables(uint32_t tag, const format::Container& container, uint32_t threads,
+// Of a file that leaves positions out and is read without the mesh, entries are not predicted and codes stay
+// 0.
+bool can_predict(const StoredIndex& stored, const ReadOptions& options) {
+    return !(stored.description.file_flags & GEOIDX_SAVE_NO_POSITIONS) || options.mesh;
+}
+
+std::vector<std::byte> decoded(uint32_t tag, const format::Container& container, uint32_t threads) {
+    return container.read_bytes(
+        tag, container.section(tag).raw_size,
+        [&](size_t count, const std::function<void(size_t)>& decode) { share_out(threads, count, decode); });
+}
+
+void read_tables(uint32_t tag, const format::Container& container, const ReadOptions& options,
                  const StoredIndex& stored, std::span<const CodeTable> tables, std::vector<uint16_t>& codes) {
     const uint64_t entries = entry_count(tables), size = container.section(tag).raw_size;
     const auto refuse = [&](const std::string& detail) {
@@ -111,19 +133,20 @@ void read_tables(uint32_t tag, const format::Container& container, uint32_t thre
     if (size < entries || size > entries * (1 + sizeof(uint16_t)))
         refuse("does not hold " + std::to_string(entries) + " table entries");
     constexpr uint64_t WORTH_A_THREAD = 1 << 16; // entries
-    threads = static_cast<uint32_t>(std::min<uint64_t>(threads, 1 + entries / WORTH_A_THREAD));
-    const auto raw =
-        container.read_bytes(tag, size, [&](size_t count, const std::function<void(size_t)>& decode) {
-            share_out(threads, count, decode);
-        });
+    const auto threads =
+        static_cast<uint32_t>(std::min<uint64_t>(options.threads, 1 + entries / WORTH_A_THREAD));
+    const auto raw = decoded(tag, container, threads);
     const auto far = begin_of_far(tables, raw);
     if (far.back() != size) refuse("does not hold what its entries need");
     codes.resize(entries);
+    const bool predicted = can_predict(stored, options);
     std::atomic<bool> all_right = true;
     share_out(threads, tables.size(), [&](size_t t) {
         const CodeTable& table = tables[t];
-        if (!read_table(stored, table, raw.data() + table.begin, raw.data() + far[t],
-                        codes.data() + table.begin))
+        const auto far_off = std::span(raw).subspan(far[t], far[t + 1] - far[t]);
+        if (predicted ? !read_table(stored, table, raw.data() + table.begin, far_off.data(),
+                                    codes.data() + table.begin)
+                      : !are_codes(far_off, TableCode::LARGEST >> stored.shift[table.patch]))
             all_right = false;
     });
     if (!all_right) refuse("holds an entry that is no code of a distance");
@@ -138,11 +161,11 @@ void write_packed_tables(const StoredIndex& stored, format::ContainerWriter& wri
     write_tables(TAG_INTERNAL_TABLES, stored, internal_tables(stored), stored.internal_codes, writer);
 }
 
-void read_packed_tables(const format::Container& container, uint32_t threads, StoredIndex& stored) {
-    read_tables(TAG_OVERLAY_TABLES, container, threads, stored, overlay_tables(stored), stored.overlay_codes);
-    read_tables(TAG_BORDER_INTERNAL_TABLES, container, threads, stored, border_internal_tables(stored),
+void read_packed_tables(const format::Container& container, const ReadOptions& options, StoredIndex& stored) {
+    read_tables(TAG_OVERLAY_TABLES, container, options, stored, overlay_tables(stored), stored.overlay_codes);
+    read_tables(TAG_BORDER_INTERNAL_TABLES, container, options, stored, border_internal_tables(stored),
                 stored.border_internal_codes);
-    read_tables(TAG_INTERNAL_TABLES, container, threads, stored, internal_tables(stored),
+    read_tables(TAG_INTERNAL_TABLES, container, options, stored, internal_tables(stored),
                 stored.internal_codes);
 }
 

@@ -1,54 +1,133 @@
-// POSI: whole coordinates, each as its difference from that of the number before.
+// POSI: whole coordinates, each as its difference from that of the number before, or only what is needed to
+// work them out again from the mesh.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "format/bytes.h"
+#include "format/checksum.h"
+#include "src/base/numbers.h"
 #include "src/file/sections.h"
+#include "src/index/positions.h"
+#include "src/mesh/intake.h"
 
 namespace geodesic {
 
 namespace {
 
+constexpr uint64_t BYTES_BEFORE_COORDINATES = sizeof(float) + 3 * sizeof(double) + sizeof(uint64_t);
+
 // Small differences of either sign are small numbers: 0, -1, 1, -2, 2 are 0, 1, 2, 3, 4.
 uint32_t folded(uint32_t difference) { return difference << 1 ^ (difference >> 31 ? UINT32_MAX : 0); }
 uint32_t unfolded(uint32_t number) { return number >> 1 ^ (number & 1 ? UINT32_MAX : 0); }
 
+uint64_t checksum_of_positions(const StoredIndex& stored) {
+    std::vector<uint32_t> coordinates;
+    for (const auto& position : stored.positions)
+        for (const int32_t coordinate : position) coordinates.push_back(static_cast<uint32_t>(coordinate));
+    format::ByteWriter bytes;
+    bytes.u32_array(coordinates);
+    return format::checksum(bytes.take());
 }
 
-void write_positions(const StoredIndex& stored, format::ContainerWriter& writer) {
+// ---- To the file
+
+std::vector<uint32_t> differences_of(const StoredIndex& stored) {
     std::vector<uint32_t> differences;
     std::array<int32_t, 3> last{};
     for (const auto& position : stored.positions)
         for (size_t k = 0; k < 3; ++k)
             differences.push_back(folded(static_cast<uint32_t>(position[k]) -
                                          static_cast<uint32_t>(std::exchange(last[k], position[k]))));
-    format::ByteWriter bytes;
-    bytes.f32(stored.position_step);
-    bytes.u32_planes(differences);
-    writer.add_bytes(TAG_POSITIONS, bytes.take());
+    return differences;
 }
 
-void read_positions(const format::Container& container, StoredIndex& stored) {
-    const uint64_t size = sizeof(float) + stored.positions.size() * 3 * sizeof(uint32_t);
-    const auto bytes = container.read_bytes(TAG_POSITIONS, size);
-    format::ByteReader reader(bytes, "section POSI");
+// ---- From the file
+
+void read_grid(format::ByteReader& reader, StoredIndex& stored) {
     stored.position_step = reader.f32();
-    if (!(stored.position_step >= 0) || !std::isfinite(stored.position_step))
+    if (!(stored.position_step > 0) || !std::isfinite(stored.position_step))
         refuse_as_corrupt("section POSI: steps of " + std::to_string(stored.position_step));
-    if (bytes.size() != size)
-        refuse_as_corrupt("section POSI does not hold " + std::to_string(stored.positions.size()) +
-                          " positions");
+    for (double& coordinate : stored.position_origin) {
+        coordinate = reader.f64();
+        if (!std::isfinite(coordinate))
+            refuse_as_corrupt("section POSI: the origin has the coordinate " + std::to_string(coordinate));
+    }
+}
+
+void read_differences(format::ByteReader& reader, StoredIndex& stored) {
     std::vector<uint32_t> differences(stored.positions.size() * 3);
     reader.u32_planes(differences);
     std::array<uint32_t, 3> last{};
     for (size_t i = 0; i < differences.size(); ++i) {
         last[i % 3] += unfolded(differences[i]);
         const auto coordinate = static_cast<int32_t>(last[i % 3]);
-        if (coordinate < -MOST_STEPS || coordinate > MOST_STEPS)
+        if (coordinate < 0 || coordinate > MOST_STEPS)
             refuse_as_corrupt("section POSI: a coordinate of " + std::to_string(coordinate) + " steps");
         stored.positions[i / 3][i % 3] = coordinate;
     }
+}
+
+// Per number, the lowest id of the caller's that has it, which is the one that the others were welded to.
+std::vector<uint32_t> lowest_ids(const StoredIndex& stored) {
+    std::vector<uint32_t> lowest(stored.positions.size(), NONE);
+    for (size_t id = stored.number_of_id.size(); id-- > 0;)
+        if (const uint32_t number = stored.number_of_id[id]; number != NONE)
+            lowest[number] = static_cast<uint32_t>(id);
+    if (const auto without = std::ranges::find(lowest, NONE); without != lowest.end())
+        refuse_as_corrupt("section POSI: the position of vertex number " +
+                          std::to_string(without - lowest.begin()) + " is left out, and no id has it");
+    return lowest;
+}
+
+void take_from_mesh(const geoidx_mesh& mesh, std::span<const uint32_t> id_of_number, uint64_t checksum,
+                    StoredIndex& stored) {
+    const auto positions = positions_of(mesh);
+    for (size_t n = 0; n < id_of_number.size(); ++n)
+        stored.positions[n] = in_steps(positions[id_of_number[n]], stored);
+    if (checksum_of_positions(stored) != checksum)
+        throw Error(GEOIDX_ERROR_MESH_MISMATCH,
+                    "the file holds no positions, and those of the mesh differ from the index's by less than "
+                    "a float can tell: they must be given in the precision that the index was built with");
+}
+
+void do_without_differences(const ReadOptions& options, uint64_t checksum, StoredIndex& stored) {
+    stored.description.file_flags = GEOIDX_SAVE_NO_POSITIONS;
+    const auto id_of_number = lowest_ids(stored);
+    if (options.mesh) return take_from_mesh(*options.mesh, id_of_number, checksum, stored);
+    if (!options.may_lack_positions)
+        throw Error(
+            GEOIDX_ERROR_INVALID_ARGUMENT,
+            "the file holds no positions, so that it opens only with the mesh that it was built from, "
+            "as expected_mesh");
+}
+
+}
+
+void write_positions(const StoredIndex& stored, format::ContainerWriter& writer) {
+    format::ByteWriter bytes;
+    bytes.f32(stored.position_step);
+    for (const double coordinate : stored.position_origin) bytes.f64(coordinate);
+    bytes.u64(checksum_of_positions(stored));
+    if (!(stored.description.file_flags & GEOIDX_SAVE_NO_POSITIONS)) bytes.u32_planes(differences_of(stored));
+    writer.add_bytes(TAG_POSITIONS, bytes.take());
+}
+
+void read_positions(const format::Container& container, const ReadOptions& options, StoredIndex& stored) {
+    const uint64_t whole_size = BYTES_BEFORE_COORDINATES + stored.positions.size() * 3 * sizeof(uint32_t);
+    const auto bytes = container.read_bytes(TAG_POSITIONS, whole_size);
+    format::ByteReader reader(bytes, "section POSI");
+    read_grid(reader, stored);
+    const uint64_t checksum = reader.u64();
+    if (bytes.size() == BYTES_BEFORE_COORDINATES && bytes.size() != whole_size)
+        return do_without_differences(options, checksum, stored);
+    if (bytes.size() != whole_size)
+        refuse_as_corrupt("section POSI does not hold " + std::to_string(stored.positions.size()) +
+                          " positions");
+    read_differences(reader, stored);
+    if (checksum_of_positions(stored) != checksum)
+        refuse_as_corrupt("section POSI: the checksum of the positions does not match");
 }
 
 }

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "format/container.h"
+#include "geoidx.h"
+#include "src/file/read_options.h"
 #include "src/index/section_tags.h"
 #include "src/index/stored.h"
 
@@ -16,12 +18,13 @@ namespace geodesic {
 // must be read in this order, since earlier ones say how large later ones are. Reading throws Error CORRUPT
 // for what format/SPEC.md refuses, with the tag of the section.
 void write_common(const StoredIndex& stored, format::ContainerWriter& writer);
-// Throws Error LIMIT if the caller's vertex array had more than max_vertices, unless these are 0.
-void read_common(const format::Container& container, uint64_t max_vertices, StoredIndex& stored);
+// Throws Error LIMIT if the caller's vertex array had more than max_vertices, and MESH_MISMATCH if the mesh
+// of the options is another one, before anything is taken from it.
+void read_common(const format::Container& container, const ReadOptions& options, StoredIndex& stored);
 
 // POSI, which is one of those.
 void write_positions(const StoredIndex& stored, format::ContainerWriter& writer);
-void read_positions(const format::Container& container, StoredIndex& stored);
+void read_positions(const format::Container& container, const ReadOptions& options, StoredIndex& stored);
 
 void write_graph(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_graph(const format::Container& container, uint32_t threads, StoredIndex& stored);
@@ -30,13 +33,13 @@ void read_graph(const format::Container& container, uint32_t threads, StoredInde
 void write_lossless_tables(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_lossless_tables(const format::Container& container, uint32_t threads, StoredIndex& stored);
 void write_packed_tables(const StoredIndex& stored, format::ContainerWriter& writer);
-void read_packed_tables(const format::Container& container, uint32_t threads, StoredIndex& stored);
+void read_packed_tables(const format::Container& container, const ReadOptions& options, StoredIndex& stored);
 
 void write_mapped_tables(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_mapped_tables(const format::Container& container, StoredIndex& stored); // They stay in the file.
 
 void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer);
-void read_overlay(const format::Container& container, uint32_t threads, StoredIndex& stored);
+void read_overlay(const format::Container& container, const ReadOptions& options, StoredIndex& stored);
 
 [[noreturn]] void refuse_as_corrupt(const std::string& detail);
 

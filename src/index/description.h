@@ -14,7 +14,8 @@ struct MeasuredError {
 };
 
 // Describes the mesh and the options that an index was built with, and what was measured. A file
-// has the fingerprint in its header and the rest in the section META.
+// has the fingerprint in its header and the rest in the section META, but for file_flags, which follow from
+// its other sections.
 struct Description {
     uint64_t mesh_fingerprint = 0;
     uint64_t id_count = 0, triangle_count = 0, seed = 0;
@@ -27,6 +28,7 @@ struct Description {
     uint32_t metric_flags = 0;       // GEOIDX_METRIC_UNFOLDABLE or 0
     uint32_t engine = 0;             // GEOIDX_ENGINE_*
     uint32_t codec = 0;              // GEOIDX_CODEC_*: the form of the tables in the file
+    uint32_t file_flags = 0;         // GEOIDX_SAVE_*: what the file leaves out
 
     bool operator==(const Description&) const = default;
 };

@@ -42,6 +42,7 @@ void add_up(uint32_t first, const std::vector<uint32_t>& counts, Array<uint32_t>
 
 void number_borders(const StoredIndex& stored, Numbering& numbering) {
     numbering.position_step = stored.position_step;
+    numbering.position_origin = stored.position_origin;
     numbering.positions.assign(stored.positions.begin(), stored.positions.end());
     add_up(0, stored.owned_count, numbering.owned_begin);
     numbering.owned_begin.resize(size_t{numbering.patch_count()} + 1, numbering.owned_begin.back());
@@ -191,6 +192,7 @@ void restore_numbering(const Numbering& numbering, StoredIndex& stored) {
     stored.level_count = numbering.level_count();
     stored.child_count = counts_of(numbering.child_begin, inner);
     stored.position_step = numbering.position_step;
+    stored.position_origin = numbering.position_origin;
     stored.positions.assign(numbering.positions.begin(), numbering.positions.end());
     stored.owned_count = counts_of(numbering.owned_begin, inner);
     stored.internal_count = counts_of(numbering.internal_begin, leaves);

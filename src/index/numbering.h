@@ -41,7 +41,8 @@ struct Numbering {
 
     // Vertices.
     float position_step = 1;
-    Array<std::array<int32_t, 3>> positions; // per number, in steps; only their differences have a meaning
+    std::array<double, 3> position_origin{};
+    Array<std::array<int32_t, 3>> positions; // per number, in steps from the origin
     Array<uint32_t> owned_begin;             // p owns the numbers owned_begin[p] .. owned_begin[p + 1] - 1
     Array<uint32_t> internal_begin; // likewise for the internal vertices of leaf first_leaf() + i; [0] is the
                                     // number of border vertices

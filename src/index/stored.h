@@ -30,9 +30,10 @@ struct StoredIndex {
     // VERT
     std::vector<uint32_t> number_of_id; // per id of the caller; NONE if no triangle uses it
 
-    // POSI: only differences have a meaning. The count of positions is the vertex count of VERT.
+    // POSI. The count of positions is the vertex count of VERT.
     float position_step = 1;
-    std::vector<std::array<int32_t, 3>> positions; // per number, in steps: -MOST_STEPS .. MOST_STEPS
+    std::array<double, 3> position_origin{};
+    std::vector<std::array<int32_t, 3>> positions; // per number, in steps from the origin: 0 .. MOST_STEPS
 
     // BORD
     std::vector<uint32_t> owned_count;    // per inner patch

@@ -64,18 +64,6 @@ void check_position(const Eigen::Vector3d& position, size_t vertex) {
                  " has a coordinate that is larger than a 32-bit float holds");
 }
 
-std::vector<Eigen::Vector3d> read_positions(const geoidx_mesh& mesh) {
-    const size_t stride = position_stride(mesh);
-    const auto* bytes = static_cast<const std::byte*>(mesh.positions);
-    const auto read = mesh.position_type == GEOIDX_POSITION_DOUBLE ? position_at<double> : position_at<float>;
-    std::vector<Eigen::Vector3d> positions(mesh.vertex_count);
-    for (size_t i = 0; i < positions.size(); ++i) {
-        positions[i] = read(bytes + i * stride);
-        check_position(positions[i], i);
-    }
-    return positions;
-}
-
 std::vector<std::array<uint32_t, 3>> read_triangles(const geoidx_mesh& mesh) {
     std::vector<std::array<uint32_t, 3>> triangles(mesh.triangle_count);
     std::memcpy(triangles.data(), mesh.triangles, triangles.size() * sizeof triangles[0]);
@@ -216,16 +204,28 @@ uint64_t fingerprint(const std::vector<Eigen::Vector3d>& positions,
 
 }
 
+std::vector<Eigen::Vector3d> positions_of(const geoidx_mesh& mesh) {
+    const size_t stride = position_stride(mesh);
+    const auto* bytes = static_cast<const std::byte*>(mesh.positions);
+    const auto read = mesh.position_type == GEOIDX_POSITION_DOUBLE ? position_at<double> : position_at<float>;
+    std::vector<Eigen::Vector3d> positions(mesh.vertex_count);
+    for (size_t i = 0; i < positions.size(); ++i) {
+        positions[i] = read(bytes + i * stride);
+        check_position(positions[i], i);
+    }
+    return positions;
+}
+
 uint64_t mesh_fingerprint(const geoidx_mesh& mesh) {
     check_arrays(mesh);
-    return fingerprint(read_positions(mesh), read_triangles(mesh));
+    return fingerprint(positions_of(mesh), read_triangles(mesh));
 }
 
 Intake take_in(const geoidx_mesh& mesh, const IntakeOptions& options) {
     if (!(options.weld_tolerance >= 0) || !std::isfinite(options.weld_tolerance))
         throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "weld_tolerance must be finite and not negative");
     check_arrays(mesh);
-    const auto positions = read_positions(mesh);
+    const auto positions = positions_of(mesh);
     const auto triangles = read_triangles(mesh);
 
     Intake intake;

@@ -33,4 +33,7 @@ Intake take_in(const geoidx_mesh& mesh, const IntakeOptions& options);
 // order. Throws Error where the arrays cannot be read.
 uint64_t mesh_fingerprint(const geoidx_mesh& mesh);
 
+// Per caller's id. Throws Error BAD_MESH for a position that is not finite or too large for a float.
+std::vector<Eigen::Vector3d> positions_of(const geoidx_mesh& mesh);
+
 }

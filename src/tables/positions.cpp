@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/base/quartile.h"
+#include "src/index/positions.h"
 
 namespace geodesic {
 
@@ -38,14 +39,8 @@ void round_positions(const Mesh& mesh, std::span<const uint32_t> vertex_of_numbe
                                    std::max(finest, double{std::numeric_limits<float>::min()}),
                                    double{std::numeric_limits<float>::max()});
     stored.position_step = static_cast<float>(step);
-    for (const uint32_t v : vertex_of_number) {
-        const Eigen::Vector3d steps = (mesh.positions[v] - least) / double{stored.position_step};
-        std::array<int32_t, 3> position;
-        for (int k = 0; k < 3; ++k)
-            position[static_cast<size_t>(k)] =
-                static_cast<int32_t>(std::clamp(std::floor(steps[k] + 0.5), 0.0, double{MOST_STEPS}));
-        stored.positions.push_back(position);
-    }
+    stored.position_origin = {least[0], least[1], least[2]};
+    for (const uint32_t v : vertex_of_number) stored.positions.push_back(in_steps(mesh.positions[v], stored));
 }
 
 }

@@ -73,6 +73,7 @@ NUMBER(GEOIDX_CODEC_MAPPED, 2);
 NUMBER(GEOIDX_OPEN_PAIRS, 1);
 NUMBER(GEOIDX_OPEN_BORROW, 2);
 NUMBER(GEOIDX_OPEN_NO_LABELS, 4);
+NUMBER(GEOIDX_SAVE_NO_POSITIONS, 1);
 NUMBER(GEOIDX_MAX_LEVELS, 8);
 
 FIELD(geoidx_allocator, allocate, 0);
@@ -156,14 +157,16 @@ FIELD(geoidx_info, metric_flags, 176);
 FIELD(geoidx_info, engine, 180);
 FIELD(geoidx_info, error_mean_at_vertices, 184);
 FIELD(geoidx_info, codec, 192);
-FIELD(geoidx_info, reserved, 196);
+FIELD(geoidx_info, file_flags, 196);
 FIELD(geoidx_info, smallest_step, 200);
 FIELD(geoidx_info, largest_step, 208);
 SIZE(geoidx_info, 216);
 
 FIELD(geoidx_save_options, struct_size, 0);
 FIELD(geoidx_save_options, codec, 4);
-SIZE(geoidx_save_options, 8);
+FIELD(geoidx_save_options, flags, 8);
+FIELD(geoidx_save_options, reserved, 12);
+SIZE(geoidx_save_options, 16);
 
 FIELD(geoidx_section, tag, 0);
 FIELD(geoidx_section, coding, 8);

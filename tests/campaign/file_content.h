@@ -29,7 +29,12 @@ struct FileContent {
 
     std::vector<uint32_t> number_of_id;
     float position_step = 1;
+    std::array<double, 3> position_origin{};
     std::vector<std::array<int32_t, 3>> positions; // per vertex number
+    // If positions are left out: the mesh that they come from, x, y, z of each id and three ids a triangle.
+    bool has_positions = true;
+    std::vector<double> mesh_positions;
+    std::vector<uint32_t> triangles;
 
     std::vector<uint32_t> owned;                // per inner patch
     std::vector<uint32_t> internal;             // per leaf

@@ -51,8 +51,9 @@ public:
         make_hierarchy();
         share_out_vertices();
         make_borders();
-        make_positions();
         make_ids();
+        content_.has_positions = !random_.one_in(4) || lacks_an_id();
+        content_.has_positions ? make_positions() : make_mesh();
         choose_distances();
         if (content_.is_overlay())
             make_overlay_engine();
@@ -130,17 +131,55 @@ private:
 
     // A few coordinates of lattices, so that vertices coincide, or anything.
     void make_positions() {
-        constexpr int32_t MOST = (1 << 23) - 1;
-        constexpr std::array<float, 6> STEPS{1, 0, 1e-45f, 1e-6f, 1e30f, 3.4e38f};
-        content_.position_step = STEPS[random_.one_in(2) ? 0 : random_.below(STEPS.size())];
+        content_.triangles.resize(3 * size_t{content_.id_count()});
+        choose_step();
         const uint32_t manner = random_.below(4);
         for (auto& position : content_.positions)
             for (int32_t& coordinate : position) {
                 if (manner == 0) coordinate = 0;
                 if (manner == 1) coordinate = static_cast<int32_t>(random_.below(4));
-                if (manner == 2) coordinate = static_cast<int32_t>(random_.below(1000)) - 500;
-                if (manner == 3) coordinate = random_.one_in(2) ? MOST : -MOST;
+                if (manner == 2) coordinate = static_cast<int32_t>(random_.below(1000));
+                if (manner == 3) coordinate = random_.one_in(2) ? MOST : 0;
             }
+    }
+
+    void choose_step() {
+        constexpr std::array<float, 5> STEPS{1, 1e-45f, 1e-6f, 1e30f, 3.4e38f};
+        constexpr std::array<double, 5> ORIGINS{0, -2, 0.1, -1e30, 1e308};
+        content_.position_step = STEPS[random_.one_in(2) ? 0 : random_.below(STEPS.size())];
+        for (double& coordinate : content_.position_origin)
+            coordinate = ORIGINS[random_.one_in(2) ? 0 : random_.below(ORIGINS.size())];
+    }
+
+    bool lacks_an_id() const {
+        std::vector<bool> has_one(content_.vertex_count());
+        for (const uint32_t number : content_.number_of_id)
+            if (number != NOTHING) has_one[number] = true;
+        return std::ranges::find(has_one, false) != has_one.end() || has_one.empty();
+    }
+
+    // Vertices of a lattice or anywhere, and triangles of any of them. The position of a number is that of
+    // its lowest id.
+    void make_mesh() {
+        choose_step();
+        const uint32_t ids = content_.id_count(), manner = random_.below(3);
+        for (uint32_t i = 0; i < 3 * ids; ++i) {
+            double coordinate = random_.below(4);
+            if (manner == 1) coordinate = 1000 * double{random_.unit()} + 0.1 * random_.below(7);
+            if (manner == 2) coordinate = random_.one_in(2) ? 3.4e38 : -1e-300;
+            content_.mesh_positions.push_back(coordinate);
+        }
+        for (uint32_t i = 0; i < 3 * ids; ++i) content_.triangles.push_back(random_.below(ids));
+        for (uint32_t id = ids; id-- > 0;)
+            if (const uint32_t number = content_.number_of_id[id]; number != NOTHING)
+                for (size_t k = 0; k < 3; ++k)
+                    content_.positions[number][k] = steps_to(content_.mesh_positions[3 * id + k], k);
+    }
+
+    int32_t steps_to(double coordinate, size_t k) const {
+        const double offset = coordinate - content_.position_origin[k];
+        const double steps = std::floor(offset / double{content_.position_step} + 0.5);
+        return steps < 0 ? 0 : steps > MOST ? MOST : static_cast<int32_t>(steps);
     }
 
     void make_ids() {
@@ -342,6 +381,8 @@ private:
             begin = end;
         }
     }
+
+    static constexpr int32_t MOST = (1 << 23) - 1; // steps of a position
 
     Random random_;
     const Sizes sizes_;

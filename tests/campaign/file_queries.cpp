@@ -35,11 +35,27 @@ std::vector<std::byte> saved(const geoidx& index, const geoidx_save_options* opt
     return bytes;
 }
 
-std::vector<std::byte> saved_as(const geoidx& index, uint32_t codec) {
+std::vector<std::byte> saved_as(const geoidx& index, uint32_t codec, uint32_t flags) {
     geoidx_save_options options;
     geoidx_save_options_init(&options);
     options.codec = codec;
+    options.flags = flags;
     return saved(index, &options);
+}
+
+// With the mesh of the content, if it has one.
+geoidx_status open_file(const FileContent& content, const std::vector<std::byte>& bytes, geoidx** opened) {
+    geoidx_mesh mesh;
+    geoidx_mesh_init(&mesh);
+    mesh.position_type = GEOIDX_POSITION_DOUBLE;
+    mesh.positions = content.mesh_positions.data();
+    mesh.vertex_count = content.id_count();
+    mesh.triangles = content.triangles.data();
+    mesh.triangle_count = content.triangles.size() / 3;
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    if (!content.has_positions) options.expected_mesh = &mesh;
+    return geoidx_open_memory(bytes.data(), bytes.size(), &options, opened);
 }
 
 class Questions {
@@ -232,17 +248,17 @@ void check_saving(const FileContent& content, const WrittenFile& file, const geo
     if (content.is_canonical && !content.is_packed)
         require(bytes == file.bytes, "what is saved is what was opened");
     geoidx* again = nullptr;
-    succeed(geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &again), "opening what was saved");
+    succeed(open_file(content, bytes, &again), "opening what was saved");
     require(saved(*test::IndexHandle(again)) == bytes, "what is saved of that is the same again");
 }
 
 // The index in each form, opened, verified, and brought back into the form that it had.
-void check_forms(const geoidx& index) {
+void check_forms(const FileContent& content, const geoidx& index, uint32_t flags) {
     const auto own = saved(index);
     for (const uint32_t codec : {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_LOSSLESS, GEOIDX_CODEC_MAPPED}) {
-        const auto bytes = saved_as(index, codec);
+        const auto bytes = saved_as(index, codec, flags);
         geoidx* opened = nullptr;
-        succeed(geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &opened), "opening another form");
+        succeed(open_file(content, bytes, &opened), "opening another form");
         const test::IndexHandle other(opened);
         require(geoidx_verify(bytes.data(), bytes.size(), nullptr, nullptr) == GEOIDX_OK,
                 "another form is verified");
@@ -250,8 +266,14 @@ void check_forms(const geoidx& index) {
         geoidx_info info{};
         info.struct_size = sizeof info;
         succeed(geoidx_get_info(&index, &info), "what the index is");
-        require(saved_as(*other, info.codec) == own, "another form holds the same");
+        require(saved_as(*other, info.codec, info.file_flags) == own, "another form holds the same");
     }
+}
+
+void check_mesh_is_needed(const WrittenFile& file) {
+    geoidx* opened = nullptr;
+    const geoidx_status status = geoidx_open_memory(file.bytes.data(), file.bytes.size(), nullptr, &opened);
+    require(status == GEOIDX_ERROR_INVALID_ARGUMENT && !opened, "no mesh, no index");
 }
 
 // Everything that is derived from a file, and all scratch, these questions' own included, is in proportion to
@@ -270,7 +292,7 @@ bool ask_everything(const FileContent& content, const WrittenFile& file, uint64_
     start_peak();
     const uint64_t before = peak_memory();
     geoidx* opened = nullptr;
-    const geoidx_status status = geoidx_open_memory(file.bytes.data(), file.bytes.size(), nullptr, &opened);
+    const geoidx_status status = open_file(content, file.bytes, &opened);
     const test::IndexHandle index(opened);
     require((status == GEOIDX_OK) == (index != nullptr), "there is an index or an error");
     require(status == GEOIDX_OK || status == GEOIDX_ERROR_LIMIT,
@@ -282,8 +304,11 @@ bool ask_everything(const FileContent& content, const WrittenFile& file, uint64_
         check_saving(content, file, *index);
     }
     check_memory(file, before);
-    if (index) check_forms(*index);
-    return index != nullptr;
+    if (!content.has_positions) check_mesh_is_needed(file);
+    if (!index) return false;
+    check_forms(content, *index, 0);
+    if (!content.has_positions) check_forms(content, *index, GEOIDX_SAVE_NO_POSITIONS);
+    return true;
 }
 
 }

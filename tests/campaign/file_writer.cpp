@@ -1,6 +1,8 @@
 #include <span>
 #include <utility>
 
+#include <xxhash.h>
+
 #include "format/bytes.h"
 #include "format/container.h"
 #include "tests/campaign/file_content.h"
@@ -9,9 +11,20 @@ namespace geodesic::file_campaign {
 
 namespace {
 
+uint64_t fingerprint_of(const FileContent& content) {
+    format::ByteWriter bytes;
+    for (const double coordinate : content.mesh_positions) bytes.f32(static_cast<float>(coordinate) + 0.f);
+    const auto positions = bytes.take();
+    const uint64_t first = XXH3_64bits(positions.data(), positions.size());
+    bytes.u32_array(content.triangles);
+    const auto triangles = bytes.take();
+    return XXH3_64bits_withSeed(triangles.data(), triangles.size(), first);
+}
+
 class Writer {
 public:
-    explicit Writer(const FileContent& content) : content_(content), container_(0x5EED) {}
+    explicit Writer(const FileContent& content)
+        : content_(content), container_(content.has_positions ? 0x5EED : fingerprint_of(content)) {}
 
     void add(const char (&tag)[5], format::ByteWriter& bytes) {
         const auto raw = bytes.take();
@@ -83,8 +96,8 @@ private:
 void add_meta(const FileContent& content, Writer& writer) {
     format::ByteWriter bytes;
     bytes.u64(content.id_count());
-    bytes.u64(content.id_count()); // triangles
-    bytes.u64(7);                  // seed
+    bytes.u64(content.triangles.size() / 3);
+    bytes.u64(7); // seed
     bytes.u32(content.metric);
     bytes.f32(content.bound_scale);
     bytes.f64(content.delta);
@@ -112,7 +125,21 @@ void add_vertices(const FileContent& content, Writer& writer) {
     bytes.u64(content.vertex_count());
     bytes.u32_planes(content.number_of_id);
     writer.add("VERT", bytes);
+}
+
+uint64_t checksum_of_positions(const FileContent& content) {
+    format::ByteWriter bytes;
+    for (const auto& position : content.positions)
+        for (const int32_t coordinate : position) bytes.i32(coordinate);
+    const auto coordinates = bytes.take();
+    return XXH3_64bits(coordinates.data(), coordinates.size());
+}
+
+void add_positions(const FileContent& content, Writer& writer) {
+    format::ByteWriter bytes;
     bytes.f32(content.position_step);
+    for (const double coordinate : content.position_origin) bytes.f64(coordinate);
+    bytes.u64(checksum_of_positions(content));
     std::vector<uint32_t> differences;
     std::array<int32_t, 3> last{};
     for (const auto& position : content.positions)
@@ -121,7 +148,7 @@ void add_vertices(const FileContent& content, Writer& writer) {
             differences.push_back(
                 static_cast<uint32_t>(difference < 0 ? -2 * difference - 1 : 2 * difference));
         }
-    bytes.u32_planes(differences);
+    if (content.has_positions) bytes.u32_planes(differences);
     writer.add("POSI", bytes);
 }
 
@@ -154,6 +181,7 @@ WrittenFile write_content(const FileContent& content) {
     add_meta(content, writer);
     add_hierarchy(content, writer);
     add_vertices(content, writer);
+    add_positions(content, writer);
     add_borders(content, writer);
     if (content.is_overlay()) {
         add_segments(content, writer);

@@ -65,10 +65,11 @@ int32_t tell(void* user, const geoidx_issue* issue) {
 
 constexpr uint32_t CODECS[]{GEOIDX_CODEC_PACKED, GEOIDX_CODEC_LOSSLESS, GEOIDX_CODEC_MAPPED};
 
-std::vector<std::byte> saved(const geoidx* index, uint32_t codec) {
+std::vector<std::byte> saved(const geoidx* index, uint32_t codec, uint32_t flags = 0) {
     geoidx_save_options options;
     geoidx_save_options_init(&options);
     options.codec = codec;
+    options.flags = flags;
     uint64_t size = 0;
     succeed(geoidx_save_memory(index, &options, nullptr, 0, &size), "geoidx_save_memory, size");
     std::vector<std::byte> bytes(size);
@@ -93,6 +94,19 @@ void check_forms(const geoidx* index, const std::vector<std::vector<std::byte>>&
     for (const uint32_t codec : CODECS)
         expect(saved(index, codec) == files[codec], "an opened index is saved as the same bytes", "codec %u",
                codec);
+}
+
+// An index of a file without positions is saved as the one that it was saved from, with them and without.
+void check_without_positions(const BuildInput& input, const geoidx* index,
+                             const std::vector<std::vector<std::byte>>& files) {
+    for (const uint32_t codec : CODECS) {
+        const auto bytes = saved(index, codec, GEOIDX_SAVE_NO_POSITIONS);
+        const IndexHandle again = opened(input, bytes);
+        expect(bytes.size() <= files[codec].size(), "no positions take no more", "codec %u", codec);
+        expect(saved(again.get(), codec) == files[codec], "positions come back", "codec %u", codec);
+        expect(saved(again.get(), codec, GEOIDX_SAVE_NO_POSITIONS) == bytes, "positions are left out again",
+               "codec %u", codec);
+    }
 }
 
 void check_info(const BuildInput& input, const geoidx_info& info) {
@@ -120,6 +134,7 @@ void check_case(const test::Soup& soup, const CaseOptions& options) {
     const double longest = longest_of(truths);
     std::vector<std::vector<std::byte>> files; // by codec
     for (const uint32_t codec : CODECS) files.push_back(saved(built.get(), codec));
+    check_without_positions(input, built.get(), files);
     const Subject subject(input, std::move(built), longest);
     check_queries(subject, solver.get(), truths, dice);
     for (const auto& file : files) check_forms(opened(input, file).get(), files);

@@ -46,16 +46,21 @@ inline IndexHandle build(const TestMesh& mesh, const geoidx_build_options& optio
     return IndexHandle(index);
 }
 
-inline Bytes save(const geoidx* index, uint32_t codec) {
+inline Bytes save(const geoidx* index, const geoidx_save_options* options) {
+    uint64_t size = 0;
+    require_success(geoidx_save_memory(index, options, nullptr, 0, &size));
+    Bytes bytes(size);
+    require_success(geoidx_save_memory(index, options, bytes.data(), bytes.size(), &size));
+    REQUIRE(size == bytes.size());
+    return bytes;
+}
+
+inline Bytes save(const geoidx* index, uint32_t codec, uint32_t flags = 0) {
     geoidx_save_options options;
     geoidx_save_options_init(&options);
     options.codec = codec;
-    uint64_t size = 0;
-    require_success(geoidx_save_memory(index, &options, nullptr, 0, &size));
-    Bytes bytes(size);
-    require_success(geoidx_save_memory(index, &options, bytes.data(), bytes.size(), &size));
-    REQUIRE(size == bytes.size());
-    return bytes;
+    options.flags = flags;
+    return save(index, &options);
 }
 
 inline Bytes save(const geoidx* index) { return save(index, GEOIDX_CODEC_PACKED); }
@@ -66,12 +71,35 @@ inline IndexHandle open(std::span<const std::byte> bytes) {
     return IndexHandle(index);
 }
 
-inline geoidx_status open_status(std::span<const std::byte> bytes) {
+// Options that expect a mesh, which must outlive them.
+inline geoidx_open_options expecting(const geoidx_mesh& mesh) {
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    options.expected_mesh = &mesh;
+    return options;
+}
+
+inline IndexHandle open(std::span<const std::byte> bytes, const TestMesh& expected) {
+    const geoidx_mesh view = expected.view();
+    const auto options = expecting(view);
     geoidx* index = nullptr;
-    const geoidx_status status = geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &index);
+    require_success(geoidx_open_memory(bytes.data(), bytes.size(), &options, &index));
+    return IndexHandle(index);
+}
+
+inline geoidx_status open_status(std::span<const std::byte> bytes, const geoidx_open_options* options) {
+    geoidx* index = nullptr;
+    const geoidx_status status = geoidx_open_memory(bytes.data(), bytes.size(), options, &index);
     const IndexHandle owned(index);
     CHECK((status == GEOIDX_OK) == (index != nullptr));
     return status;
+}
+
+inline geoidx_status open_status(std::span<const std::byte> bytes) { return open_status(bytes, nullptr); }
+
+inline geoidx_status open_status(std::span<const std::byte> bytes, const geoidx_mesh& expected) {
+    const auto options = expecting(expected);
+    return open_status(bytes, &options);
 }
 
 inline QueryHandle query_of(const geoidx* index) {

@@ -399,26 +399,6 @@ geoidx_status status_expecting(const geoidx_mesh& view, const Bytes& bytes) {
     return status;
 }
 
-// The same mesh in single precision.
-struct FloatMesh {
-    std::vector<float> positions;
-    const std::vector<uint32_t>& triangles;
-
-    explicit FloatMesh(const TestMesh& mesh) : triangles(mesh.triangles) {
-        for (const double coordinate : mesh.positions) positions.push_back(static_cast<float>(coordinate));
-    }
-
-    geoidx_mesh view() const {
-        geoidx_mesh mesh;
-        geoidx_mesh_init(&mesh);
-        mesh.positions = positions.data();
-        mesh.vertex_count = positions.size() / 3;
-        mesh.triangles = triangles.data();
-        mesh.triangle_count = triangles.size() / 3;
-        return mesh;
-    }
-};
-
 Bytes file_of(const geoidx_mesh& view, double weld_tolerance = 0) {
     geoidx_build_options options = build_options();
     options.weld_tolerance = weld_tolerance;

@@ -42,6 +42,26 @@ struct TestMesh {
     }
 };
 
+// The same mesh in single precision.
+struct FloatMesh {
+    std::vector<float> positions;
+    const std::vector<uint32_t>& triangles;
+
+    explicit FloatMesh(const TestMesh& mesh) : triangles(mesh.triangles) {
+        for (const double coordinate : mesh.positions) positions.push_back(static_cast<float>(coordinate));
+    }
+
+    geoidx_mesh view() const {
+        geoidx_mesh mesh;
+        geoidx_mesh_init(&mesh);
+        mesh.positions = positions.data();
+        mesh.vertex_count = positions.size() / 3;
+        mesh.triangles = triangles.data();
+        mesh.triangle_count = triangles.size() / 3;
+        return mesh;
+    }
+};
+
 inline TestMesh one_triangle() { return {{0, 0, 0, 3, 0, 0, 0, 4, 0}, {0, 1, 2}}; }
 inline TestMesh two_triangles() { return {{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {0, 1, 2, 0, 2, 3}}; }
 

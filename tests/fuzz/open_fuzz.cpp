@@ -1,6 +1,6 @@
 // Opens files whose content was changed and whose checksums are right, and queries those that open. The first
-// byte chooses: the rest as a file by itself, or changes to a small index of either engine, six bytes each:
-// section, position, value.
+// byte chooses: the rest as a file by itself, or changes to a small index of either engine, with positions or
+// without, six bytes each: section, position, value.
 #include <cstring>
 #include <map>
 #include <string>
@@ -18,9 +18,23 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 // Four by three cells, bent.
-Bytes small_index(uint32_t engine) {
+struct SmallMesh {
     std::vector<float> positions;
     std::vector<uint32_t> triangles;
+
+    SmallMesh();
+    geoidx_mesh view() const {
+        geoidx_mesh mesh;
+        geoidx_mesh_init(&mesh);
+        mesh.positions = positions.data();
+        mesh.vertex_count = positions.size() / 3;
+        mesh.triangles = triangles.data();
+        mesh.triangle_count = triangles.size() / 3;
+        return mesh;
+    }
+};
+
+SmallMesh::SmallMesh() {
     for (uint32_t y = 0; y < 4; ++y)
         for (uint32_t x = 0; x < 5; ++x) {
             const auto at = static_cast<float>(x), bend = static_cast<float>(x * x + y * y);
@@ -29,12 +43,15 @@ Bytes small_index(uint32_t engine) {
             const uint32_t v = x + 5 * y;
             triangles.insert(triangles.end(), {v, v + 1, v + 6, v, v + 6, v + 5});
         }
-    geoidx_mesh mesh;
-    geoidx_mesh_init(&mesh);
-    mesh.positions = positions.data();
-    mesh.vertex_count = positions.size() / 3;
-    mesh.triangles = triangles.data();
-    mesh.triangle_count = triangles.size() / 3;
+}
+
+const SmallMesh& small_mesh() {
+    static const SmallMesh mesh;
+    return mesh;
+}
+
+Bytes small_index(uint32_t engine, uint32_t flags) {
+    const geoidx_mesh mesh = small_mesh().view();
     geoidx_build_options options;
     geoidx_build_options_init(&options);
     options.engine = engine;
@@ -43,10 +60,13 @@ Bytes small_index(uint32_t engine) {
     options.threads = 1;
     geoidx* index = nullptr;
     fuzz::require(geoidx_build(&mesh, &options, &index) == GEOIDX_OK, "the small index is built");
+    geoidx_save_options how;
+    geoidx_save_options_init(&how);
+    how.flags = flags;
     uint64_t size = 0;
-    geoidx_save_memory(index, nullptr, nullptr, 0, &size);
+    geoidx_save_memory(index, &how, nullptr, 0, &size);
     Bytes file(size);
-    fuzz::require(geoidx_save_memory(index, nullptr, file.data(), size, &size) == GEOIDX_OK, "it is saved");
+    fuzz::require(geoidx_save_memory(index, &how, file.data(), size, &size) == GEOIDX_OK, "it is saved");
     geoidx_close(index);
     return file;
 }
@@ -127,14 +147,39 @@ void open(const void* data, size_t size) {
     geoidx_close(index);
 }
 
+// Verify has no mesh, so that it finds less.
+void open_without_positions(const void* data, size_t size) {
+    const geoidx_mesh mesh = small_mesh().view();
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    options.expected_mesh = &mesh;
+    geoidx* index = nullptr;
+    const geoidx_status status = geoidx_open_memory(data, size, &options, &index);
+    fuzz::require((status == GEOIDX_OK) == (index != nullptr), "there is an index or an error");
+    FirstIssue first{size};
+    const geoidx_status verified = geoidx_verify(data, size, FirstIssue::take, &first);
+    fuzz::require(first.status == verified, "verify returns what it tells first");
+    fuzz::require(status != GEOIDX_OK || verified == GEOIDX_OK, "verify accepts what opens");
+    if (index) query(*index);
+    geoidx_close(index);
 }
 
+}
+
+constexpr uint8_t WITHOUT_POSITIONS = 0x80; // choices from here on
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    static const Bytes originals[] = {small_index(GEOIDX_ENGINE_GRAPH), small_index(GEOIDX_ENGINE_OVERLAY)};
+    static const Bytes originals[] = {small_index(GEOIDX_ENGINE_GRAPH, 0),
+                                      small_index(GEOIDX_ENGINE_OVERLAY, 0)};
+    static const Bytes without_positions[] = {small_index(GEOIDX_ENGINE_GRAPH, GEOIDX_SAVE_NO_POSITIONS),
+                                              small_index(GEOIDX_ENGINE_OVERLAY, GEOIDX_SAVE_NO_POSITIONS)};
     fuzz::Input input({data, size});
     const uint8_t choice = input.byte();
     if (choice % 3 == 2) {
         open(input.rest().data(), input.rest().size());
+    } else if (choice >= WITHOUT_POSITIONS) {
+        const Bytes file = changed(without_positions[choice % 3], input);
+        open_without_positions(file.data(), file.size());
     } else {
         const Bytes file = changed(originals[choice % 3], input);
         open(file.data(), file.size());

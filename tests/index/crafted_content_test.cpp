@@ -131,8 +131,14 @@ TEST_CASE("crafted VERT and POSI") {
             check_corrupt("vertex number", [&](TakenApart& parts) { parts.number_of_id[id] = number; });
     check_corrupt("an id too few", [](TakenApart& parts) { parts.number_of_id.pop_back(); });
     check_corrupt("an id too many", [](TakenApart& parts) { parts.number_of_id.push_back(0); });
-    for (float step : {INFINITE, -INFINITE, NOT_A_NUMBER, -1.f})
+    for (float step : {INFINITE, -INFINITE, NOT_A_NUMBER, -1.f, 0.f})
         check_corrupt("position step", [&](TakenApart& parts) { parts.position_step = step; });
+    for (double coordinate : {double{INFINITE}, double{-INFINITE}, double{NOT_A_NUMBER}})
+        for (size_t k : {size_t{0}, size_t{2}})
+            check_corrupt("origin", [&](TakenApart& parts) { parts.position_origin[k] = coordinate; });
+    check_corrupt("checksum", [](TakenApart& parts) { ++parts.position_checksum; });
+    check_corrupt("another position", [](TakenApart& parts) { parts.coordinates.back() ^= 2; });
+    check_corrupt("a coordinate below 0", [](TakenApart& parts) { parts.coordinates[0] = 1; });
     // 2^24 and -2^24, 2^31 - 1 and -2^31 steps from the coordinate before.
     for (uint32_t difference : {1u << 25, (1u << 25) - 1, UINT32_MAX - 1, UINT32_MAX})
         for (size_t i : {size_t{0}, original().parts.coordinates.size() - 1})

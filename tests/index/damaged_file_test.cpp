@@ -8,13 +8,29 @@ using namespace geodesic::test;
 
 namespace {
 
+const TestMesh& small_mesh() {
+    static const TestMesh mesh = grid(5, 4, 0.2);
+    return mesh;
+}
+
 // A few KB, two levels, all sections with content.
-Bytes small_index(uint32_t engine = GEOIDX_ENGINE_GRAPH) {
+Bytes small_index(uint32_t engine = GEOIDX_ENGINE_GRAPH, uint32_t flags = 0) {
     auto options = build_options(GEOIDX_METRIC_EXACT, 2);
     options.engine = engine;
     options.patches[0] = options.patches[1] = 2;
-    return save(build(grid(5, 4, 0.2), options).get());
+    return save(build(small_mesh(), options).get(), GEOIDX_CODEC_PACKED, flags);
 }
+
+// Of both engines, with positions and without.
+std::vector<Bytes> small_indices() {
+    std::vector<Bytes> files;
+    for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY})
+        for (uint32_t flags : {uint32_t{0}, uint32_t{GEOIDX_SAVE_NO_POSITIONS}})
+            files.push_back(small_index(engine, flags));
+    return files;
+}
+
+geoidx_status status_of(const Bytes& bytes) { return open_status(bytes, small_mesh().view()); }
 
 struct Issues {
     geoidx_status first = GEOIDX_OK;
@@ -31,7 +47,7 @@ struct Issues {
 
 // Both doors refuse, verify for a reason that it names.
 bool is_refused(const Bytes& bytes) {
-    const geoidx_status status = open_status(bytes);
+    const geoidx_status status = status_of(bytes);
     Issues issues;
     issues.file_size = bytes.size();
     const geoidx_status verified = geoidx_verify(bytes.data(), bytes.size(), Issues::add, &issues);
@@ -42,38 +58,36 @@ bool is_refused(const Bytes& bytes) {
 }
 
 TEST_CASE("an index cut at any length is refused") {
-    for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
-        const Bytes whole = small_index(engine);
+    for (const Bytes& whole : small_indices()) {
         REQUIRE(whole.size() < 10000);
         for (size_t size = 0; size < whole.size(); ++size) {
             const Bytes cut(whole.begin(),
                             whole.begin() + static_cast<std::ptrdiff_t>(size)); // no byte beyond
-            if (!is_refused(cut) || open_status(cut) != GEOIDX_ERROR_TRUNCATED) {
-                CAPTURE(engine);
+            if (!is_refused(cut) || status_of(cut) != GEOIDX_ERROR_TRUNCATED) {
+                CAPTURE(whole.size());
                 CAPTURE(size);
                 CHECK(is_refused(cut));
-                CHECK(open_status(cut) == GEOIDX_ERROR_TRUNCATED);
+                CHECK(status_of(cut) == GEOIDX_ERROR_TRUNCATED);
             }
         }
     }
 }
 
 TEST_CASE("an index with any byte changed is refused") {
-    for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
-        const Bytes whole = small_index(engine);
+    for (const Bytes& whole : small_indices()) {
         Bytes changed = whole;
         for (size_t i = 0; i < whole.size(); ++i) {
             for (int flip : {0x01, 0x80, 0xFF, 0x24}) {
                 changed[i] = whole[i] ^ static_cast<std::byte>(flip);
                 if (is_refused(changed)) continue;
-                CAPTURE(engine);
+                CAPTURE(whole.size());
                 CAPTURE(i);
                 CAPTURE(flip);
                 CHECK(is_refused(changed));
             }
             changed[i] = whole[i];
         }
-        CHECK(open_status(changed) == GEOIDX_OK);
+        CHECK(status_of(changed) == GEOIDX_OK);
     }
 }
 
@@ -81,7 +95,7 @@ TEST_CASE("an index with bytes after its end is refused") {
     Bytes longer = small_index();
     longer.push_back(std::byte{0});
     CHECK(is_refused(longer));
-    CHECK(open_status(longer) == GEOIDX_ERROR_CORRUPT);
+    CHECK(status_of(longer) == GEOIDX_ERROR_CORRUPT);
 }
 
 TEST_CASE("verify goes on after a problem and stops when the callback says so") {

@@ -1,5 +1,5 @@
-// Golden files: one of each form and one of rounded distances, which every later version of the library must
-// open (SPEC.md, "Versions").
+// Golden files: one of each form, one of rounded distances and one without positions, which every later
+// version of the library must open (SPEC.md, "Versions").
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -15,13 +15,16 @@ struct Golden {
     const char* name;
     uint32_t engine, codec;
     uint32_t columns; // of its sheet
+    uint32_t flags = 0;
 };
 
-constexpr Golden GOLDEN[] = {{"packed", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15},
-                             {"lossless", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_LOSSLESS, 15},
-                             {"mapped", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_MAPPED, 15},
-                             {"graph", GEOIDX_ENGINE_GRAPH, GEOIDX_CODEC_LOSSLESS, 15},
-                             {"rounded", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 34}};
+constexpr Golden GOLDEN[] = {
+    {"packed", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15},
+    {"lossless", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_LOSSLESS, 15},
+    {"mapped", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_MAPPED, 15},
+    {"graph", GEOIDX_ENGINE_GRAPH, GEOIDX_CODEC_LOSSLESS, 15},
+    {"rounded", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 34},
+    {"no_positions", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, GEOIDX_SAVE_NO_POSITIONS}};
 
 std::string path_of(const Golden& golden) {
     return std::string(GEOIDX_GOLDEN_FOLDER "/") + golden.name + ".geoidx";
@@ -60,6 +63,7 @@ TEST_CASE("golden files: written" * doctest::skip()) {
         geoidx_save_options options;
         geoidx_save_options_init(&options);
         options.codec = golden.codec;
+        options.flags = golden.flags;
         const auto built = build(mesh_of(golden), options_of(golden));
         require_success(geoidx_save(built.get(), path_of(golden).c_str(), &options));
     }
@@ -83,6 +87,7 @@ TEST_CASE("golden files: they open, belong to their mesh and answer near the tru
         const geoidx_info info = info_of(index.get());
         CHECK(info.engine == golden.engine);
         CHECK(info.codec == golden.codec);
+        CHECK(info.file_flags == golden.flags);
         CHECK(info.format_major == 2);
         CHECK((golden.columns > 30) == (info.table_entries >= 65536)); // distances are rounded
         double sum = 0;
@@ -111,8 +116,8 @@ TEST_CASE("golden files: they open, belong to their mesh and answer near the tru
 TEST_CASE("golden files: the forms of one index answer the same bits") {
     const uint32_t count = mesh_of(GOLDEN[0]).vertex_count();
     const auto packed = open(content_of(GOLDEN[0]));
-    for (const Golden& golden : {GOLDEN[1], GOLDEN[2]}) {
-        const auto other = open(content_of(golden));
+    for (const Golden& golden : {GOLDEN[1], GOLDEN[2], GOLDEN[5]}) {
+        const auto other = open(content_of(golden), mesh_of(golden));
         for (uint32_t source = 0; source < count; source += 9) {
             CHECK(msad(other.get(), source, count) == msad(packed.get(), source, count));
             CHECK(sssd(other.get(), source, count / 2) == sssd(packed.get(), source, count / 2));

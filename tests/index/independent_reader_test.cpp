@@ -203,6 +203,7 @@ struct IndependentIndex {
     uint32_t inner_count, patch_count, border_vertex_count;
     std::vector<uint32_t> number_of_id;
     double position_step;
+    std::array<double, 3> position_origin;
     std::vector<int32_t> positions;
     std::vector<std::vector<uint32_t>> owned, internal, border; // per patch
     std::vector<Table> border_table, crossing_table, internal_table;
@@ -218,11 +219,14 @@ struct IndependentIndex {
         CHECK(vertices.remaining() == 0);
         Numbers coordinates = file.bytes("POSI");
         position_step = double{coordinates.f32()};
+        for (double& coordinate : position_origin) coordinate = coordinates.f64();
+        const uint64_t checksum = coordinates.u64();
         for (const uint32_t stored : coordinates.u32_planes(3 * vertex_count)) {
             const int32_t half = static_cast<int32_t>(stored / 2), difference = stored % 2 ? -half - 1 : half;
             positions.push_back(difference + (positions.size() < 3 ? 0 : positions[positions.size() - 3]));
         }
         CHECK(coordinates.remaining() == 0);
+        CHECK(checksum == XXH3_64bits(positions.data(), 4 * positions.size()));
         read_borders(file.bytes("BORD"), vertex_count);
         border_table = folded_tables(file, "BVBV", border);
         internal_table = folded_tables(file, "IVIV", internal);
@@ -475,20 +479,21 @@ TEST_CASE("independent reader: what the file says of mesh and options") {
         for (uint32_t l = 1; l <= written.options.level_count; ++l)
             CHECK(index.level_begin[l + 1] - index.level_begin[l] == info.patch_count[l - 1]);
         CHECK(index.position_step > 0);
-        const auto corner = [&](size_t k) {
+        for (size_t k = 0; k < 3; ++k) {
             double least = INFINITE;
             for (const uint32_t id : written.mesh.triangles)
                 least = std::min(least, written.mesh.positions[3 * id + k]);
-            return least;
-        };
+            CHECK(index.position_origin[k] == least);
+        }
         std::set<uint32_t> used(written.mesh.triangles.begin(), written.mesh.triangles.end());
         for (uint32_t id = 0; id < index.id_count; ++id) {
             const uint32_t number = index.number_of_id[id];
             CHECK((number == UNUSED) == !used.contains(id));
             if (number == UNUSED) continue;
             for (size_t k = 0; k < 3; ++k)
-                CHECK(std::abs(index.position_step * index.positions[3 * number + k] + corner(k) -
-                               written.mesh.positions[3 * id + k]) <= 0.501 * index.position_step);
+                CHECK(std::abs(index.position_step * index.positions[3 * number + k] +
+                               index.position_origin[k] - written.mesh.positions[3 * id + k]) <=
+                      0.501 * index.position_step);
         }
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 
@@ -31,6 +32,8 @@ struct TakenApart {
     uint64_t vertex_count;
     std::vector<uint32_t> number_of_id;
     float position_step;
+    std::array<double, 3> position_origin;
+    uint64_t position_checksum;
     std::vector<uint32_t> coordinates; // as they are stored: folded differences
     std::vector<uint32_t> owned, internal, border_sizes, border;
     std::map<uint32_t, std::vector<float>> tables; // by tag, the matrices back to back
@@ -78,7 +81,9 @@ inline TakenApart take_apart(std::span<const std::byte> file) {
     const auto position_bytes = bytes(TAG_POSITIONS);
     format::ByteReader positions(position_bytes);
     parts.position_step = positions.f32();
-    parts.coordinates.resize(3 * parts.vertex_count);
+    for (double& coordinate : parts.position_origin) coordinate = positions.f64();
+    parts.position_checksum = positions.u64();
+    parts.coordinates.resize(positions.remaining() / 4); // none where positions are left out
     positions.u32_planes(parts.coordinates);
 
     const auto border_bytes = bytes(TAG_BORDERS);
@@ -163,6 +168,8 @@ inline Bytes put_together(const TakenApart& parts, const TakenApart& shapes, uin
     add(TAG_VERTICES, bytes);
     bytes.take();
     bytes.f32(parts.position_step);
+    for (const double coordinate : parts.position_origin) bytes.f64(coordinate);
+    bytes.u64(parts.position_checksum);
     bytes.u32_planes(parts.coordinates);
     add(TAG_POSITIONS, bytes);
     bytes.take();

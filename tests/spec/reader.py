@@ -189,20 +189,34 @@ def unfold(matrix, size):
     return table + table.T
 
 
-class Index:
-    """What a file holds: the hierarchy, whose each vertex number is, and the tables of its engine."""
+def fingerprint_of(points, triangles):
+    rounded = numpy.asarray(points).astype("<f4") + numpy.float32(0)
+    first = xxhash.xxh3_64_intdigest(rounded.tobytes())
+    return xxhash.xxh3_64_intdigest(numpy.asarray(triangles).astype("<u4").tobytes(), seed=first)
 
-    def __init__(self, path):
+
+class Index:
+    """What a file holds: the hierarchy, whose each vertex number is, and the tables of its engine.
+
+    mesh: the positions of all ids, in the precision that the index was built with, and the triangles; for a file that
+    leaves positions out.
+    """
+
+    def __init__(self, path, mesh=None):
         with open(path, "rb") as file:
             self.sections, self.fingerprint = read_sections(file.read())
         meta = self.sections["META"].bytes()
         require(len(meta) == 120, "META of another size")
-        (self.id_count,) = struct.unpack_from("<Q", meta)
+        (self.id_count, triangle_count) = struct.unpack_from("<QQ", meta)
         (self.engine,) = struct.unpack_from("<I", meta, 104)
         (self.codec,) = struct.unpack_from("<I", meta, 116)
         self._read_hierarchy()
+        if mesh:
+            counts = tuple(map(len, mesh))
+            require(counts == (self.id_count, triangle_count), "a mesh of another size")
+            require(fingerprint_of(*mesh) == self.fingerprint, "another mesh")
         self._read_vertices()
-        self._read_positions()
+        self._read_positions(mesh)
         self._read_borders()
         if self.engine == OVERLAY:
             self._read_overlays()
@@ -231,12 +245,29 @@ class Index:
         self.vertex_count = int(fields.take("<u8", 1)[0])
         self.number_of_id = fields.planes(self.id_count)
 
-    def _read_positions(self):
+    def _read_positions(self, mesh):
         fields = Fields(self.sections["POSI"].bytes())
-        (self.position_step,) = fields.take("<f4", 1)
-        stored = fields.planes(3 * self.vertex_count).astype(int)
-        differences = numpy.where(stored % 2, -(stored + 1) // 2, stored // 2)
-        self.positions = differences.reshape(-1, 3).cumsum(axis=0)
+        (self.position_step,), origin = fields.take("<f4", 1), fields.take("<f8", 3)
+        (checksum,) = fields.take("<u8", 1)
+        self.has_positions = fields.at < len(fields.content)
+        if self.has_positions:
+            stored = fields.planes(3 * self.vertex_count).astype(int)
+            differences = numpy.where(stored % 2, -(stored + 1) // 2, stored // 2)
+            self.positions = differences.reshape(-1, 3).cumsum(axis=0)
+        else:
+            require(mesh, "positions are left out, and there is no mesh")
+            self.positions = self._positions_of(mesh[0], origin)
+        coordinates = self.positions.astype("<i4").tobytes()
+        require(xxhash.xxh3_64_intdigest(coordinates) == checksum, "the checksum of the positions does not match")
+
+    def _positions_of(self, points, origin):
+        """In steps, of the lowest id of each number."""
+        numbers, lowest = numpy.unique(self.number_of_id, return_index=True)
+        lowest = lowest[numbers != NONE]
+        require(len(lowest) == self.vertex_count, "a number without an id")
+        apart = numpy.asarray(points)[lowest].astype("f8") - origin
+        steps = numpy.floor(apart / float(self.position_step) + 0.5)
+        return numpy.clip(steps, 0, 2**23 - 1).astype(int)
 
     def _read_borders(self):
         fields = Fields(self.sections["BORD"].bytes())

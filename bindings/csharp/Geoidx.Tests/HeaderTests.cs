@@ -23,6 +23,7 @@ namespace Geoidx.Tests
             ("GEOIDX_ENGINE_", typeof(GeodesicEngine)),
             ("GEOIDX_OPEN_", typeof(OpenFlags)),
             ("GEOIDX_CODEC_", typeof(GeodesicCodec)),
+            ("GEOIDX_SAVE_", typeof(SaveFlags)),
             ("GEOIDX_ISSUE_", typeof(GeodesicIssueNumber)),
             ("GEOIDX_", typeof(GeodesicStatus)),
         };

@@ -80,11 +80,18 @@ namespace Geoidx
         internal ulong max_memory;
     }
 
+    internal enum SaveFlags
+    {
+        NoPositions = 1,
+    }
+
     [StructLayout(LayoutKind.Sequential)]
     internal struct NativeSaveOptions
     {
         internal uint struct_size;
         internal uint codec;
+        internal uint flags;
+        internal uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -116,7 +123,7 @@ namespace Geoidx
         internal uint engine;
         internal double error_mean_at_vertices;
         internal uint codec;
-        internal uint reserved;
+        internal uint file_flags;
         internal double smallest_step;
         internal double largest_step;
     }

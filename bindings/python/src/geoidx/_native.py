@@ -32,6 +32,7 @@ METRIC_UNFOLDABLE = 1
 OPEN_PAIRS = 1
 OPEN_BORROW = 2
 OPEN_NO_LABELS = 4
+SAVE_NO_POSITIONS = 1
 
 AllocateFn = CFUNCTYPE(c_void_p, c_void_p, c_uint64, c_uint64)
 ReleaseFn = CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint64)
@@ -110,7 +111,7 @@ class OpenOptions(Structure):
 
 
 class SaveOptions(Structure):
-    _fields_ = [("struct_size", c_uint32), ("codec", c_uint32)]
+    _fields_ = [("struct_size", c_uint32), ("codec", c_uint32), ("flags", c_uint32), ("reserved", c_uint32)]
 
 
 class Info(Structure):
@@ -141,7 +142,7 @@ class Info(Structure):
         ("engine", c_uint32),
         ("error_mean_at_vertices", c_double),
         ("codec", c_uint32),
-        ("reserved", c_uint32),
+        ("file_flags", c_uint32),
         ("smallest_step", c_double),
         ("largest_step", c_double),
     ]
