@@ -26,7 +26,10 @@ constexpr std::array TABLE_SECTIONS{"OVOV", "BVIV", "IVIV", "HOPS"};
 using Sizes = std::map<std::string, uint64_t>; // bytes by column
 
 IndexFile saved_in(const geoidx& index, uint32_t codec, const std::string& path) {
-    std::vector<unsigned char> bytes = tools::saved_bytes(index, codec, path);
+    geoidx_save_options options;
+    geoidx_save_options_init(&options);
+    options.codec = codec;
+    std::vector<unsigned char> bytes = tools::saved_bytes(index, options, path);
     geoidx* opened = nullptr;
     tools::require_ok(geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &opened), path);
     const tools::Index saved(opened);

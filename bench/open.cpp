@@ -8,6 +8,7 @@
 #include "bench/statistics.h"
 #include "bench/timing.h"
 #include "tools/library.h"
+#include "tools/mesh_io/mesh_io.h"
 
 namespace geodesic::bench {
 
@@ -15,6 +16,7 @@ namespace {
 
 struct OpenArguments {
     std::vector<std::string> files;
+    std::string mesh;
     uint32_t rounds = 9;
     ReportArguments report;
 };
@@ -46,9 +48,12 @@ struct Round {
     uint64_t vertices;
 };
 
-tools::Index open_in(CountedMemory& memory, const std::string& path, uint32_t threads) {
+// `mesh` may be null.
+tools::Index open_in(CountedMemory& memory, const std::string& path, const geoidx_mesh* mesh,
+                     uint32_t threads) {
     geoidx_open_options options;
     geoidx_open_options_init(&options);
+    options.expected_mesh = mesh;
     options.allocator = memory.allocator();
     options.threads = threads;
     geoidx* index = nullptr;
@@ -58,11 +63,11 @@ tools::Index open_in(CountedMemory& memory, const std::string& path, uint32_t th
 
 double milliseconds_of(const std::function<void()>& work) { return 1e3 * time_of(work).wall; }
 
-Round open_once(const std::string& path, uint32_t threads) {
+Round open_once(const std::string& path, const geoidx_mesh* mesh, uint32_t threads) {
     CountedMemory memory;
     Round round{};
     tools::Index index;
-    round.opened_ms = milliseconds_of([&] { index = open_in(memory, path, threads); });
+    round.opened_ms = milliseconds_of([&] { index = open_in(memory, path, mesh, threads); });
     round.opened_bytes = memory.bytes();
 
     const geoidx_info info = tools::info_of(*index, path);
@@ -82,11 +87,11 @@ Round open_once(const std::string& path, uint32_t threads) {
     return round;
 }
 
-Row open_row(const std::string& path, uint32_t threads, uint32_t rounds) {
+Row open_row(const std::string& path, const geoidx_mesh* mesh, uint32_t threads, uint32_t rounds) {
     std::vector<double> opened, field, pair;
     Round round{};
     for (uint32_t i = 0; i < rounds; ++i) {
-        round = open_once(path, threads);
+        round = open_once(path, mesh, threads);
         opened.push_back(round.opened_ms);
         field.push_back(round.field_ms);
         pair.push_back(round.pair_ms);
@@ -108,10 +113,14 @@ Row open_row(const std::string& path, uint32_t threads, uint32_t rounds) {
 void open(const OpenArguments& arguments) {
     Report report("open", {{"rounds", "rounds", uint64_t{arguments.rounds}}}, arguments.report);
     Table table{"open", "Opening and memory", {}};
+    tools::TriangleMesh mesh;
+    if (!arguments.mesh.empty()) mesh = tools::read_mesh(arguments.mesh);
+    const geoidx_mesh view = tools::view_of(mesh);
+    const geoidx_mesh* expected = arguments.mesh.empty() ? nullptr : &view;
     for (const std::string& file : arguments.files)
         for (const uint32_t threads : {1u, 2u}) {
             progress(file);
-            table.rows.push_back(open_row(file, threads, arguments.rounds));
+            table.rows.push_back(open_row(file, expected, threads, arguments.rounds));
         }
     report.add(std::move(table));
     report.note(
@@ -125,6 +134,7 @@ void add_open(CLI::App& app) {
     auto arguments = std::make_shared<OpenArguments>();
     CLI::App* command = app.add_subcommand("open", "times of opening, and memory, of index files");
     command->add_option("INDEX", arguments->files, "index files")->required();
+    command->add_option("--mesh", arguments->mesh, "of all of these indices, for files without positions");
     command->add_option("--rounds", arguments->rounds, "of which the median counts")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

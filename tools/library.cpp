@@ -1,6 +1,7 @@
 #include "tools/library.h"
 
 #include "tools/failure.h"
+#include "tools/mesh_io/mesh_io.h"
 
 namespace geodesic::tools {
 
@@ -31,8 +32,18 @@ Index open_index(const std::string& path, const TriangleMesh* expected) {
         options.expected_mesh = &view;
     }
     geoidx* index = nullptr;
-    require_ok(geoidx_open(path.c_str(), &options, &index), path);
+    const geoidx_status status = geoidx_open(path.c_str(), &options, &index);
+    if (status == GEOIDX_ERROR_INVALID_ARGUMENT && !expected)
+        throw Failure(path +
+                      ": holds no positions, so that it needs the mesh that it was built from: --mesh");
+    require_ok(status, path);
     return Index(index);
+}
+
+Index open_index_with(const std::string& mesh_path, const std::string& path) {
+    if (mesh_path.empty()) return open_index(path, nullptr);
+    const TriangleMesh mesh = read_mesh(mesh_path);
+    return open_index(path, &mesh);
 }
 
 std::vector<geoidx_section> sections_of(const geoidx& index, const std::string& path) {
@@ -50,10 +61,8 @@ geoidx_info info_of(const geoidx& index, const std::string& path) {
     return info;
 }
 
-std::vector<unsigned char> saved_bytes(const geoidx& index, uint32_t codec, const std::string& path) {
-    geoidx_save_options options;
-    geoidx_save_options_init(&options);
-    options.codec = codec;
+std::vector<unsigned char> saved_bytes(const geoidx& index, const geoidx_save_options& options,
+                                       const std::string& path) {
     uint64_t size = 0;
     require_ok(geoidx_save_memory(&index, &options, nullptr, 0, &size), path);
     std::vector<unsigned char> bytes(size);

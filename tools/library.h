@@ -26,13 +26,16 @@ void require_ok(geoidx_status status, const std::string& what);
 // The arrays of `mesh` as the library takes them; `mesh` must outlive the result.
 geoidx_mesh view_of(const TriangleMesh& mesh);
 
-// `expected` may be null; otherwise an index of another mesh is refused.
+// `expected` may be null, unless the file holds no positions; an index of another mesh is refused.
 Index open_index(const std::string& path, const TriangleMesh* expected);
+// The same with a mesh file, or none where its name is empty.
+Index open_index_with(const std::string& mesh_path, const std::string& path);
 geoidx_info info_of(const geoidx& index, const std::string& path);
 std::vector<geoidx_section> sections_of(const geoidx& index, const std::string& path);
 
 // The bytes of the file that the index is saved as.
-std::vector<unsigned char> saved_bytes(const geoidx& index, uint32_t codec, const std::string& path);
+std::vector<unsigned char> saved_bytes(const geoidx& index, const geoidx_save_options& options,
+                                       const std::string& path);
 
 Solver make_solver(const TriangleMesh& mesh, const std::string& path, const geoidx_build_options& options);
 

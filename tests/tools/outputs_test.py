@@ -246,6 +246,45 @@ class Outputs(unittest.TestCase):
         self.assertEqual(run("convert", self.mesh, "-o", packed).returncode, 1)
         self.assertEqual(packed.read_bytes(), self.index.read_bytes())
 
+    def test_without_positions(self):
+        """Each command opens the file with the mesh, and says on one line that it needs it."""
+        bare, back, built = (self.folder / f"{name}.geoidx" for name in ("bare", "back", "built"))
+        shown = strict_json(output_of("convert", self.index, "-o", bare, "--no-positions", "--json"))
+        self.assertEqual(shown["has_positions"], 0)
+        output_of("build", self.mesh, "-o", built, "--no-positions")
+        self.assertEqual(built.read_bytes(), bare.read_bytes())
+        mesh = ["--mesh", self.mesh]
+        output_of("convert", bare, "-o", back, *mesh)
+        self.assertEqual(back.read_bytes(), self.index.read_bytes())
+        output_of("convert", bare, "-o", back, "--no-positions", *mesh)
+        self.assertEqual(back.read_bytes(), bare.read_bytes())
+        self.assertEqual(strict_json(output_of("info", bare, "--json", *mesh))["has_positions"], 0)
+        self.assertEqual(strict_json(output_of("info", self.index, "--json", *mesh))["has_positions"], 1)
+        for command in (["sssd", "0", "6"], ["msad", "0", "-o", "-"]):
+            name, *rest = command
+            self.assertEqual(output_of(name, bare, *rest, *mesh), output_of(name, self.index, *rest))
+        exact = ["0", "6", "--exact", self.mesh]
+        self.assertEqual(output_of("sssd", bare, *exact), output_of("sssd", self.index, *exact))
+        self.assertEqual(run("sssd", bare, *exact, *mesh).returncode, 2)
+        output_of("verify", bare)
+        output_of("bench", bare, "--queries", "1", *mesh)
+        for name, *rest in (
+            ["info"],
+            ["convert", "-o", back],
+            ["sssd", "0", "6"],
+            ["msad", "0", "-o", "-"],
+            ["bench", "--queries", "1"],
+        ):
+            done = run(name, bare, *rest)
+            self.assertEqual((done.returncode, done.stdout), (1, b""))
+            self.assertEqual(done.stderr.count(b"\n"), 1)
+            self.assertIn(b"--mesh", done.stderr)
+        other = self.folder / "other.off"
+        other.write_text(off_file().replace("0.1", "0.2"))
+        done = run("info", bare, "--mesh", other)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"other positions", done.stderr)
+
     def test_json_of_verify(self):
         good = strict_json(output_of("verify", self.index, "--json"))
         self.assertEqual((good["ok"], good["problems"]), (True, []))

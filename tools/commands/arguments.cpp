@@ -65,6 +65,10 @@ CLI::Validator whole_number() {
     return CLI::Validator(check, "");
 }
 
+CLI::Option* add_mesh_option(CLI::App& command, std::string& mesh) {
+    return command.add_option("--mesh", mesh, "the index's mesh, which a file without positions needs");
+}
+
 void add_metric_options(CLI::App& command, MetricArguments& arguments) {
     command.add_option("--metric", arguments.metric, "what a distance is: exact or edges")
         ->check(CLI::IsMember({"exact", "edges"}))

@@ -24,6 +24,9 @@ std::vector<uint32_t> vertex_pairs_of_text(std::string_view text);
 // Accepts 0 .. 2^64 - 1; CLI11 alone takes a sign and an overflow for some other number.
 CLI::Validator whole_number();
 
+// --mesh, for a command that needs it where the index has no positions.
+CLI::Option* add_mesh_option(CLI::App& command, std::string& mesh);
+
 // What decides the distances that a mesh has, with or without an index.
 struct MetricArguments {
     std::string metric = "exact";

@@ -13,7 +13,7 @@ namespace geodesic::tools {
 namespace {
 
 struct BenchArguments {
-    std::string index;
+    std::string index, mesh;
     uint32_t queries = 100;
     uint64_t seed = 1;
     bool json = false;
@@ -54,7 +54,7 @@ void print_json(const BenchArguments& arguments, double sssd, double msad, uint3
 
 // Wall time of random queries, one after the other on this thread.
 void bench(const BenchArguments& arguments) {
-    const Index index = open_index(arguments.index, nullptr);
+    const Index index = open_index_with(arguments.mesh, arguments.index);
     const auto count = static_cast<uint32_t>(info_of(*index, arguments.index).vertex_count);
     geoidx_query* raw = nullptr;
     require_ok(geoidx_query_create(index.get(), &raw), arguments.index);
@@ -84,6 +84,7 @@ void add_bench(CLI::App& app) {
     auto arguments = std::make_shared<BenchArguments>();
     CLI::App* command = app.add_subcommand("bench", "time random queries on an index");
     command->add_option("FILE", arguments->index, "index file")->required();
+    add_mesh_option(*command, arguments->mesh);
     command->add_option("--queries", arguments->queries, "how many of each kind")
         ->capture_default_str()
         ->check(CLI::Range(1u, 100000000u));

@@ -21,7 +21,7 @@ struct BuildArguments {
     std::string output;
     MetricArguments metric;
     std::string engine;
-    std::string codec;
+    FileForm form;
     uint32_t exact_vertices = 0;
     double rounding = 0;
     double delta = 0;
@@ -68,7 +68,7 @@ Index build_index(const TriangleMesh& mesh, const BuildArguments& arguments, Pro
 }
 
 void print_json(const geoidx& index, const BuildArguments& arguments, double seconds) {
-    const geoidx_info info = info_of_saved(index, codec_of_name(arguments.codec), arguments.output);
+    const geoidx_info info = info_of_saved(index, arguments.form, arguments.output);
     JsonObject object;
     object.text("mesh", arguments.mesh).text("output", arguments.output).number("build_seconds", seconds);
     add_rows(rows_of_index(info, arguments.output, true), object);
@@ -83,7 +83,7 @@ void build(const BuildArguments& arguments) {
     const auto begin = std::chrono::steady_clock::now();
     const Index index = build_index(mesh, arguments, bar);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-    save_index(*index, codec_of_name(arguments.codec), arguments.output);
+    save_index(*index, arguments.form, arguments.output);
     bar.show(1, "written");
     if (arguments.json) print_json(*index, arguments, time.count());
 }
@@ -102,7 +102,7 @@ void add_shape_options(CLI::App& command, BuildArguments& arguments) {
                     "of the overlay engine: what distances are rounded to, as a share of the way from a "
                     "vertex to the next; 0: 16 bits")
         ->capture_default_str();
-    add_codec_option(command, arguments.codec);
+    add_form_options(command, arguments.form);
     command.add_option("--delta", arguments.delta, "pruning threshold, % of the bounding-box diagonal")
         ->capture_default_str();
     command.add_option("--levels", arguments.levels, "levels of patches; 0: automatic")

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "tools/commands/arguments.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/index_output.h"
 #include "tools/commands/index_rows.h"
@@ -10,7 +11,8 @@ namespace geodesic::tools {
 namespace {
 
 struct ConvertArguments {
-    std::string input, output, codec;
+    std::string input, output, mesh;
+    FileForm form;
     bool json = false;
 };
 
@@ -24,20 +26,20 @@ void print_json(const geoidx_info& info, const ConvertArguments& arguments) {
 void convert(const ConvertArguments& arguments) {
     require_json_apart(arguments.json, arguments.output);
     require_index_output(arguments.output, arguments.input);
-    const Index index = open_index(arguments.input, nullptr);
-    const uint32_t codec = codec_of_name(arguments.codec);
-    save_index(*index, codec, arguments.output);
-    if (arguments.json) print_json(info_of_saved(*index, codec, arguments.output), arguments);
+    const Index index = open_index_with(arguments.mesh, arguments.input);
+    save_index(*index, arguments.form, arguments.output);
+    if (arguments.json) print_json(info_of_saved(*index, arguments.form, arguments.output), arguments);
 }
 
 }
 
 void add_convert(CLI::App& app) {
     auto arguments = std::make_shared<ConvertArguments>();
-    CLI::App* command = app.add_subcommand("convert", "write an index in another form, without its mesh");
+    CLI::App* command = app.add_subcommand("convert", "write an index in another form");
     command->add_option("FILE", arguments->input, "index file")->required();
     command->add_option("-o,--output", arguments->output, "index file to write; - is stdout")->required();
-    add_codec_option(*command, arguments->codec);
+    add_form_options(*command, arguments->form);
+    add_mesh_option(*command, arguments->mesh);
     command->add_flag("--json", arguments->json, "print a JSON object: what info prints of the new file");
     command->callback([arguments] { convert(*arguments); });
 }

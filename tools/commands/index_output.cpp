@@ -9,18 +9,28 @@
 
 namespace geodesic::tools {
 
-uint32_t codec_of_name(const std::string& name) {
-    return static_cast<uint32_t>(std::ranges::find(CODEC_NAMES, name) - CODEC_NAMES.begin());
+namespace {
+
+geoidx_save_options options_of(const FileForm& form) {
+    geoidx_save_options options;
+    geoidx_save_options_init(&options);
+    options.codec = static_cast<uint32_t>(std::ranges::find(CODEC_NAMES, form.codec) - CODEC_NAMES.begin());
+    if (form.no_positions) options.flags |= GEOIDX_SAVE_NO_POSITIONS;
+    return options;
 }
 
-void add_codec_option(CLI::App& command, std::string& codec) {
-    codec = CODEC_NAMES.front();
+}
+
+void add_form_options(CLI::App& command, FileForm& form) {
+    form.codec = CODEC_NAMES.front();
     command
-        .add_option("--codec", codec,
+        .add_option("--codec", form.codec,
                     "the form of the file: packed is small; lossless has a PNG of floats a table, as in the "
                     "paper; mapped is large, and open at once")
         ->check(CLI::IsMember(CODEC_NAMES))
         ->capture_default_str();
+    command.add_flag("--no-positions", form.no_positions,
+                     "leave the vertices' positions out of the file, which then opens with --mesh only");
 }
 
 void require_index_output(const std::string& output, const std::string& input) {
@@ -30,18 +40,18 @@ void require_index_output(const std::string& output, const std::string& input) {
     if (is_device_or_pipe(output)) throw Failure(output + ": is not a regular file; - is standard output");
 }
 
-void save_index(const geoidx& index, uint32_t codec, const std::string& path) {
-    if (path == STANDARD_OUTPUT) return write_file(path, saved_bytes(index, codec, path));
-    geoidx_save_options options;
-    geoidx_save_options_init(&options);
-    options.codec = codec;
+void save_index(const geoidx& index, const FileForm& form, const std::string& path) {
+    const geoidx_save_options options = options_of(form);
+    if (path == STANDARD_OUTPUT) return write_file(path, saved_bytes(index, options, path));
     const SignalsHeldBack until_renamed;
     require_ok(geoidx_save(&index, behind_links(path).c_str(), &options), path);
 }
 
-geoidx_info info_of_saved(const geoidx& index, uint32_t codec, const std::string& path) {
+geoidx_info info_of_saved(const geoidx& index, const FileForm& form, const std::string& path) {
+    const geoidx_save_options options = options_of(form);
     geoidx_info info = info_of(index, path);
-    if (info.engine == GEOIDX_ENGINE_OVERLAY) info.codec = codec;
+    if (info.engine == GEOIDX_ENGINE_OVERLAY) info.codec = options.codec;
+    info.file_flags = options.flags;
     return info;
 }
 

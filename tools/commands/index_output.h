@@ -8,16 +8,20 @@
 
 namespace geodesic::tools {
 
-uint32_t codec_of_name(const std::string& name);
-// --codec, whose default is the first of the names.
-void add_codec_option(CLI::App& command, std::string& codec);
+// What decides the form of a file, as words of the command line.
+struct FileForm {
+    std::string codec;
+    bool no_positions = false;
+};
+// --codec, whose default is the first of the names, and --no-positions.
+void add_form_options(CLI::App& command, FileForm& form);
 
 // Refuses what an index cannot be written to, before work is done for it.
 void require_index_output(const std::string& output, const std::string& input);
-// The graph engine has one form only, so that `codec` says nothing to it.
-void save_index(const geoidx& index, uint32_t codec, const std::string& path);
+// The graph engine has one codec only, so that the one of `form` says nothing to it.
+void save_index(const geoidx& index, const FileForm& form, const std::string& path);
 // What the index in the file is that save_index() has written.
-geoidx_info info_of_saved(const geoidx& index, uint32_t codec, const std::string& path);
+geoidx_info info_of_saved(const geoidx& index, const FileForm& form, const std::string& path);
 
 // Refuses to print JSON where the index goes.
 void require_json_apart(bool json, const std::string& output);

@@ -1,6 +1,7 @@
 #include <array>
 #include <cstdio>
 
+#include "tools/commands/arguments.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/index_rows.h"
 #include "tools/library.h"
@@ -10,7 +11,7 @@ namespace geodesic::tools {
 namespace {
 
 struct InfoArguments {
-    std::string index;
+    std::string index, mesh;
     bool json = false;
 };
 
@@ -50,7 +51,7 @@ void print_json(const std::vector<IndexRow>& rows, const std::vector<geoidx_sect
 }
 
 void info(const InfoArguments& arguments) {
-    const Index index = open_index(arguments.index, nullptr);
+    const Index index = open_index_with(arguments.mesh, arguments.index);
     const geoidx_info about = info_of(*index, arguments.index);
     const std::vector<IndexRow> rows = rows_of_index(about, arguments.index, arguments.json);
     const std::vector<geoidx_section> sections = sections_of(*index, arguments.index);
@@ -63,6 +64,7 @@ void add_info(CLI::App& app) {
     auto arguments = std::make_shared<InfoArguments>();
     CLI::App* command = app.add_subcommand("info", "show what an index is and how accurate");
     command->add_option("FILE", arguments->index, "index file")->required();
+    add_mesh_option(*command, arguments->mesh);
     command->add_flag("--json", arguments->json, "print a JSON object");
     command->callback([arguments] { info(*arguments); });
 }

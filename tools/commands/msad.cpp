@@ -46,7 +46,8 @@ void add_msad(CLI::App& app) {
     command->add_option("S", arguments->sources, "source vertex ids")->required();
     CLI::Option* png = add_field_options(*command, arguments->output);
     CLI::Option* mesh =
-        command->add_option("--mesh", arguments->mesh, "the index's mesh, which a picture and a .ply need");
+        command->add_option("--mesh", arguments->mesh,
+                            "the index's mesh, which a picture, a .ply and a file without positions need");
     png->needs(mesh);
     command->callback([arguments] { msad(*arguments); });
 }

@@ -18,7 +18,7 @@ namespace {
 struct SssdArguments {
     std::string index;
     std::vector<std::string> ids;
-    std::string exact_mesh;
+    std::string mesh, exact_mesh;
     double weld_tolerance = 0;
     bool json = false;
 };
@@ -118,7 +118,8 @@ void sssd(const SssdArguments& arguments) {
     const bool with_exact = !arguments.exact_mesh.empty();
     TriangleMesh mesh;
     if (with_exact) mesh = read_mesh(arguments.exact_mesh);
-    const Index index = open_index(arguments.index, with_exact ? &mesh : nullptr);
+    const Index index =
+        with_exact ? open_index(arguments.index, &mesh) : open_index_with(arguments.mesh, arguments.index);
     std::vector<Answer> answers = answers_of(pairs, index_distances(*index, arguments.index, pairs));
     if (with_exact) {
         const Solver solver = solver_like(*index, arguments, mesh);
@@ -141,6 +142,7 @@ void add_sssd(CLI::App& app) {
                             "the index's mesh: print the metric's own distance and the relative error, too");
     command->add_option("--weld-tolerance", arguments->weld_tolerance, "that the index was built with")
         ->needs(exact);
+    add_mesh_option(*command, arguments->mesh)->excludes(exact); // which is the same mesh
     command->add_flag("--json", arguments->json, "print a JSON object");
     command->callback([arguments] { sssd(*arguments); });
 }
