@@ -14,7 +14,7 @@ import numpy
 
 from graph_engine import GraphEngine
 from overlay_engine import OverlayEngine
-from reader import NONE, OVERLAY, Index
+from reader import NONE, OVERLAY, Index, Refused
 
 TOOL, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 MESHES = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
@@ -49,6 +49,11 @@ def write_procedural(path):
     points = numpy.concatenate([parts[0][0], parts[1][0], [[9, 9, 9]], parts[0][0][:1]])
     triangles = numpy.concatenate([parts[0][1], parts[1][1] + len(parts[0][0])])
     triangles[-1] = [len(points) - 1, triangles[0][1], triangles[0][2]]
+    write_off(path, points, triangles)
+    return points, triangles
+
+
+def write_off(path, points, triangles):
     lines = ["OFF", f"{len(points)} {len(triangles)} 0"]
     lines += [" ".join(map(repr, map(float, point))) for point in points]
     lines += [" ".join(map(str, [3, *triangle])) for triangle in triangles]
@@ -170,6 +175,31 @@ class ReaderTest(unittest.TestCase):
 
     def test_graph_engine(self):
         self.procedural("graph", "--engine", "graph")
+
+    def test_positions_that_are_left_out(self):
+        mesh = FOLDER / "far_off.off"
+        points, triangles = write_procedural(mesh)
+        points = points + 1000  # where floats are so far apart that steps tell them from doubles
+        write_off(mesh, points, triangles)
+        for engine in ("overlay", "graph"):
+            for codec in ("packed", "lossless", "mapped"):
+                with self.subTest(engine=engine, codec=codec):
+                    paths = [FOLDER / f"{name}.geoidx" for name in ("whole", "bare")]
+                    for path, more in zip(paths, ([], ["--no-positions"])):
+                        run("build", mesh, "-o", path, "--engine", engine, "--codec", codec, "--patches", "4,3", *more)
+                    whole, bare = Index(paths[0]), Index(paths[1], (points, triangles))
+                    self.assertTrue(whole.has_positions and not bare.has_positions)
+                    self.assert_same(whole, bare)
+                    with self.assertRaisesRegex(Refused, "no mesh"):
+                        Index(paths[1])
+                    with self.assertRaisesRegex(Refused, "checksum of the positions"):
+                        Index(paths[1], (points.astype("f4"), triangles))
+
+    def assert_same(self, a, b):
+        numpy.testing.assert_array_equal(a.positions, b.positions)
+        for leaf in a.leaves:
+            numpy.testing.assert_array_equal(a.border_internal[leaf], b.border_internal[leaf])
+            numpy.testing.assert_array_equal(a.internal[leaf], b.internal[leaf])
 
     def spot(self):
         mesh = MESHES / "spot.obj" if MESHES else None
