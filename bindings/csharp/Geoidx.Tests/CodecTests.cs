@@ -81,6 +81,51 @@ namespace Geoidx.Tests
             }
         }
 
+        [Theory]
+        [InlineData(GeodesicCodec.Packed)]
+        [InlineData(GeodesicCodec.Lossless)]
+        [InlineData(GeodesicCodec.Mapped)]
+        public async Task AFileWithoutPositionsOpensWithTheMesh(GeodesicCodec codec)
+        {
+            byte[] bytes = built.ToBytes(codec, positions: false);
+            Assert.True(built.Info.HasPositions);
+            Assert.True(bytes.Length < built.ToBytes(codec).Length);
+            var options = new OpenOptions { ExpectedMesh = Shapes.Plane(Side) };
+            using GeodesicIndex opened = GeodesicIndex.Open(bytes, options);
+            Assert.False(opened.Info.HasPositions);
+            AnswersAsBuilt(opened);
+            Assert.Equal(bytes, opened.ToBytes());
+            Assert.Equal(built.ToBytes(codec), opened.ToBytes(positions: true));
+            Assert.Equal(built.ToBytes(GeodesicCodec.Packed, false), opened.ToBytes(GeodesicCodec.Packed));
+            Assert.Empty(GeodesicIndex.Verify(bytes));
+            using var stream = new MemoryStream();
+            built.Save(stream, codec, false);
+            Assert.Equal(bytes, stream.ToArray());
+            string path = Path.GetTempFileName();
+            try
+            {
+                await built.SaveAsync(path, codec, false);
+                Assert.Equal(bytes, File.ReadAllBytes(path));
+                built.Save(path, codec, true);
+                Assert.Equal(built.ToBytes(codec), File.ReadAllBytes(path));
+            }
+            finally
+            {
+                File.Delete(path);
+            }
+        }
+
+        [Fact]
+        public void AFileWithoutPositionsDoesNotOpenWithoutTheMesh()
+        {
+            byte[] bytes = built.ToBytes(positions: false);
+            GeodesicArgumentException none =
+                Assert.Throws<GeodesicArgumentException>(() => GeodesicIndex.Open(bytes));
+            Assert.Contains(nameof(OpenOptions.ExpectedMesh), none.Message);
+            var options = new OpenOptions { ExpectedMesh = Shapes.Plane(Side + 1) };
+            Assert.Throws<GeodesicMeshMismatchException>(() => GeodesicIndex.Open(bytes, options));
+        }
+
         [Fact]
         public void BytesOfAMappedFileAreNotNeededAfterwards()
         {

@@ -54,38 +54,48 @@ namespace Geoidx
         /// </summary>
         /// <param name="path">Of the file.</param>
         /// <param name="codec">The form of the file. Null: <see cref="GeodesicInfo.Codec"/>.</param>
+        /// <param name="positions">
+        /// False leaves out those of the vertices, some 3.5 bytes each; the file then opens with
+        /// <see cref="OpenOptions.ExpectedMesh"/> only. Null: <see cref="GeodesicInfo.HasPositions"/>.
+        /// </param>
         /// <exception cref="ArgumentException">The path has half of a surrogate pair.</exception>
         /// <exception cref="GeodesicArgumentException">The codec is none.</exception>
         /// <exception cref="GeodesicIOException">The file cannot be written.</exception>
-        public unsafe void Save(string path, GeodesicCodec? codec = null)
+        public unsafe void Save(string path, GeodesicCodec? codec = null, bool? positions = null)
         {
-            NativeSaveOptions options = NativeOptions(codec);
-            NativeMethods.geoidx_save(Handle, NativeText.CheckedPath(path), codec == null ? null : &options)
-                .ThrowIfError();
+            NativeSaveOptions options = NativeOptions(codec, positions);
+            NativeMethods.geoidx_save(Handle, NativeText.CheckedPath(path), &options).ThrowIfError();
         }
 
         /// <summary>Writes the bytes of a file to a stream.</summary>
         /// <param name="stream">Takes the bytes.</param>
         /// <param name="codec">The form of the file. Null: <see cref="GeodesicInfo.Codec"/>.</param>
+        /// <param name="positions">
+        /// False leaves out those of the vertices, some 3.5 bytes each; the file then opens with
+        /// <see cref="OpenOptions.ExpectedMesh"/> only. Null: <see cref="GeodesicInfo.HasPositions"/>.
+        /// </param>
         /// <exception cref="GeodesicArgumentException">The codec is none.</exception>
-        public void Save(Stream stream, GeodesicCodec? codec = null)
+        public void Save(Stream stream, GeodesicCodec? codec = null, bool? positions = null)
         {
             if (stream == null) throw new ArgumentNullException(nameof(stream));
-            byte[] bytes = ToBytes(codec);
+            byte[] bytes = ToBytes(codec, positions);
             stream.Write(bytes, 0, bytes.Length);
         }
 
         /// <summary>The bytes of a file, up to 2 GB.</summary>
         /// <param name="codec">The form of the file. Null: <see cref="GeodesicInfo.Codec"/>.</param>
+        /// <param name="positions">
+        /// False leaves out those of the vertices, some 3.5 bytes each; the file then opens with
+        /// <see cref="OpenOptions.ExpectedMesh"/> only. Null: <see cref="GeodesicInfo.HasPositions"/>.
+        /// </param>
         /// <exception cref="GeodesicArgumentException">The codec is none.</exception>
-        public unsafe byte[] ToBytes(GeodesicCodec? codec = null)
+        public unsafe byte[] ToBytes(GeodesicCodec? codec = null, bool? positions = null)
         {
-            NativeSaveOptions options = NativeOptions(codec);
-            NativeSaveOptions* given = codec == null ? null : &options;
-            NativeMethods.geoidx_save_memory(Handle, given, null, 0, out ulong size).ThrowIfError();
+            NativeSaveOptions options = NativeOptions(codec, positions);
+            NativeMethods.geoidx_save_memory(Handle, &options, null, 0, out ulong size).ThrowIfError();
             var bytes = new byte[checked((int)size)];
             fixed (byte* first = bytes)
-                NativeMethods.geoidx_save_memory(Handle, given, first, size, out _).ThrowIfError();
+                NativeMethods.geoidx_save_memory(Handle, &options, first, size, out _).ThrowIfError();
             return bytes;
         }
 
@@ -120,10 +130,11 @@ namespace Geoidx
             return status;
         }
 
-        private static NativeSaveOptions NativeOptions(GeodesicCodec? codec)
+        private NativeSaveOptions NativeOptions(GeodesicCodec? codec, bool? positions)
         {
             NativeSaveOptions native = NativeDefaults.SaveOptions();
-            if (codec is { } given) native.codec = (uint)given;
+            native.codec = (uint)(codec ?? Info.Codec);
+            if (!(positions ?? Info.HasPositions)) native.flags |= (uint)SaveFlags.NoPositions;
             return native;
         }
 

@@ -22,11 +22,14 @@ namespace Geoidx
             Task.Run(() => Open(path, options), cancellationToken);
 
         /// <summary>
-        /// Writes the index to a file, as <see cref="Save(string, GeodesicCodec?)"/> does, on a thread of the pool; once
-        /// begun, this is not cancelled.
+        /// Writes the index to a file, as <see cref="Save(string, GeodesicCodec?, bool?)"/> does, on a thread of the
+        /// pool; once begun, this is not cancelled.
         /// </summary>
         public Task SaveAsync(
-            string path, GeodesicCodec? codec = null, CancellationToken cancellationToken = default) =>
-            Task.Run(() => Save(path, codec), cancellationToken);
+            string path,
+            GeodesicCodec? codec = null,
+            bool? positions = null,
+            CancellationToken cancellationToken = default) =>
+            Task.Run(() => Save(path, codec, positions), cancellationToken);
     }
 }

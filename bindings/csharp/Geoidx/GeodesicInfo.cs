@@ -34,6 +34,7 @@ namespace Geoidx
             ErrorMax = native.error_max;
             ErrorMeanAtVertices = native.error_mean_at_vertices;
             Codec = (GeodesicCodec)native.codec;
+            HasPositions = (native.file_flags & (uint)SaveFlags.NoPositions) == 0;
             SmallestStep = native.smallest_step;
             LargestStep = native.largest_step;
         }
@@ -110,6 +111,11 @@ namespace Geoidx
         public GeodesicCodec Codec { get; }
 
         /// <summary>
+        /// Whether the file that the index was opened from has the positions of vertices; true of one that was built.
+        /// </summary>
+        public bool HasPositions { get; }
+
+        /// <summary>
         /// What the distances of a table are multiples of, in the mesh's unit, for the table with the smallest steps;
         /// half of it is the most that rounding changes an entry by. 0 for <see cref="GeodesicEngine.Graph"/>, whose
         /// distances are floats.
@@ -148,6 +154,7 @@ namespace Geoidx
             $"{nameof(ErrorMax)}: {ErrorMax}",
             $"{nameof(ErrorMeanAtVertices)}: {ErrorMeanAtVertices}",
             $"{nameof(Codec)}: {Codec}",
+            $"{nameof(HasPositions)}: {HasPositions}",
             $"{nameof(SmallestStep)}: {SmallestStep}",
             $"{nameof(LargestStep)}: {LargestStep}",
         };

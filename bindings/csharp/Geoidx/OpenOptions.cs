@@ -5,7 +5,8 @@ namespace Geoidx
     {
         /// <summary>
         /// The mesh that the index must have been built from: the same triangles, and positions that are equal as
-        /// floats, whichever of the two was given in double precision. Default: any.
+        /// floats, whichever of the two was given in double precision. A file that was saved without positions needs it,
+        /// and positions in the precision that the index was built with. Default: any.
         /// </summary>
         public GeodesicMesh? ExpectedMesh { get; set; }
 
