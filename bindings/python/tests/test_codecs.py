@@ -1,5 +1,6 @@
 """The forms of a file, and what it is made of."""
 
+import pickle
 import tempfile
 import unittest
 from pathlib import Path
@@ -106,6 +107,34 @@ class Codecs(unittest.TestCase):
         self.assertIs(graph.info.codec, Codec.LOSSLESS)
         self.assertEqual(graph.to_bytes(codec="packed"), graph.to_bytes(codec="lossless"))
         self.assertEqual((graph.info.smallest_step, graph.info.largest_step), (0, 0))
+
+    def test_positions_that_are_left_out(self):
+        mesh = hills(24, 24)
+        self.assertTrue(self.index.info.has_positions)
+        for name in NAMES:
+            data = self.index.to_bytes(codec=name, positions=False)
+            self.assertLess(len(data), len(self.index.to_bytes(codec=name)))
+            opened = geoidx.Index.from_bytes(data, expected_mesh=mesh)
+            self.assertFalse(opened.info.has_positions)
+            self.assert_answers(opened)
+            self.assertEqual(opened.to_bytes(), data)
+            self.assertEqual(opened.to_bytes(codec="packed"), self.index.to_bytes(codec="packed", positions=False))
+            self.assertEqual(opened.to_bytes(positions=True), self.index.to_bytes(codec=name))
+            self.assert_answers(pickle.loads(pickle.dumps(opened)))
+            self.assertEqual(geoidx.verify(data), [])
+            with self.assertRaisesRegex(geoidx.InvalidArgumentError, "expected_mesh"):
+                geoidx.Index.from_bytes(data)
+            with self.assertRaises(geoidx.MeshMismatchError):
+                geoidx.Index.from_bytes(data, expected_mesh=hills(24, 23))
+
+    def test_a_file_without_positions(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "index")
+            self.index.save(path, positions=False)
+            self.assertEqual(path.read_bytes(), self.index.to_bytes(positions=False))
+            self.assert_answers(geoidx.Index.open(path, expected_mesh=hills(24, 24)))
+            with self.assertRaisesRegex(geoidx.InvalidArgumentError, "expected_mesh"):
+                geoidx.Index.open(path)
 
     def test_sections(self):
         self.assertEqual(self.index.sections, ())

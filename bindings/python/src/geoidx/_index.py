@@ -153,7 +153,9 @@ class Index(Closable):
         """Opens a file: str, bytes or os.PathLike of either. Everything in it is checked before it is believed.
 
         expected_mesh: the vertices and faces that the index must have been built from, else MeshMismatchError: the
-            same faces, and vertices that are equal as float32, whichever of the two was given as float64.
+            same faces, and vertices that are equal as float32, whichever of the two was given as float64. A file that
+            was saved without positions needs it (else InvalidArgumentError), and the vertices in the precision that
+            the index was built with.
         pairs: makes ready what distances between two vertices need. Otherwise the first one that is asked for does;
             where only fields are asked for, it is never made and takes no memory.
         labels: makes labels a part of what distances between two vertices need: the distances of each vertex to a
@@ -215,25 +217,33 @@ class Index(Closable):
         check(status, path)
         return cls(handle)
 
-    def save(self, path: Path, *, codec: Codec | str | None = None) -> None:
+    def save(self, path: Path, *, codec: Codec | str | None = None, positions: bool | None = None) -> None:
         """Writes the index to a file, replacing what is there at once or, on failure (FileError), not at all.
 
         codec: "packed", the smallest file, "lossless", with a PNG of float32 for each table, or "mapped", more than
             ten times as large as packed, but opened at once; None: `info.codec`. An index of the graph engine is
             always lossless. Answers are the same bits.
+        positions: False leaves out those of the vertices, some 3.5 bytes each; the file then opens with expected_mesh
+            only. None: `info.has_positions`.
         """
-        options = SaveOptions(codec)
+        options = self._save_options(codec, positions)
         check(library.geoidx_save(self._handle, native_path(path), options.struct), path)
 
-    def to_bytes(self, *, codec: Codec | str | None = None) -> bytes:
+    def to_bytes(self, *, codec: Codec | str | None = None, positions: bool | None = None) -> bytes:
         """The bytes of the file, as `save` writes it."""
-        options = SaveOptions(codec)
+        options = self._save_options(codec, positions)
         buffer = np.empty(self._likely_size(), np.uint8)
         needed = self._encode(options, buffer)
         if needed > buffer.size:
             buffer = np.empty(needed, np.uint8)
             self._encode(options, buffer)
         return buffer[:needed].tobytes()
+
+    def _save_options(self, codec: Codec | str | None, positions: bool | None) -> SaveOptions:
+        return SaveOptions(
+            self.info.codec if codec is None else codec,
+            self.info.has_positions if positions is None else bool(positions),
+        )
 
     def _likely_size(self) -> int:
         """More bytes than most files have. Asking for their number encodes them, too."""
@@ -250,7 +260,7 @@ class Index(Closable):
         return needed.value
 
     def __reduce__(self) -> tuple[Callable[[bytes], Index], tuple[bytes]]:
-        return type(self).from_bytes, (self.to_bytes(),)
+        return type(self).from_bytes, (self.to_bytes(positions=True),)
 
     def __repr__(self) -> str:
         return f"<geoidx.Index of {self._info.vertex_count} vertices{', closed' if self.closed else ''}>"

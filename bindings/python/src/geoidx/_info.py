@@ -52,6 +52,8 @@ class Info:
     """The mean error if paths crossed borders at vertices only."""
     codec: Codec
     """Of the file that the index was opened from; of one that was built, what it is saved as unless told otherwise."""
+    has_positions: bool
+    """Whether the file that the index was opened from has the positions of vertices; True of one that was built."""
     smallest_step: float
     """What the distances of the table with the smallest steps are multiples of; 0 for the graph engine."""
     largest_step: float
@@ -70,6 +72,7 @@ def info_of(struct: _native.Info) -> Info:
         metric_unfoldable=bool(struct.metric_flags & _native.METRIC_UNFOLDABLE),
         engine=Engine(struct.engine),
         codec=Codec(struct.codec),
+        has_positions=not struct.file_flags & _native.SAVE_NO_POSITIONS,
         patch_count=tuple(struct.patch_count[: struct.level_count]),
     )
     return Info(**same)

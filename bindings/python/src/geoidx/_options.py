@@ -93,14 +93,14 @@ class OpenOptions:
 
 
 class SaveOptions:
-    """The options of saving an index; a codec of None is that of the index."""
+    """The options of saving an index."""
 
-    def __init__(self, codec: Codec | str | None) -> None:
-        self.struct: _native.SaveOptions | None = None
-        if codec is not None:
-            self.struct = _native.SaveOptions()
-            library.geoidx_save_options_init_sized(byref(self.struct), sizeof(self.struct))
-            self.struct.codec = as_codec(codec)
+    def __init__(self, codec: Codec | str, positions: bool) -> None:
+        self.struct = _native.SaveOptions()
+        library.geoidx_save_options_init_sized(byref(self.struct), sizeof(self.struct))
+        self.struct.codec = as_codec(codec)
+        if not positions:
+            self.struct.flags |= _native.SAVE_NO_POSITIONS
 
 
 _Member = TypeVar("_Member", Engine, Codec)
