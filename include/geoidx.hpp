@@ -79,6 +79,20 @@ inline geoidx_build_options build_options() {
     return options;
 }
 
+inline geoidx_save_options save_options() {
+    geoidx_save_options options;
+    geoidx_save_options_init(&options);
+    return options;
+}
+
+// Expects a mesh, which must outlive the options, or any.
+inline geoidx_open_options open_options(const geoidx_mesh* expected_mesh = nullptr) {
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    options.expected_mesh = expected_mesh;
+    return options;
+}
+
 // Told a fraction 0 .. 1 and the name of a stage; returns false to cancel. What it throws leaves build().
 using progress_function = std::function<bool(float fraction, const char* stage)>;
 

@@ -44,6 +44,16 @@ bool throws_what_progress_throws(const geoidx_mesh& mesh) {
     return false;
 }
 
+bool comes_back_without_positions(const gdx::index& index, const geoidx_mesh& mesh) {
+    auto how = gdx::save_options();
+    how.flags = GEOIDX_SAVE_NO_POSITIONS;
+    const auto bare = index.bytes(&how);
+    const auto any_mesh = gdx::open_options(), with_mesh = gdx::open_options(&mesh);
+    return status_of([&] { gdx::index::open(bare, &any_mesh); }) == GEOIDX_ERROR_INVALID_ARGUMENT &&
+           gdx::index::open(bare, &with_mesh).info().file_flags == GEOIDX_SAVE_NO_POSITIONS &&
+           answers_right(gdx::index::open(bare, &with_mesh));
+}
+
 }
 
 int main() {
@@ -61,6 +71,8 @@ int main() {
         }) != GEOIDX_ERROR_CANCELLED)
         return 6;
     if (!throws_what_progress_throws(mesh)) return 7;
+
+    if (!comes_back_without_positions(moved, mesh)) return 9;
 
     std::vector<double> distances(4);
     const std::uint32_t source = 0;
