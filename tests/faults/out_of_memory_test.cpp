@@ -210,6 +210,29 @@ TEST_CASE("out of memory while opening") {
     });
 }
 
+TEST_CASE("out of memory while opening with the mesh, whose positions the file leaves out") {
+    for_each_kind([](const TestMesh& mesh, uint32_t engine) {
+        const auto built = build(mesh, options_of(engine));
+        const Bytes whole = save(built.get());
+        const Bytes file = save(built.get(), GEOIDX_CODEC_PACKED, GEOIDX_SAVE_NO_POSITIONS);
+        const geoidx_mesh view = mesh.view();
+        for (Source source : SOURCES) {
+            const uint64_t stride = source == Source::caller ? 1 : 3;
+            const uint64_t failed = try_with_faults(source, stride, [&](Fault& fault) {
+                auto options = opening_with(fault.allocator());
+                options.expected_mesh = &view;
+                geoidx* index = nullptr;
+                const geoidx_status status = fault.disturb(
+                    [&] { return geoidx_open_memory(file.data(), file.size(), &options, &index); });
+                CHECK((status == GEOIDX_OK) == (index != nullptr));
+                if (index) CHECK(save(index) == whole);
+                geoidx_close(index);
+            });
+            CHECK(failed > 20);
+        }
+    });
+}
+
 TEST_CASE("out of memory while opening a file") {
     const TemporaryDirectory directory;
     const std::string path = (directory.path() / "index.gidx").string();
