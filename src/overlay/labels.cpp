@@ -59,6 +59,7 @@ public:
 
     void label(uint32_t patch) {
         lay_out_distances(patch);
+        if (of_border_.empty()) return; // No vertex lies deeper.
         for (size_t first = 0; first < border_size_; first += SOURCES) {
             start(patch, first);
             descend_into(numbering_, patch, [&](uint32_t p) { hop_down(p, first); });
