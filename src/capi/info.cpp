@@ -30,7 +30,7 @@ void fill_info(const Index& index, geoidx_info& info) {
     info.metric_fingerprint = about.metric_fingerprint;
     info.vertex_count = about.id_count;
     info.triangle_count = about.triangle_count;
-    info.welded_vertex_count = numbering.vertex_count();
+    info.welded_vertex_count = index.vertices_with_id;
     info.mesh_fingerprint = about.mesh_fingerprint;
     info.engine = about.engine;
     info.table_entries = table_entries(index);

@@ -148,24 +148,23 @@ std::vector<std::byte> vertex_bytes(const StoredIndex& stored) {
     return writer.take();
 }
 
-// The vertex count of VERT becomes the size of `positions`, which read_positions() fills.
-void read_vertices(const format::Container& container, StoredIndex& stored) {
+// Returns the vertex count, for which nothing is allocated before POSI is known to hold as many positions.
+uint32_t read_vertices(const format::Container& container, StoredIndex& stored) {
     const uint64_t id_count = stored.description.id_count;
     const auto bytes = container.read_bytes(TAG_VERTICES, sizeof(uint64_t) + id_count * sizeof(uint32_t));
     format::ByteReader reader(bytes, "section VERT");
     const uint64_t vertex_count = reader.u64();
     if (reader.remaining() != id_count * sizeof(uint32_t))
         refuse_as_corrupt("section VERT does not hold " + std::to_string(id_count) + " numbers");
-    if (vertex_count > id_count)
-        refuse_as_corrupt("section VERT: " + std::to_string(vertex_count) + " distinct vertices of " +
-                          std::to_string(id_count));
+    if (vertex_count >= NONE)
+        refuse_as_corrupt("section VERT: " + std::to_string(vertex_count) + " vertices");
     stored.number_of_id.resize(id_count);
     reader.u32_planes(stored.number_of_id);
     for (uint32_t number : stored.number_of_id)
         if (number != NONE && number >= vertex_count)
             refuse_as_corrupt("section VERT: vertex number " + std::to_string(number) + " of " +
                               std::to_string(vertex_count));
-    stored.positions.resize(vertex_count);
+    return static_cast<uint32_t>(vertex_count);
 }
 
 // ---- BORD
@@ -244,8 +243,9 @@ void read_common(const format::Container& container, const ReadOptions& options,
     const uint64_t patch_room = border_bytes.size() / sizeof(uint32_t);
     const uint32_t leaf_count =
         about_section(TAG_HIERARCHY, [&] { return read_hierarchy(container, patch_room, stored); });
-    about_section(TAG_VERTICES, [&] { read_vertices(container, stored); });
-    about_section(TAG_POSITIONS, [&] { read_positions(container, options, stored); });
+    const uint32_t vertex_count =
+        about_section(TAG_VERTICES, [&] { return read_vertices(container, stored); });
+    about_section(TAG_POSITIONS, [&] { read_positions(container, vertex_count, options, stored); });
     about_section(TAG_BORDERS, [&] { read_borders(border_bytes, leaf_count, stored); });
 }
 

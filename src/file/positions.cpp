@@ -1,7 +1,7 @@
-// POSI: whole coordinates, each as its difference from that of the number before, or only what is needed to
-// work them out again from the mesh.
-#include <algorithm>
+// POSI: whole coordinates, each as its difference from that of the number before, of all vertices or of those
+// only that cannot be worked out again from the mesh.
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -17,6 +17,7 @@ namespace geodesic {
 namespace {
 
 constexpr uint64_t BYTES_BEFORE_COORDINATES = sizeof(float) + 3 * sizeof(double) + sizeof(uint64_t);
+constexpr uint64_t BYTES_EACH = 3 * sizeof(uint32_t); // of each position
 
 // Small differences of either sign are small numbers: 0, -1, 1, -2, 2 are 0, 1, 2, 3, 4.
 uint32_t folded(uint32_t difference) { return difference << 1 ^ (difference >> 31 ? UINT32_MAX : 0); }
@@ -31,15 +32,38 @@ uint64_t checksum_of_positions(const StoredIndex& stored) {
     return format::checksum(bytes.take());
 }
 
+std::vector<uint32_t> all_numbers(const StoredIndex& stored) {
+    std::vector<uint32_t> numbers(stored.positions.size());
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    return numbers;
+}
+
+// Per number, the lowest id of the caller's that has it, which is the one that the others were welded to. NONE
+// for an added vertex.
+std::vector<uint32_t> lowest_ids(const StoredIndex& stored) {
+    std::vector<uint32_t> lowest(stored.positions.size(), NONE);
+    for (size_t id = stored.number_of_id.size(); id-- > 0;)
+        if (const uint32_t number = stored.number_of_id[id]; number != NONE)
+            lowest[number] = static_cast<uint32_t>(id);
+    return lowest;
+}
+
+std::vector<uint32_t> added_vertices(std::span<const uint32_t> id_of_number) {
+    std::vector<uint32_t> added;
+    for (uint32_t n = 0; n < id_of_number.size(); ++n)
+        if (id_of_number[n] == NONE) added.push_back(n);
+    return added;
+}
+
 // ---- To the file
 
-std::vector<uint32_t> differences_of(const StoredIndex& stored) {
+std::vector<uint32_t> differences_of(const StoredIndex& stored, std::span<const uint32_t> numbers) {
     std::vector<uint32_t> differences;
     std::array<int32_t, 3> last{};
-    for (const auto& position : stored.positions)
+    for (const uint32_t number : numbers)
         for (size_t k = 0; k < 3; ++k)
-            differences.push_back(folded(static_cast<uint32_t>(position[k]) -
-                                         static_cast<uint32_t>(std::exchange(last[k], position[k]))));
+            differences.push_back(folded(static_cast<uint32_t>(stored.positions[number][k]) -
+                                         static_cast<uint32_t>(std::exchange(last[k], stored.positions[number][k]))));
     return differences;
 }
 
@@ -56,8 +80,8 @@ void read_grid(format::ByteReader& reader, StoredIndex& stored) {
     }
 }
 
-void read_differences(format::ByteReader& reader, StoredIndex& stored) {
-    std::vector<uint32_t> differences(stored.positions.size() * 3);
+void read_differences(format::ByteReader& reader, std::span<const uint32_t> numbers, StoredIndex& stored) {
+    std::vector<uint32_t> differences(numbers.size() * 3);
     reader.u32_planes(differences);
     std::array<uint32_t, 3> last{};
     for (size_t i = 0; i < differences.size(); ++i) {
@@ -65,36 +89,31 @@ void read_differences(format::ByteReader& reader, StoredIndex& stored) {
         const auto coordinate = static_cast<int32_t>(last[i % 3]);
         if (coordinate < 0 || coordinate > MOST_STEPS)
             refuse_as_corrupt("section POSI: a coordinate of " + std::to_string(coordinate) + " steps");
-        stored.positions[i / 3][i % 3] = coordinate;
+        stored.positions[numbers[i / 3]][i % 3] = coordinate;
     }
-}
-
-// Per number, the lowest id of the caller's that has it, which is the one that the others were welded to.
-std::vector<uint32_t> lowest_ids(const StoredIndex& stored) {
-    std::vector<uint32_t> lowest(stored.positions.size(), NONE);
-    for (size_t id = stored.number_of_id.size(); id-- > 0;)
-        if (const uint32_t number = stored.number_of_id[id]; number != NONE)
-            lowest[number] = static_cast<uint32_t>(id);
-    if (const auto without = std::ranges::find(lowest, NONE); without != lowest.end())
-        refuse_as_corrupt("section POSI: the position of vertex number " +
-                          std::to_string(without - lowest.begin()) + " is left out, and no id has it");
-    return lowest;
 }
 
 void take_from_mesh(const geoidx_mesh& mesh, std::span<const uint32_t> id_of_number, uint64_t checksum,
                     StoredIndex& stored) {
     const auto positions = positions_of(mesh);
     for (size_t n = 0; n < id_of_number.size(); ++n)
-        stored.positions[n] = in_steps(positions[id_of_number[n]], stored);
+        if (id_of_number[n] != NONE) stored.positions[n] = in_steps(positions[id_of_number[n]], stored);
     if (checksum_of_positions(stored) != checksum)
         throw Error(GEOIDX_ERROR_MESH_MISMATCH,
                     "the file holds no positions, and those of the mesh differ from the index's by less than "
                     "a float can tell: they must be given in the precision that the index was built with");
 }
 
-void do_without_differences(const ReadOptions& options, uint64_t checksum, StoredIndex& stored) {
+// Reads the positions of the added vertices, and takes all others from the mesh.
+void read_without_positions(format::ByteReader& reader, const ReadOptions& options, uint64_t checksum,
+                            StoredIndex& stored) {
     stored.description.file_flags = GEOIDX_SAVE_NO_POSITIONS;
     const auto id_of_number = lowest_ids(stored);
+    const auto added = added_vertices(id_of_number);
+    if (reader.remaining() != added.size() * BYTES_EACH)
+        refuse_as_corrupt("section POSI does not hold the positions of " + std::to_string(added.size()) +
+                          " added vertices");
+    read_differences(reader, added, stored);
     if (options.mesh) return take_from_mesh(*options.mesh, id_of_number, checksum, stored);
     if (!options.may_lack_positions)
         throw Error(
@@ -106,26 +125,30 @@ void do_without_differences(const ReadOptions& options, uint64_t checksum, Store
 }
 
 void write_positions(const StoredIndex& stored, format::ContainerWriter& writer) {
+    const bool all = !(stored.description.file_flags & GEOIDX_SAVE_NO_POSITIONS);
     format::ByteWriter bytes;
     bytes.f32(stored.position_step);
     for (const double coordinate : stored.position_origin) bytes.f64(coordinate);
     bytes.u64(checksum_of_positions(stored));
-    if (!(stored.description.file_flags & GEOIDX_SAVE_NO_POSITIONS)) bytes.u32_planes(differences_of(stored));
+    bytes.u32_planes(differences_of(stored, all ? all_numbers(stored) : added_vertices(lowest_ids(stored))));
     writer.add_bytes(TAG_POSITIONS, bytes.take());
 }
 
-void read_positions(const format::Container& container, const ReadOptions& options, StoredIndex& stored) {
-    const uint64_t whole_size = BYTES_BEFORE_COORDINATES + stored.positions.size() * 3 * sizeof(uint32_t);
+void read_positions(const format::Container& container, uint32_t count, const ReadOptions& options,
+                    StoredIndex& stored) {
+    const uint64_t whole_size = BYTES_BEFORE_COORDINATES + uint64_t{count} * BYTES_EACH;
     const auto bytes = container.read_bytes(TAG_POSITIONS, whole_size);
     format::ByteReader reader(bytes, "section POSI");
     read_grid(reader, stored);
     const uint64_t checksum = reader.u64();
-    if (bytes.size() == BYTES_BEFORE_COORDINATES && bytes.size() != whole_size)
-        return do_without_differences(options, checksum, stored);
-    if (bytes.size() != whole_size)
-        refuse_as_corrupt("section POSI does not hold " + std::to_string(stored.positions.size()) +
-                          " positions");
-    read_differences(reader, stored);
+    const uint64_t held = reader.remaining() / BYTES_EACH;
+    if (held + stored.number_of_id.size() < count)
+        refuse_as_corrupt("section POSI holds " + std::to_string(held) + " positions of " +
+                          std::to_string(count) + " vertices, of which no more than " +
+                          std::to_string(stored.number_of_id.size()) + " have ids");
+    stored.positions.resize(count);
+    if (bytes.size() != whole_size) return read_without_positions(reader, options, checksum, stored);
+    read_differences(reader, all_numbers(stored), stored);
     if (checksum_of_positions(stored) != checksum)
         refuse_as_corrupt("section POSI: the checksum of the positions does not match");
 }

@@ -22,9 +22,10 @@ void write_common(const StoredIndex& stored, format::ContainerWriter& writer);
 // of the options is another one, before anything is taken from it.
 void read_common(const format::Container& container, const ReadOptions& options, StoredIndex& stored);
 
-// POSI, which is one of those.
+// POSI, which is one of those; `count` is the vertex count of VERT.
 void write_positions(const StoredIndex& stored, format::ContainerWriter& writer);
-void read_positions(const format::Container& container, const ReadOptions& options, StoredIndex& stored);
+void read_positions(const format::Container& container, uint32_t count, const ReadOptions& options,
+                    StoredIndex& stored);
 
 void write_graph(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_graph(const format::Container& container, uint32_t threads, StoredIndex& stored);

@@ -12,9 +12,21 @@
 
 namespace geodesic {
 
+namespace {
+
+uint32_t count_vertices_with_id(const StoredIndex& stored) {
+    std::vector<bool> has_id(stored.positions.size(), false);
+    for (const uint32_t number : stored.number_of_id)
+        if (number != NONE) has_id[number] = true;
+    return static_cast<uint32_t>(std::ranges::count(has_id, true));
+}
+
+}
+
 void prepare(const StoredIndex& stored, Index& index) {
     index.description = stored.description;
     index.number_of_id.assign(stored.number_of_id.begin(), stored.number_of_id.end());
+    index.vertices_with_id = count_vertices_with_id(stored);
     if (stored.description.engine == GEOIDX_ENGINE_OVERLAY)
         prepare_overlay(stored, index.engine.emplace<OverlayIndex>(index.memory));
     else

@@ -18,7 +18,8 @@ struct Index {
 
     std::pmr::memory_resource* memory;
     Description description;
-    Array<uint32_t> number_of_id; // per caller's id; NONE: no triangle uses it
+    Array<uint32_t> number_of_id;  // per caller's id; NONE: no triangle uses it
+    uint32_t vertices_with_id = 0; // of those that have a number; the others are added vertices
     std::variant<GraphIndex, OverlayIndex> engine;
 
     const Numbering& numbering() const {

@@ -192,6 +192,8 @@ private:
             numbers.push_back(count == 0 || random_.one_in(2) ? NOTHING : random_.below(count));
         if (random_.one_in(2)) random_.shuffle(numbers);
         if (random_.one_in(8)) numbers[random_.below(content_.id_count())] = NOTHING;
+        // The numbers that are left without an id are added vertices.
+        if (random_.one_in(3)) numbers.resize(1 + random_.below(content_.id_count()));
     }
 
     // ---- Distances: of two vertices, the same wherever they stand.

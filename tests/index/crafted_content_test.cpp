@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <set>
 #include <tuple>
 
 #include "tests/capi/counting_allocator.h"
@@ -123,8 +124,9 @@ TEST_CASE("crafted HIER") {
 
 TEST_CASE("crafted VERT and POSI") {
     const auto vertices = static_cast<uint32_t>(original().parts.vertex_count);
-    for (uint64_t count : {uint64_t{0}, uint64_t{vertices} - 1, uint64_t{vertices} + 1, uint64_t{1} << 32,
-                           uint64_t{1} << 62, UINT64_MAX})
+    for (uint64_t count :
+         {uint64_t{0}, uint64_t{vertices} - 1, uint64_t{vertices} + 1, uint64_t{UINT32_MAX} - 1,
+          uint64_t{UINT32_MAX}, uint64_t{1} << 32, uint64_t{1} << 62, UINT64_MAX})
         check_corrupt("vertex count", [&](TakenApart& parts) { parts.vertex_count = count; });
     for (uint32_t number : {vertices, vertices + 1, UINT32_MAX - 1})
         for (size_t id : {size_t{0}, original().parts.number_of_id.size() - 1})
@@ -151,6 +153,25 @@ TEST_CASE("an id may be made unreachable, and then is") {
     const auto index = open(with([](TakenApart& parts) { parts.number_of_id[5] = UNREACHABLE_NUMBER; }));
     CHECK(sssd(index.get(), 5, 6) == INFINITE);
     CHECK(msad(index.get(), 0, 72)[5] == INFINITE);
+}
+
+TEST_CASE("numbers that no id has are added vertices, and all others are answered as before") {
+    const auto whole = open(original().file);
+    const auto all = static_cast<uint32_t>(original().parts.vertex_count);
+    for (const uint32_t ids : {72u, 40u, 1u}) {
+        const auto fewer = open(with([&](TakenApart& parts) {
+            parts.number_of_id.resize(ids);
+            parts.meta.id_count = ids;
+        }));
+        const geoidx_info info = info_of(fewer.get());
+        const std::set<uint32_t> named(original().parts.number_of_id.begin(),
+                                       original().parts.number_of_id.begin() + ids);
+        CHECK(info.vertex_count == ids);
+        CHECK(info.welded_vertex_count == named.size());
+        const auto expected = msad(whole.get(), 0, 72), answered = msad(fewer.get(), 0, ids);
+        CHECK(answered == std::vector(expected.begin(), expected.begin() + ids));
+        for (uint32_t v = 0; v < ids; ++v) CHECK(sssd(fewer.get(), 0, v) == sssd(whole.get(), 0, v));
+    }
 }
 
 TEST_CASE("crafted BORD") {

@@ -243,31 +243,37 @@ class Index:
     def _read_vertices(self):
         fields = Fields(self.sections["VERT"].bytes())
         self.vertex_count = int(fields.take("<u8", 1)[0])
-        self.number_of_id = fields.planes(self.id_count)
+        self.number_of_id = fields.planes(self.id_count)  # those that no id has are added vertices
 
     def _read_positions(self, mesh):
         fields = Fields(self.sections["POSI"].bytes())
         (self.position_step,), origin = fields.take("<f4", 1), fields.take("<f8", 3)
         (checksum,) = fields.take("<u8", 1)
-        self.has_positions = fields.at < len(fields.content)
+        held = (len(fields.content) - fields.at) // 12
+        stored = fields.planes(3 * held).astype(int)
+        differences = numpy.where(stored % 2, -(stored + 1) // 2, stored // 2)
+        of_held = differences.reshape(-1, 3).cumsum(axis=0)
+        self.has_positions = held == self.vertex_count
         if self.has_positions:
-            stored = fields.planes(3 * self.vertex_count).astype(int)
-            differences = numpy.where(stored % 2, -(stored + 1) // 2, stored // 2)
-            self.positions = differences.reshape(-1, 3).cumsum(axis=0)
+            self.positions = of_held
         else:
             require(mesh, "positions are left out, and there is no mesh")
-            self.positions = self._positions_of(mesh[0], origin)
+            self.positions = self._positions_of(mesh[0], origin, of_held)
         coordinates = self.positions.astype("<i4").tobytes()
         require(xxhash.xxh3_64_intdigest(coordinates) == checksum, "the checksum of the positions does not match")
 
-    def _positions_of(self, points, origin):
-        """In steps, of the lowest id of each number."""
+    def _positions_of(self, points, origin, of_added):
+        """In steps: of the lowest id of each number, and of the added vertices, which no id has."""
         numbers, lowest = numpy.unique(self.number_of_id, return_index=True)
-        lowest = lowest[numbers != NONE]
-        require(len(lowest) == self.vertex_count, "a number without an id")
+        numbers, lowest = numbers[numbers != NONE], lowest[numbers != NONE]
+        added = numpy.setdiff1d(numpy.arange(self.vertex_count), numbers)
+        require(len(added) == len(of_added), "positions of other vertices than the added ones")
         apart = numpy.asarray(points)[lowest].astype("f8") - origin
         steps = numpy.floor(apart / float(self.position_step) + 0.5)
-        return numpy.clip(steps, 0, 2**23 - 1).astype(int)
+        positions = numpy.empty((self.vertex_count, 3), int)
+        positions[numbers] = numpy.clip(steps, 0, 2**23 - 1)
+        positions[added] = of_added
+        return positions
 
     def _read_borders(self):
         fields = Fields(self.sections["BORD"].bytes())
