@@ -160,7 +160,8 @@ typedef geoidx_status (*geoidx_metric_fn)(void* user, uint32_t source, const uin
 
 /* Progress of a build: fraction 0 .. 1, never falling, and a short name of the stage. Return 0 to cancel.
  * Called from the thread that called geoidx_build only, at least a few times a second once the first stages
- * are over, which take some seconds a million vertices. */
+ * are over, which take some seconds a million vertices. Where vertices may be added (see target_error),
+ * stages come again, and the fraction goes from 0.7 to 1 at once if none are. */
 typedef int32_t (*geoidx_progress_fn)(void* user, float fraction, const char* stage);
 
 /* How an index answers. */
@@ -231,6 +232,14 @@ typedef struct geoidx_build_options {
      * an entry by at most 0.8 % of the way to the next vertex. 0: to 16 bits only. Twice the share saves one
      * bit of each table entry in GEOIDX_CODEC_PACKED. */
     double rounding;
+    /* GEOIDX_ENGINE_OVERLAY with GEOIDX_METRIC_EXACT, delta 0 and no edge_lengths; not used otherwise: the
+     * mean error, 0 .. 1, that the index is to have at most. Scans have less from the start. Where it is
+     * larger, as on meshes of large triangles and on rough surfaces, edges between patches are cut in halves
+     * and the tables are made anew, up to three times, as long as the error becomes smaller and table entries
+     * stay below two and a half times their number without; so the error may also stay larger. What is cut
+     * there are *added vertices*: they have no id and are in no answer. Default 0.0005, which is 0.05 %.
+     * 0: none. */
+    double target_error;
 } geoidx_build_options;
 
 GEOIDX_API void geoidx_build_options_init_sized(geoidx_build_options* options, uint32_t struct_size);
@@ -322,7 +331,7 @@ typedef struct geoidx_info {
     uint64_t mesh_fingerprint;    /* of triangles and positions, the latter as floats (see expected_mesh) */
     uint64_t table_entries;       /* distances in all tables; of a symmetric one below the diagonal, but for
                                      border tables */
-    uint64_t border_vertex_count; /* vertices on a border of the last level, after pruning */
+    uint64_t border_vertex_count; /* vertices on a border of the last level after pruning, with added ones */
     double bounding_box_diagonal;
     double delta;
     uint64_t seed;
@@ -351,6 +360,7 @@ typedef struct geoidx_info {
      * GEOIDX_ENGINE_GRAPH, whose distances are floats. */
     double smallest_step;
     double largest_step;
+    uint64_t added_vertex_count; /* vertices of the tables that have no id, see target_error */
 } geoidx_info;
 
 /* A section of the file that an index was opened from; format/SPEC.md says what is in it. */

@@ -1,26 +1,18 @@
 #include "src/build/build.h"
 
-#include <cmath>
 #include <string>
 
 #include "format/error.h"
 #include "src/base/threads.h"
-#include "src/build/calibration.h"
-#include "src/build/measure.h"
+#include "src/build/filling.h"
 #include "src/build/metric_options.h"
+#include "src/build/rounds.h"
 #include "src/index/stored.h"
 #include "src/partition/hierarchy.h"
-#include "src/tables/borders.h"
-#include "src/tables/fill.h"
-#include "src/tables/layout.h"
-#include "src/tables/overlay_fill.h"
-#include "src/tables/pruning.h"
 
 namespace geodesic {
 
 namespace {
-
-constexpr double TABLES_END = 0.91; // the share of the work that is done when all tables are filled
 
 [[noreturn]] void invalid(const std::string& detail) { throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail); }
 
@@ -29,6 +21,8 @@ void check_options(const geoidx_build_options& options) {
         invalid("delta is " + std::to_string(options.delta) + ", not in 0 .. 100 %");
     if (!(options.rounding >= 0 && options.rounding <= 1))
         invalid("rounding is " + std::to_string(options.rounding) + ", not in 0 .. 1");
+    if (!(options.target_error >= 0 && options.target_error <= 1))
+        invalid("target_error is " + std::to_string(options.target_error) + ", not in 0 .. 1");
     if (options.level_count > GEOIDX_MAX_LEVELS)
         invalid("level_count is " + std::to_string(options.level_count) + ", more than " +
                 std::to_string(GEOIDX_MAX_LEVELS));
@@ -69,12 +63,10 @@ Description describe(const Intake& intake, const geoidx_build_options& options) 
     return about;
 }
 
-void fill_tables(const Mesh& mesh, const Hierarchy& hierarchy, std::span<const uint32_t> vertex_of_number,
-                 const geoidx_build_options& options, Workers& workers, StoredIndex& stored) {
-    if (options.engine == GEOIDX_ENGINE_GRAPH) return fill_graph_tables(vertex_of_number, workers, stored);
-    const bool unfold = (stored.description.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
-    fill_overlay_tables(mesh, hierarchy.leaf_of_face, vertex_of_number,
-                        {options.exact_vertices, options.rounding, unfold, TABLES_END}, workers, stored);
+// Added vertices need a surface that is given by its positions and on which unfolding is what distances are.
+bool may_add_vertices(const geoidx_build_options& options) {
+    return options.target_error > 0 && options.engine == GEOIDX_ENGINE_OVERLAY &&
+           options.metric == GEOIDX_METRIC_EXACT && options.edge_length_count == 0 && options.delta == 0;
 }
 
 ProgressFunction progress_function(const geoidx_build_options& options) {
@@ -92,24 +84,16 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     if (progress && !progress(0, "mesh")) throw_cancelled();
     const Intake intake = take_in(mesh, intake_options(options));
     const auto metric = make_metric(mesh, intake, options);
-    Workers workers(*metric, options.threads, progress);
-    StoredIndex stored;
-    stored.description = describe(intake, options);
+    const Description about = describe(intake, options);
+    const double first_end = may_add_vertices(options) ? FIRST_FILLING_END : 1;
+    Workers workers(*metric, options.threads, part_of_progress(progress, 0, first_end));
 
     workers.begin_stage("patches", 0.1);
     const Hierarchy hierarchy = build_hierarchy(intake.mesh, hierarchy_options(intake, options), workers);
-    workers.begin_stage("borders", 0.13);
-    const auto leaves_at_vertex = leaves_at_vertices(intake.mesh, hierarchy);
-    const auto is_border = merge_border_vertices(intake.mesh, leaves_at_vertex,
-                                                 options.delta / 100 * intake.bounding_box_diagonal, workers);
-    const auto vertex_of_number = lay_out(intake, hierarchy, leaves_at_vertex, is_border, workers, stored);
-    workers.begin_stage("tables", options.engine == GEOIDX_ENGINE_OVERLAY ? 0.88 : TABLES_END);
-    fill_tables(intake.mesh, hierarchy, vertex_of_number, options, workers, stored);
-    workers.begin_stage("calibration", 0.95);
-    calibrate(vertex_of_number, workers, stored);
-    workers.begin_stage("accuracy", 1);
-    workers.run(1, [&](FieldSolver&, size_t) { prepare(stored, index); });
-    index.description.error = measure_error(index, vertex_of_number, workers);
+    Filling filling(intake, options, about, index);
+    StoredIndex stored = filling.fill({intake.mesh, hierarchy}, workers);
+    if (!may_add_vertices(options)) return;
+    Rounds(options, progress, filling, index).run({intake.mesh, hierarchy}, *metric, std::move(stored));
 }
 
 }

@@ -7,7 +7,8 @@
 namespace geodesic {
 
 // Fills an empty index (paper section 3): intake, hierarchy, borders, pruning, tables, calibration, measured
-// error.
+// error. Where this is over the target error of the options, the steps from borders on are made again with
+// vertices added to the borders, in rounds.
 void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, Index& index);
 
 }

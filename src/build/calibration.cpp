@@ -3,14 +3,11 @@
 #include <cmath>
 #include <vector>
 
-#include "src/build/relative_errors.h"
 #include "src/query/index.h"
 
 namespace geodesic {
 
 namespace {
-
-constexpr uint64_t CALIBRATION_SEED = 0x7363616C65;
 
 // The share by which paths are too long everywhere: the mean of the signed errors. Large errors are left out,
 // since such a path takes another way altogether, for instance a detour over pruned borders, and says nothing
@@ -23,9 +20,8 @@ double common_share(std::vector<double> errors) {
 
 }
 
-void calibrate(std::span<const uint32_t> vertex_of_number, Workers& workers, StoredIndex& stored) {
-    if (!crosses_between_vertices(stored.description)) return;
-    const ExactFields exact = exact_fields(stored.description, vertex_of_number, CALIBRATION_SEED, workers);
+void calibrate(const ExactFields& exact, std::span<const uint32_t> vertex_of_number, Workers& workers,
+               StoredIndex& stored) {
     Index draft(std::pmr::get_default_resource());
     prepare(stored, draft);
     const double share =

@@ -2,13 +2,17 @@
 
 #include <span>
 
+#include "src/build/relative_errors.h"
 #include "src/metric/workers.h"
 #include "src/query/index.h"
 
 namespace geodesic {
 
-// Compares MSAD with the metric, from some seeded random sources to all vertices. The sources are not those
-// of calibrate(). vertex_of_number gives the mesh vertex of each number.
-MeasuredError measure_error(const Index& index, std::span<const uint32_t> vertex_of_number, Workers& workers);
+// Which sources measure_error() is given.
+inline constexpr uint64_t MEASURING_SEED = 0x6572726F72;
+
+// Compares MSAD with the metric. vertex_of_number gives the mesh vertex of each number.
+MeasuredError measure_error(const Index& index, const ExactFields& exact,
+                            std::span<const uint32_t> vertex_of_number, Workers& workers);
 
 }

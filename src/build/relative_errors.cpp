@@ -24,15 +24,13 @@ void answer(const Index& index, Crossing crossing, uint32_t source, std::span<fl
 
 }
 
-ExactFields exact_fields(const Description& about, std::span<const uint32_t> vertex_of_number, uint64_t seed,
-                         Workers& workers) {
-    Random random(about.seed ^ seed);
+ExactFields exact_fields(uint64_t seed, uint32_t vertex_count, Workers& workers) {
+    Random random(seed);
     ExactFields fields{std::vector<uint32_t>(SOURCES), std::vector<std::vector<double>>(SOURCES)};
-    for (uint32_t& source : fields.sources)
-        source = random.below(static_cast<uint32_t>(vertex_of_number.size()));
+    for (uint32_t& source : fields.sources) source = random.below(vertex_count);
     workers.run(SOURCES, [&](FieldSolver& solver, size_t i) {
         solver.solve({&fields.sources[i], 1}, {});
-        for (uint32_t vertex : vertex_of_number) fields.distances[i].push_back(solver.distance(vertex));
+        for (uint32_t v = 0; v < vertex_count; ++v) fields.distances[i].push_back(solver.distance(v));
     });
     return fields;
 }
@@ -47,7 +45,9 @@ std::vector<double> relative_errors(const Index& index, Crossing crossing,
         std::vector<float> answered(vertex_of_number.size());
         answer(index, crossing, number_of_vertex[exact.sources[i]], answered);
         for (size_t number = 0; number < answered.size(); ++number) {
-            const double distance = exact.distances[i][number];
+            const uint32_t vertex = vertex_of_number[number];
+            if (vertex >= exact.distances[i].size()) continue; // an added vertex
+            const double distance = exact.distances[i][vertex];
             if (distance > 0 && distance < UNREACHABLE)
                 errors[i].push_back((double{answered[number]} - distance) / distance);
         }

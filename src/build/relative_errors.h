@@ -9,17 +9,17 @@
 
 namespace geodesic {
 
-// Distances under the metric from some random sources to all vertices, by vertex number.
+// Distances under the metric from some random vertices of the caller's mesh to all of its vertices.
 struct ExactFields {
-    std::vector<uint32_t> sources; // mesh vertices
-    std::vector<std::vector<double>> distances;
+    std::vector<uint32_t> sources;
+    std::vector<std::vector<double>> distances; // of each source, per vertex
 };
 
-// vertex_of_number gives the mesh vertex of each number. Another seed chooses other sources.
-ExactFields exact_fields(const Description& about, std::span<const uint32_t> vertex_of_number, uint64_t seed,
-                         Workers& workers);
+// Another seed chooses other sources.
+ExactFields exact_fields(uint64_t seed, uint32_t vertex_count, Workers& workers);
 
-// The errors of MSAD from each of these sources alone, relative to the metric.
+// The errors of MSAD from each of these sources alone, relative to the metric. vertex_of_number gives the
+// mesh vertex of each number; those that the fields do not have, added vertices, do not count.
 std::vector<double> relative_errors(const Index& index, Crossing crossing,
                                     std::span<const uint32_t> vertex_of_number, const ExactFields& exact,
                                     Workers& workers);

@@ -52,6 +52,7 @@ void fill_info(const Index& index, geoidx_info& info) {
     info.error_mean_at_vertices = about.error.mean_at_vertices;
     info.codec = about.codec;
     info.file_flags = about.file_flags;
+    info.added_vertex_count = numbering.vertex_count() - index.vertices_with_id;
     if (const auto* overlay = std::get_if<OverlayIndex>(&index.engine)) fill_steps(*overlay, info);
 }
 

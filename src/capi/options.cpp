@@ -19,6 +19,7 @@ void geoidx_build_options_init_sized(geoidx_build_options* options, uint32_t str
     defaults.engine = GEOIDX_ENGINE_OVERLAY;
     defaults.exact_vertices = 400;
     defaults.rounding = 1.0 / 64;
+    defaults.target_error = 0.0005;
     init_sized(options, struct_size, defaults);
 }
 

@@ -164,28 +164,28 @@ void number_internal(const Mesh& mesh, const Hierarchy& hierarchy,
 
 }
 
-std::vector<uint32_t> lay_out(const Intake& intake, const Hierarchy& hierarchy,
-                              const ListOfLists<uint32_t>& leaves_at_vertex,
+std::vector<uint32_t> lay_out(const Mesh& mesh, std::span<const uint32_t> vertex_of_id,
+                              const Hierarchy& hierarchy, const ListOfLists<uint32_t>& leaves_at_vertex,
                               const std::vector<uint8_t>& is_border, Workers& workers, StoredIndex& stored) {
     stored.level_count = hierarchy.level_count();
     for (uint32_t p = 0; p < hierarchy.first_leaf(); ++p)
         stored.child_count.push_back(hierarchy.child_begin[p + 1] - hierarchy.child_begin[p]);
 
     const auto owner = owners(hierarchy, leaves_at_vertex, is_border);
-    BorderFinder finder(intake.mesh, hierarchy, owner);
+    BorderFinder finder(mesh, hierarchy, owner);
     const auto borders = find_borders(finder, hierarchy, workers);
     NumberGiver giver(owner.size());
     number_owned(hierarchy, borders, owner, giver, stored);
-    number_internal(intake.mesh, hierarchy, borders, leaves_at_vertex, owner, giver, stored);
+    number_internal(mesh, hierarchy, borders, leaves_at_vertex, owner, giver, stored);
 
     for (uint32_t p = 1; p < hierarchy.patch_count(); ++p) {
         stored.border_size.push_back(static_cast<uint32_t>(borders[p].size()));
         for (uint32_t v : borders[p]) stored.border.push_back(giver.number()[v]);
     }
-    for (uint32_t vertex : intake.vertex_of_id)
+    for (uint32_t vertex : vertex_of_id)
         stored.number_of_id.push_back(vertex == NONE ? NONE : giver.number()[vertex]);
     std::vector<uint32_t> vertex_of_number = giver.take_vertices();
-    round_positions(intake.mesh, vertex_of_number, stored);
+    round_positions(mesh, vertex_of_number, stored);
     return vertex_of_number;
 }
 

@@ -119,7 +119,8 @@ FIELD(geoidx_build_options, edge_length_count, 192);
 FIELD(geoidx_build_options, exact_vertices, 200);
 FIELD(geoidx_build_options, reserved, 204);
 FIELD(geoidx_build_options, rounding, 208);
-SIZE(geoidx_build_options, 216);
+FIELD(geoidx_build_options, target_error, 216);
+SIZE(geoidx_build_options, 224);
 
 FIELD(geoidx_open_options, struct_size, 0);
 FIELD(geoidx_open_options, flags, 4);
@@ -160,7 +161,8 @@ FIELD(geoidx_info, codec, 192);
 FIELD(geoidx_info, file_flags, 196);
 FIELD(geoidx_info, smallest_step, 200);
 FIELD(geoidx_info, largest_step, 208);
-SIZE(geoidx_info, 216);
+FIELD(geoidx_info, added_vertex_count, 216);
+SIZE(geoidx_info, 224);
 
 FIELD(geoidx_save_options, struct_size, 0);
 FIELD(geoidx_save_options, codec, 4);

@@ -49,6 +49,7 @@ BuildInput::BuildInput(const test::Soup& soup, const CaseOptions& chosen)
     options_.points_per_edge = chosen.points_per_edge;
     options_.threads = chosen.threads;
     options_.delta = chosen.delta;
+    options_.target_error = chosen.target_error;
     options_.weld_tolerance = chosen.weld_tolerance;
     options_.seed = chosen.seed;
     for (const auto& [a, b] : surface_.edges()) edge_bounds_.push_back(straight(a, b));

@@ -62,6 +62,7 @@ void make_plainer(MeshCase& failing, SameFailure& still_fails) {
     attempt([](CaseOptions& o) { o.metric = GEOIDX_METRIC_EXACT; });
     attempt([](CaseOptions& o) { o.lloyd_iterations = 0; });
     attempt([](CaseOptions& o) { o.exact_vertices = 400; });
+    attempt([](CaseOptions& o) { o.target_error = 0; });
 }
 
 MeshCase without_unused_vertices(const MeshCase& whole) {

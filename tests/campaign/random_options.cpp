@@ -55,6 +55,7 @@ void each_option(CaseOptions& options, const Visit& visit) {
     visit("threads", options.threads);
     visit("delta", options.delta);
     visit("weld_tolerance", options.weld_tolerance);
+    visit("target_error", options.target_error);
     visit("seed", options.seed);
     visit("cost_seed", options.cost_seed);
     visit("own_lengths", options.own_lengths);
@@ -75,6 +76,7 @@ CaseOptions random_options(Dice& dice, const test::Soup& soup) {
     options.opened = dice.chance(0.4);
     if (dice.chance(0.1)) options.weld_tolerance = diagonal(soup) * dice.pick({1e-9, 1e-3, 0.02});
     options.query_seed = dice.bits();
+    options.target_error = dice.pick({0.0, 0.0005, 0.0005, 1e-9});
     return options;
 }
 

@@ -19,6 +19,7 @@ struct CaseOptions {
     uint32_t patches[8] = {};
     uint32_t lloyd_iterations = 4, exact_vertices = 400, points_per_edge = 3, threads = 1;
     double delta = 0, weld_tolerance = 0;
+    double target_error = 0;
     uint64_t seed = 0;
     uint64_t cost_seed = 0;   // of costs of edges and triangles; 0: edges cost their length
     bool own_lengths = false; // the surface is given by lengths

@@ -44,6 +44,7 @@ geoidx_build_options options_of(Input& input) {
     options.exact_vertices = input.byte() % 2 ? 1 : 400;
     options.delta = input.byte() % 4 ? 0 : 5;
     options.weld_tolerance = input.byte() % 4 ? 0 : 0.01;
+    options.target_error = options.delta == 0 ? 1e-9 : 0;
     options.threads = 1;
     return options;
 }

@@ -168,6 +168,7 @@ TEST_CASE("numbers that no id has are added vertices, and all others are answere
                                        original().parts.number_of_id.begin() + ids);
         CHECK(info.vertex_count == ids);
         CHECK(info.welded_vertex_count == named.size());
+        CHECK(info.added_vertex_count == all - named.size());
         const auto expected = msad(whole.get(), 0, 72), answered = msad(fewer.get(), 0, ids);
         CHECK(answered == std::vector(expected.begin(), expected.begin() + ids));
         for (uint32_t v = 0; v < ids; ++v) CHECK(sssd(fewer.get(), 0, v) == sssd(whole.get(), 0, v));

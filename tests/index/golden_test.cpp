@@ -1,5 +1,5 @@
-// Golden files: one of each form, one of rounded distances and one without positions, which every later
-// version of the library must open (SPEC.md, "Versions").
+// Golden files: one of each form, one of rounded distances, one with added vertices, and two without positions,
+// which every later version of the library must open (SPEC.md, "Versions").
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -16,6 +16,7 @@ struct Golden {
     uint32_t engine, codec;
     uint32_t columns; // of its sheet
     uint32_t flags = 0;
+    double target_error = 0; // over 0: there are added vertices
 };
 
 constexpr Golden GOLDEN[] = {
@@ -24,7 +25,9 @@ constexpr Golden GOLDEN[] = {
     {"mapped", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_MAPPED, 15},
     {"graph", GEOIDX_ENGINE_GRAPH, GEOIDX_CODEC_LOSSLESS, 15},
     {"rounded", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 34},
-    {"no_positions", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, GEOIDX_SAVE_NO_POSITIONS}};
+    {"added", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, 0, 1e-4},
+    {"no_positions", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, GEOIDX_SAVE_NO_POSITIONS},
+    {"added_no_positions", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, GEOIDX_SAVE_NO_POSITIONS, 1e-4}};
 
 std::string path_of(const Golden& golden) {
     return std::string(GEOIDX_GOLDEN_FOLDER "/") + golden.name + ".geoidx";
@@ -52,6 +55,7 @@ TestMesh mesh_of(const Golden& golden) {
 geoidx_build_options options_of(const Golden& golden) {
     auto options = build_options(GEOIDX_METRIC_EXACT, 2);
     options.engine = golden.engine;
+    options.target_error = golden.target_error;
     return options;
 }
 
@@ -89,6 +93,7 @@ TEST_CASE("golden files: they open, belong to their mesh and answer near the tru
         CHECK(info.codec == golden.codec);
         CHECK(info.file_flags == golden.flags);
         CHECK(info.format_major == 2);
+        CHECK((golden.target_error > 0) == (info.added_vertex_count > 0));
         CHECK((golden.columns > 30) == (info.table_entries >= 65536)); // distances are rounded
         double sum = 0;
         uint64_t distances = 0, apart = 0;

@@ -74,6 +74,7 @@ struct Built {
 geoidx_build_options options_of(uint32_t metric, std::vector<uint32_t> patches) {
     auto options = build_options(metric, static_cast<uint32_t>(patches.size()));
     std::ranges::copy(patches, options.patches);
+    options.target_error = 0; // so that each number has an id, from which distances are solved
     return options;
 }
 

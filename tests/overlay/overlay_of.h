@@ -45,8 +45,9 @@ inline geoidx_build_options options_of_plane(const TestMesh& mesh, std::initiali
     return options;
 }
 
+// An id of each number, NONE of added vertices.
 inline std::vector<uint32_t> ids_by_number(const Index& index) {
-    std::vector<uint32_t> ids(index.numbering().vertex_count());
+    std::vector<uint32_t> ids(index.numbering().vertex_count(), NONE);
     for (uint32_t id = 0; id < index.number_of_id.size(); ++id)
         if (index.number_of_id[id] != NONE) ids[index.number_of_id[id]] = id;
     return ids;

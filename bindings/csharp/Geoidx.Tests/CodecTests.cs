@@ -209,6 +209,23 @@ namespace Geoidx.Tests
             Assert.True(coarse.ToBytes().Length < fine.ToBytes().Length);
         }
 
+        [Fact]
+        public void VerticesAreAddedWhereTheMeanErrorIsOverTheTarget()
+        {
+            (float[] positions, int[] triangles) = Shapes.PlaneArrays(20);
+            for (int i = 0; i < positions.Length; i += 3)
+                positions[i + 2] = 1.5f * (float)(Math.Sin(positions[i] * 0.7) * Math.Cos(positions[i + 1]));
+            GeodesicMesh mesh = GeodesicMesh.From(positions, triangles);
+            Assert.Equal(0.0005, new BuildOptions().TargetError);
+            using GeodesicIndex plain = GeodesicIndex.Build(mesh, new BuildOptions { TargetError = 0 });
+            using GeodesicIndex fine = GeodesicIndex.Build(mesh, new BuildOptions { TargetError = 1e-9 });
+            Assert.Equal(0, plain.Info.AddedVertexCount);
+            Assert.True(fine.Info.AddedVertexCount > 0);
+            Assert.True(fine.Info.ErrorMean < plain.Info.ErrorMean);
+            Assert.Equal(plain.Info.WeldedVertexCount, fine.Info.WeldedVertexCount);
+            Assert.Equal(plain.VertexCount, fine.VertexCount);
+        }
+
         private void AnswersAsBuilt(GeodesicIndex opened)
         {
             Assert.Equal(built.FromSources(5), opened.FromSources(5));

@@ -107,6 +107,8 @@ namespace Geoidx.Tests
             ("Rounding is NaN,", () => Build(new BuildOptions { Rounding = double.NaN })),
             ("Rounding is 1.5", () => Build(new BuildOptions { Rounding = 1.5 })),
             ("Rounding is -1", () => Build(new BuildOptions { Rounding = -1 })),
+            ("TargetError is NaN,", () => Build(new BuildOptions { TargetError = double.NaN })),
+            ("TargetError is 1.5", () => Build(new BuildOptions { TargetError = 1.5 })),
             ("Threads is 2000", () => Build(new BuildOptions { Threads = 2000 })),
             ("LevelCount is 9", () => Build(new BuildOptions { LevelCount = 9 })),
             ("LloydIterations is 1001", () => Build(new BuildOptions { LloydIterations = 1001 })),

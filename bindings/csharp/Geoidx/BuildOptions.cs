@@ -101,6 +101,14 @@ namespace Geoidx
         /// </summary>
         public double Rounding { get; set; }
 
+        /// <summary>
+        /// <see cref="GeodesicEngine.Overlay"/> with <see cref="MetricKind.Exact"/>, <see cref="Delta"/> 0 and no edge
+        /// lengths: the mean error, 0 to 1, that the index is to have at most. Where it is larger, edges between
+        /// patches are cut in halves, up to three times, as long as the error becomes smaller and table entries stay
+        /// below two and a half times their number without. Default: 0.0005, which is 0.05 %. 0: no edge is cut.
+        /// </summary>
+        public double TargetError { get; set; }
+
         /// <summary>Whether an edge with more than two triangles makes the mesh unusable. Default: no.</summary>
         public bool RefuseEdgesOfMany { get; set; }
 
@@ -123,6 +131,7 @@ namespace Geoidx
             PointsPerEdge = (int)native.points_per_edge;
             ExactVertices = (int)native.exact_vertices;
             Rounding = native.rounding;
+            TargetError = native.target_error;
         }
     }
 }

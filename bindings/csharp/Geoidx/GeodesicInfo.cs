@@ -37,6 +37,7 @@ namespace Geoidx
             HasPositions = (native.file_flags & (uint)SaveFlags.NoPositions) == 0;
             SmallestStep = native.smallest_step;
             LargestStep = native.largest_step;
+            AddedVertexCount = (long)native.added_vertex_count;
         }
 
         /// <summary>What a distance is.</summary>
@@ -125,6 +126,11 @@ namespace Geoidx
         /// <summary>As <see cref="SmallestStep"/>, for the table with the largest steps.</summary>
         public double LargestStep { get; }
 
+        /// <summary>
+        /// Vertices of the tables that have no id and are in no answer, see <see cref="BuildOptions.TargetError"/>.
+        /// </summary>
+        public long AddedVertexCount { get; }
+
         /// <summary>Each property in a line of its own.</summary>
         public override string ToString() =>
             string.Join("\n", Array.ConvertAll(Properties(), property => FormattableString.Invariant(property)));
@@ -157,6 +163,7 @@ namespace Geoidx
             $"{nameof(HasPositions)}: {HasPositions}",
             $"{nameof(SmallestStep)}: {SmallestStep}",
             $"{nameof(LargestStep)}: {LargestStep}",
+            $"{nameof(AddedVertexCount)}: {AddedVertexCount}",
         };
 
         private string PatchCountsText() => string.Join(" / ", PatchCounts);

@@ -41,7 +41,9 @@ class Options(unittest.TestCase):
         plain = geoidx.Index.build(*mesh, threads=1).to_bytes()
         self.assertEqual(geoidx.Index.build(*mesh, threads=3).to_bytes(), plain)
         self.assertNotEqual(geoidx.Index.build(*mesh, seed=1).to_bytes(), plain)
-        self.assertNotEqual(geoidx.Index.build(*mesh, exact_vertices=40).to_bytes(), plain)
+        # Added vertices count as well, so that there are none here.
+        exact, closed = (geoidx.Index.build(*mesh, exact_vertices=n, target_error=0).to_bytes() for n in (400, 40))
+        self.assertNotEqual(closed, exact)
 
     def test_weld_tolerance(self):
         vertices = np.concatenate([SQUARE[0], SQUARE[0][[0, 2]] + 1e-4])
@@ -58,6 +60,19 @@ class Options(unittest.TestCase):
         geoidx.Index.build(vertices, faces)
         with self.assertRaisesRegex(geoidx.BadMeshError, "more than two"):
             geoidx.Index.build(vertices, faces, refuse_edges_of_many=True)
+
+    def test_vertices_are_added_where_the_mean_error_is_over_the_target(self):
+        mesh = hills(20, 20)
+        plain, default, fine = (
+            geoidx.Index.build(*mesh, **options) for options in ({"target_error": 0}, {}, {"target_error": 1e-9})
+        )
+        self.assertEqual(plain.info.added_vertex_count, 0)
+        self.assertEqual(geoidx.Index.build(*mesh, target_error=0.0005).to_bytes(), default.to_bytes())
+        self.assertGreater(fine.info.added_vertex_count, 0)
+        self.assertLess(fine.info.error_mean, plain.info.error_mean)
+        for index in (plain, default, fine):
+            self.assertEqual(index.info.welded_vertex_count, len(mesh[0]))
+            self.assertEqual(len(index.msad([0])), len(mesh[0]))
 
     def test_out_of_range(self):
         for options in (
@@ -77,6 +92,9 @@ class Options(unittest.TestCase):
             {"rounding": -0.1},
             {"rounding": 1.1},
             {"rounding": math.nan},
+            {"target_error": -0.1},
+            {"target_error": 1.1},
+            {"target_error": math.nan},
             {"seed": -1},
             {"seed": 1 << 64},
         ):

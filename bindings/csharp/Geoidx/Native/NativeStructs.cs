@@ -57,6 +57,7 @@ namespace Geoidx
         internal uint exact_vertices;
         internal uint reserved;
         internal double rounding;
+        internal double target_error;
     }
 
     // Borrow is never passed: it is for memory that stays in place until the index is closed, which a span is not.
@@ -126,6 +127,7 @@ namespace Geoidx
         internal uint file_flags;
         internal double smallest_step;
         internal double largest_step;
+        internal ulong added_vertex_count;
     }
 
     [StructLayout(LayoutKind.Sequential)]

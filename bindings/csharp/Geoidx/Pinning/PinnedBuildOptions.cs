@@ -44,6 +44,7 @@ namespace Geoidx
             native.points_per_edge = NotNegative(options.PointsPerEdge, nameof(options.PointsPerEdge));
             native.exact_vertices = NotNegative(options.ExactVertices, nameof(options.ExactVertices));
             native.rounding = options.Rounding;
+            native.target_error = options.TargetError;
             native.refuse_edges_of_many = options.RefuseEdgesOfMany ? 1u : 0u;
         }
 

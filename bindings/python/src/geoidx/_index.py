@@ -83,6 +83,7 @@ class Index(Closable):
         weld_tolerance: float = 0.0,
         exact_vertices: int = 400,
         rounding: float = 1 / 64,
+        target_error: float = 0.0005,
         lloyd_iterations: int = 4,
         seed: int = 0,
         threads: int = 0,
@@ -106,6 +107,10 @@ class Index(Closable):
             next, for each patch by itself, but never of more than 1/8192 of the longest way on the surface around it,
             and not in an index of fewer than 65,536 table entries. 0: to 16 bits only. Twice the share saves one bit
             of each entry in a packed file.
+        target_error: of the overlay engine with the exact metric and delta 0, the mean error, 0 .. 1, that the index
+            is to have at most. Where it is larger, edges between patches are cut in halves, up to three times, as
+            long as the error becomes smaller and table entries stay below two and a half times their number
+            without. 0: no edge is cut.
         lloyd_iterations: relaxations of the patches' seeds.
         threads: 0: one per processor.
         refuse_edges_of_many: an edge with more than two triangles is a BadMeshError.
@@ -124,6 +129,7 @@ class Index(Closable):
         struct.delta = delta
         struct.exact_vertices = whole_number(exact_vertices, "exact_vertices")
         struct.rounding = rounding
+        struct.target_error = target_error
         struct.lloyd_iterations = whole_number(lloyd_iterations, "lloyd_iterations")
         struct.seed = whole_number(seed, "seed", UINT64_MAX)
         struct.threads = whole_number(threads, "threads")

@@ -33,7 +33,7 @@ class Info:
     table_entries: int
     """Distances in all tables."""
     border_vertex_count: int
-    """Vertices on a border of the last level, after pruning."""
+    """Vertices on a border of the last level after pruning, with added ones."""
     bounding_box_diagonal: float
     delta: float
     """Pruning threshold, % of the bounding-box diagonal."""
@@ -58,6 +58,8 @@ class Info:
     """What the distances of the table with the smallest steps are multiples of; 0 for the graph engine."""
     largest_step: float
     """The same of the table with the largest steps. Half a step is the most that rounding changes an entry by."""
+    added_vertex_count: int
+    """Vertices of the tables that have no id and are in no answer, see `target_error` of `Index.build`."""
 
     @property
     def level_count(self) -> int:

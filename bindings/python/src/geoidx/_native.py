@@ -94,6 +94,7 @@ class BuildOptions(Structure):
         ("exact_vertices", c_uint32),
         ("reserved", c_uint32),
         ("rounding", c_double),
+        ("target_error", c_double),
     ]
 
 
@@ -145,6 +146,7 @@ class Info(Structure):
         ("file_flags", c_uint32),
         ("smallest_step", c_double),
         ("largest_step", c_double),
+        ("added_vertex_count", c_uint64),
     ]
 
 

@@ -1,0 +1,68 @@
+#include "src/build/filling.h"
+
+#include "src/build/calibration.h"
+#include "src/build/measure.h"
+#include "src/tables/borders.h"
+#include "src/tables/fill.h"
+#include "src/tables/layout.h"
+#include "src/tables/overlay_fill.h"
+#include "src/tables/pruning.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr double TABLES_END = 0.91; // the share of the work that is done when all tables are filled
+
+}
+
+StoredIndex Filling::fill(const SplitSurface& surface, Workers& workers) {
+    StoredIndex stored;
+    stored.description = about_;
+    workers.begin_stage("borders", 0.13);
+    const auto vertex_of_number = lay_out_vertices(surface, workers, stored);
+    workers.begin_stage("tables", options_.engine == GEOIDX_ENGINE_OVERLAY ? 0.88 : TABLES_END);
+    fill_tables(surface, vertex_of_number, workers, stored);
+    workers.begin_stage("calibration", 0.95);
+    if (crosses_between_vertices(about_))
+        calibrate(fields(calibration_, CALIBRATION_SEED, workers), vertex_of_number, workers, stored);
+    workers.begin_stage("accuracy", 1);
+    workers.run(1, [&](FieldSolver&, size_t) { prepare(stored, index_); });
+    index_.description.error =
+        measure_error(index_, fields(measuring_, MEASURING_SEED, workers), vertex_of_number, workers);
+    stored.description = index_.description;
+    return stored;
+}
+
+uint64_t Filling::count_entries(const SplitSurface& surface, Workers& workers) const {
+    StoredIndex stored;
+    lay_out_vertices(surface, workers, stored);
+    Numbering numbering(std::pmr::get_default_resource());
+    number_vertices(stored, numbering);
+    return numbering.overlay_engine_entries();
+}
+
+std::vector<uint32_t> Filling::lay_out_vertices(const SplitSurface& surface, Workers& workers,
+                                                StoredIndex& stored) const {
+    const auto leaves_at_vertex = leaves_at_vertices(surface.mesh, surface.hierarchy);
+    const auto is_border = merge_border_vertices(
+        surface.mesh, leaves_at_vertex, options_.delta / 100 * intake_.bounding_box_diagonal, workers);
+    return lay_out(surface.mesh, intake_.vertex_of_id, surface.hierarchy, leaves_at_vertex, is_border,
+                   workers, stored);
+}
+
+void Filling::fill_tables(const SplitSurface& surface, std::span<const uint32_t> vertex_of_number,
+                          Workers& workers, StoredIndex& stored) const {
+    if (options_.engine == GEOIDX_ENGINE_GRAPH) return fill_graph_tables(vertex_of_number, workers, stored);
+    const bool unfold = (about_.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
+    fill_overlay_tables(surface.mesh, surface.hierarchy.leaf_of_face, vertex_of_number,
+                        {options_.exact_vertices, options_.rounding, unfold, TABLES_END}, workers, stored);
+}
+
+const ExactFields& Filling::fields(std::optional<ExactFields>& fields, uint64_t seed,
+                                   Workers& workers) const {
+    if (!fields) fields = exact_fields(about_.seed ^ seed, intake_.mesh.vertex_count(), workers);
+    return *fields;
+}
+
+}

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "src/build/relative_errors.h"
+#include "src/index/stored.h"
+#include "src/mesh/intake.h"
+#include "src/partition/hierarchy.h"
+
+namespace geodesic {
+
+// A mesh of the same surface as the caller's, split into patches. Its first vertices are those of the
+// caller's mesh, with their numbers; others are added vertices.
+struct SplitSurface {
+    const Mesh& mesh;
+    const Hierarchy& hierarchy;
+};
+
+// Makes the same index on one mesh or several of the same surface.
+class Filling {
+public:
+    // The options are complete and checked. `about` has all but the errors, and what is filled becomes
+    // `index`.
+    Filling(const Intake& intake, const geoidx_build_options& options, const Description& about, Index& index)
+        : intake_(intake), options_(options), about_(about), index_(index) {}
+
+    // From the borders to the measured index, which is prepared, too. The workers' metric is of this mesh.
+    StoredIndex fill(const SplitSurface& surface, Workers& workers);
+
+    // The number of table entries that fill() would make.
+    uint64_t count_entries(const SplitSurface& surface, Workers& workers) const;
+
+private:
+    std::vector<uint32_t> lay_out_vertices(const SplitSurface& surface, Workers& workers,
+                                           StoredIndex& stored) const;
+    void fill_tables(const SplitSurface& surface, std::span<const uint32_t> vertex_of_number,
+                     Workers& workers, StoredIndex& stored) const;
+    const ExactFields& fields(std::optional<ExactFields>& fields, uint64_t seed, Workers& workers) const;
+
+    const Intake& intake_;
+    const geoidx_build_options& options_;
+    const Description& about_;
+    Index& index_;
+    // Solved once, since distances between vertices of the caller's are the same on all meshes.
+    std::optional<ExactFields> calibration_, measuring_;
+};
+
+}

@@ -1,0 +1,135 @@
+#include "src/build/rounds.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "format/error.h"
+#include "src/metric/window_propagation.h"
+#include "src/partition/random.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr uint32_t MOST_ROUNDS = 3; // which leave eighths of an edge
+
+// How many times the table entries of the index without added vertices there may be, in halves. Packed files
+// then grow to twice their size or little more, since positions and ids do not grow with the tables.
+constexpr uint64_t MOST_GROWTH_IN_HALVES = 5;
+
+// Where round i begins in the whole work. How many rounds there will be is not known before.
+double begin_of_round(uint32_t i) {
+    return FIRST_FILLING_END + (1 - FIRST_FILLING_END) * static_cast<double>(i) / MOST_ROUNDS;
+}
+
+// A round begins with choosing edges, which is a tenth of it.
+double end_of_choosing(uint32_t i) { return 0.9 * begin_of_round(i) + 0.1 * begin_of_round(i + 1); }
+
+// Small meshes are asked from more sources, which together see more of all edges.
+std::vector<uint32_t> choosing_sources(uint64_t seed, uint32_t vertex_count) {
+    constexpr uint64_t CHOOSING_SEED = 0x63686F6F7365;
+    constexpr uint32_t FEWEST = 20, MOST = 100, VERTICES_IN_ALL = 1 << 18;
+    Random random(seed ^ CHOOSING_SEED);
+    std::vector<uint32_t> sources(std::clamp(VERTICES_IN_ALL / vertex_count, FEWEST, MOST));
+    for (uint32_t& source : sources) source = random.below(vertex_count);
+    return sources;
+}
+
+// The share of all deviations that the edges to cut have together. Cutting all border edges of a low-poly
+// mesh makes the error two to three times smaller, so that this is enough where the error is not far from
+// what is asked for. Less than half is not worth a round, and the last few percent are those of a third of
+// the edges.
+double share_to_cut(double error, double target) {
+    constexpr double LEAST = 0.5, MOST = 0.97;
+    return std::clamp(2 * (1 - target / error), LEAST, MOST);
+}
+
+// What body() returns, or nothing if that is over a limit. An index with added vertices may be, where the one
+// without them is not.
+template <class Body>
+auto unless_over_limit(const Body& body) -> std::optional<decltype(body())> {
+    try {
+        return body();
+    } catch (const Error& error) {
+        if (error.status != GEOIDX_ERROR_LIMIT) throw;
+        return std::nullopt;
+    }
+}
+
+// Whether the corners of all faces can still be counted in 32 bits when each is cut into four.
+bool can_be_cut(const Mesh& mesh) { return mesh.face_count() < NONE / 12; }
+
+}
+
+ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, double end) {
+    if (!whole) return {};
+    return [whole, begin, end](double fraction, const char* stage) {
+        return whole(begin + fraction * (end - begin), stage);
+    };
+}
+
+void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex filled) {
+    vertex_count_ = surface.mesh.vertex_count();
+    most_entries_ = table_entries(index_) * MOST_GROWTH_IN_HALVES / 2;
+    std::optional<FinerSurface> finer; // of the latest round, with its metric
+    std::unique_ptr<const Metric> finer_metric;
+    bool is_best = true; // what the index is prepared from
+    for (uint32_t i = 0; i < MOST_ROUNDS && filled.description.error.mean > options_.target_error; ++i) {
+        const SplitSurface latest = finer ? SplitSurface{finer->mesh, finer->hierarchy} : surface;
+        Workers choosing(finer ? *finer_metric : metric, options_.threads,
+                         part_of_progress(progress_, begin_of_round(i), end_of_choosing(i)));
+        auto next = finer_surface(latest, filled.description.error.mean, choosing);
+        if (!next) break;
+        finer = std::move(next);
+        finer_metric = std::make_unique<ExactMetric>(finer->mesh);
+        Workers workers(*finer_metric, options_.threads,
+                        part_of_progress(progress_, end_of_choosing(i), begin_of_round(i + 1)));
+        auto again = unless_over_limit([&] {
+            return filling_.fill({finer->mesh, finer->hierarchy}, workers);
+        });
+        is_best = again && again->description.error.mean < filled.description.error.mean;
+        if (!is_best) break;
+        filled = std::move(*again);
+    }
+    if (!is_best) prepare(filled, index_);
+    if (progress_ && !progress_(1, "accuracy")) throw_cancelled();
+}
+
+// Nothing if there is no edge that would make paths more exact, or no room for more table entries.
+std::optional<FinerSurface> Rounds::finer_surface(const SplitSurface& surface, double error,
+                                                  Workers& workers) const {
+    workers.begin_stage("finer borders", 1);
+    if (!can_be_cut(surface.mesh)) return std::nullopt;
+    const auto sources = choosing_sources(options_.seed, vertex_count_);
+    const auto edges = border_edges(surface.mesh, surface.hierarchy.leaf_of_face, sources, workers);
+    const size_t wanted = count_for_share(edges, share_to_cut(error, options_.target_error));
+    return cut_what_fits(surface, std::span(edges).first(wanted), workers);
+}
+
+// Cuts all of these edges or, if that gives too many table entries, about as many as possible, from the first
+// one on. Where this is less than an eighth of them, none.
+std::optional<FinerSurface> Rounds::cut_what_fits(const SplitSurface& surface,
+                                                  std::span<const BorderEdge> edges, Workers& workers) const {
+    const auto cut = [&](size_t count) {
+        return with_finer_borders(surface.mesh, surface.hierarchy, edges.first(count));
+    };
+    if (edges.empty()) return std::nullopt;
+    if (FinerSurface all = cut(edges.size()); fits(all, workers)) return all;
+    size_t count = 0, too_many = edges.size();
+    while (too_many - count > edges.size() / 32 + 1) {
+        const size_t middle = (count + too_many) / 2;
+        (fits(cut(middle), workers) ? count : too_many) = middle;
+    }
+    if (count == 0 || count < edges.size() / 8) return std::nullopt;
+    return cut(count);
+}
+
+bool Rounds::fits(const FinerSurface& surface, Workers& workers) const {
+    const auto entries = unless_over_limit([&] {
+        return filling_.count_entries({surface.mesh, surface.hierarchy}, workers);
+    });
+    return entries && *entries <= most_entries_;
+}
+
+}
