@@ -144,6 +144,7 @@ class ReaderTest(unittest.TestCase):
                 off = excess(subject.msad_by_library(several), subject.msad_by_reader(several))
                 self.assertLessEqual(numpy.abs(off).max(initial=0), TOLERANCE)
         self.check_pairs(subject, self.pairs(subject, random))
+        return subject.index
 
     def pairs(self, subject, random):
         """Some anywhere, and some that are near each other."""
@@ -165,10 +166,19 @@ class ReaderTest(unittest.TestCase):
     def procedural(self, name, *options):
         mesh = FOLDER / "procedural.off"
         write_procedural(mesh)
-        self.check(mesh, f"procedural_{name}", "--patches", "4,3", *options)
+        return self.check(mesh, f"procedural_{name}", "--patches", "4,3", *options)
 
     def test_overlay_engine(self):
         self.procedural("overlay", "--engine", "overlay")
+
+    def test_added_vertices(self):
+        named = {}
+        for target_error in ("0", "1e-9"):
+            index = self.procedural("added", "--target-error", target_error)
+            named[target_error] = (len(set(index.number_of_id.tolist()) - {NONE}), index.vertex_count)
+        self.assertEqual(named["0"][0], named["0"][1])
+        self.assertEqual(named["1e-9"][0], named["0"][0])
+        self.assertGreater(named["1e-9"][1], named["1e-9"][0])
 
     def test_overlay_engine_without_segments(self):
         self.procedural("edges", "--engine", "overlay", "--metric", "edges")

@@ -24,6 +24,7 @@ struct BuildArguments {
     FileForm form;
     uint32_t exact_vertices = 0;
     double rounding = 0;
+    double target_error = 0;
     double delta = 0;
     uint32_t levels = 0;
     std::vector<uint32_t> patches;
@@ -46,6 +47,7 @@ geoidx_build_options build_options(const BuildArguments& arguments, ProgressBar&
     options.engine = engine_of_name(arguments.engine);
     options.exact_vertices = arguments.exact_vertices;
     options.rounding = arguments.rounding;
+    options.target_error = arguments.target_error;
     options.delta = arguments.delta;
     options.seed = arguments.seed;
     options.threads = arguments.threads;
@@ -102,6 +104,11 @@ void add_shape_options(CLI::App& command, BuildArguments& arguments) {
                     "of the overlay engine: what distances are rounded to, as a share of the way from a "
                     "vertex to the next; 0: 16 bits")
         ->capture_default_str();
+    command
+        .add_option("--target-error", arguments.target_error,
+                    "of the overlay engine: mean error, as a share, above which vertices are added to the "
+                    "borders of patches; 0: never")
+        ->capture_default_str();
     add_form_options(command, arguments.form);
     command.add_option("--delta", arguments.delta, "pruning threshold, % of the bounding-box diagonal")
         ->capture_default_str();
@@ -130,6 +137,7 @@ void add_build(CLI::App& app) {
     arguments->seed = defaults.seed;
     arguments->exact_vertices = defaults.exact_vertices;
     arguments->rounding = defaults.rounding;
+    arguments->target_error = defaults.target_error;
     arguments->engine = ENGINE_NAMES[defaults.engine];
 
     CLI::App* command = app.add_subcommand("build", "build the index of a mesh");

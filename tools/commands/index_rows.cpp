@@ -51,6 +51,7 @@ std::vector<IndexRow> general_rows(const geoidx_info& info, const std::string& p
         {"level_count", "levels", std::to_string(info.level_count)},
         {"patch_count", "patches per level", json ? "[" + patches + "]" : patches},
         {"border_vertex_count", "border vertices", std::to_string(info.border_vertex_count)},
+        {"added_vertex_count", "added vertices", std::to_string(info.added_vertex_count)},
         {"table_entries", "table entries", std::to_string(info.table_entries)},
         {"delta", "delta (% of diagonal)", printed(info.delta)},
         {"seed", "seed", std::to_string(info.seed)},
