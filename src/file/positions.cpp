@@ -38,8 +38,8 @@ std::vector<uint32_t> all_numbers(const StoredIndex& stored) {
     return numbers;
 }
 
-// Per number, the lowest id of the caller's that has it, which is the one that the others were welded to. NONE
-// for an added vertex.
+// Per number, the lowest id of the caller's that has it, which is the one that the others were welded to.
+// NONE for an added vertex.
 std::vector<uint32_t> lowest_ids(const StoredIndex& stored) {
     std::vector<uint32_t> lowest(stored.positions.size(), NONE);
     for (size_t id = stored.number_of_id.size(); id-- > 0;)
@@ -62,8 +62,9 @@ std::vector<uint32_t> differences_of(const StoredIndex& stored, std::span<const 
     std::array<int32_t, 3> last{};
     for (const uint32_t number : numbers)
         for (size_t k = 0; k < 3; ++k)
-            differences.push_back(folded(static_cast<uint32_t>(stored.positions[number][k]) -
-                                         static_cast<uint32_t>(std::exchange(last[k], stored.positions[number][k]))));
+            differences.push_back(
+                folded(static_cast<uint32_t>(stored.positions[number][k]) -
+                       static_cast<uint32_t>(std::exchange(last[k], stored.positions[number][k]))));
     return differences;
 }
 

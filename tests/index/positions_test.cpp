@@ -135,8 +135,10 @@ TEST_CASE("no positions: an index whose tables are rounded, of two parts, is the
     check_round_trip(rounded(), rounded_mesh());
 }
 
-TEST_CASE("no positions: the section has its 36 bytes, and the file is as much shorter") {
+TEST_CASE("no positions: the section has 36 bytes and the added vertices, and the file is as much shorter") {
     const auto built = build(small_mesh(), options_of(GEOIDX_ENGINE_OVERLAY));
+    const uint64_t added = info_of(built.get()).added_vertex_count;
+    CHECK(added > 0);
     std::map<std::string, uint64_t> sizes[2];
     for (uint32_t flags : {NONE_LEFT_OUT, NO_POSITIONS}) {
         const auto opened = open(save(built.get(), GEOIDX_CODEC_PACKED, flags), small_mesh());
@@ -146,8 +148,8 @@ TEST_CASE("no positions: the section has its 36 bytes, and the file is as much s
         REQUIRE(count == 10);
         for (const geoidx_section& section : sections) sizes[flags][section.tag] = section.raw_size;
     }
-    CHECK(sizes[NO_POSITIONS]["POSI"] == 36);
-    CHECK(sizes[NONE_LEFT_OUT]["POSI"] == 36 + 12 * uint64_t{small_mesh().vertex_count()});
+    CHECK(sizes[NO_POSITIONS]["POSI"] == 36 + 12 * added);
+    CHECK(sizes[NONE_LEFT_OUT]["POSI"] == 36 + 12 * (small_mesh().vertex_count() + added));
     for (const auto& [tag, size] : sizes[0])
         if (tag != "POSI") CHECK(sizes[NO_POSITIONS][tag] == size);
 }
@@ -279,9 +281,10 @@ TEST_CASE("no positions: what contradicts the format is refused with the mesh, a
     check_corrupt(104, "POSI", [&](TakenApart& parts) { parts.coordinates.resize(3 * vertices - 3); });
     check_corrupt(104, "POSI", [&](TakenApart& parts) { parts.coordinates.resize(3 * vertices); });
     check_corrupt(104, "POSI", [](TakenApart& parts) { parts.missing_tag = TAG_POSITIONS; });
-    // A number that no id has has no position.
+    // A number that no id has is an added vertex, whose position is not there.
     check_corrupt(104, "POSI", [](TakenApart& parts) { parts.number_of_id[5] = parts.number_of_id[6]; });
-    for (uint64_t count : {uint64_t{vertices} + 1, uint64_t{1} << 32, UINT64_MAX})
+    check_corrupt(104, "POSI", [&](TakenApart& parts) { parts.vertex_count = vertices + 1; });
+    for (uint64_t count : {uint64_t{UINT32_MAX}, uint64_t{1} << 32, UINT64_MAX})
         check_corrupt(103, "VERT", [&](TakenApart& parts) { parts.vertex_count = count; });
 }
 
