@@ -89,11 +89,8 @@ uint32_t number_outer_rows(const Numbering& numbering, uint32_t patch, HopTables
 std::vector<uint16_t> number_kept_vertices(const Numbering& numbering, HopTables& hops) {
     std::vector<uint16_t> count(numbering.patch_count(), 0);
     hops.kept_number.assign(numbering.border.size(), 0);
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
-        for (uint32_t i = 0; i < numbering.overlay_size(p); ++i) {
-            const uint32_t slot = kept_slot(numbering, p, i);
-            hops.kept_number[slot] = count[numbering.patch_of_slot[slot]]++;
-        }
+    for_each_kept(numbering,
+                  [&](uint32_t slot) { hops.kept_number[slot] = count[numbering.patch_of_slot[slot]]++; });
     return count;
 }
 
@@ -167,26 +164,33 @@ void write_rows(const OverlayIndex& index, uint32_t patch, uint32_t count, std::
     }
 }
 
-// Writes the outer table of a patch and its kept one.
-void write_outer_tables(const OverlayIndex& index, const OverlaySquare& of_parent, uint32_t patch,
-                        const HopParts<uint16_t>& parts) {
+void write_outer_table(const OverlayIndex& index, const OverlaySquare& of_parent, uint32_t patch,
+                       std::span<uint16_t> outer) {
     const Numbering& numbering = index.numbering;
-    const uint32_t parent = numbering.parent[patch], first = numbering.border_begin[patch],
-                   size = numbering.border_size(patch) > 0 ? numbering.overlay_size(parent) : 0;
-    const std::span<const uint32_t> overlay_position{numbering.overlay_position.data() + first,
-                                                     numbering.border_size(patch)};
-    std::vector<uint32_t> outside, kept;
-    for (uint32_t i = 0; i < size; ++i) {
+    const uint32_t border = numbering.border_size(patch),
+                   size = border > 0 ? numbering.overlay_size(numbering.parent[patch]) : 0;
+    std::vector<uint32_t> outside;
+    for (uint32_t i = 0; i < size; ++i)
         if (index.outer_row(patch, i)) outside.push_back(i);
-        if (numbering.patch_of_slot[kept_slot(numbering, parent, i)] == patch) kept.push_back(i);
-    }
     write_rows(
-        index, patch, static_cast<uint32_t>(outside.size()), overlay_position,
-        [&](uint32_t i) { return of_parent.row(outside[i]); },
-        parts.outer.data() + index.hops.outer_begin[patch]);
-    uint16_t* code = parts.kept.data() + index.hops.kept_begin[patch];
-    for (size_t i = 0; i < kept.size(); ++i)
-        for (size_t j = 0; j < i; ++j) *code++ = of_parent.row(kept[i])[kept[j]];
+        index, patch, static_cast<uint32_t>(outside.size()),
+        {numbering.overlay_position.data() + numbering.border_begin[patch], border},
+        [&](uint32_t i) { return of_parent.row(outside[i]); }, outer.data() + index.hops.outer_begin[patch]);
+}
+
+// All vertices that a patch keeps are on its border.
+void write_kept_table(const OverlayIndex& index, const OverlaySquare& of_parent, uint32_t patch,
+                      std::span<uint16_t> kept) {
+    const Numbering& numbering = index.numbering;
+    std::vector<uint32_t> vertices; // in the order of the overlay, which is that of their numbers
+    for (uint32_t slot = numbering.border_begin[patch]; slot < numbering.border_begin[patch + 1]; ++slot) {
+        const uint32_t position = numbering.overlay_position[slot];
+        if (kept_slot(numbering, numbering.parent[patch], position) == slot) vertices.push_back(position);
+    }
+    std::ranges::sort(vertices);
+    uint16_t* code = kept.data() + index.hops.kept_begin[patch];
+    for (size_t i = 0; i < vertices.size(); ++i)
+        for (size_t j = 0; j < i; ++j) *code++ = of_parent.row(vertices[i])[vertices[j]];
 }
 
 // 0, 1, 2 ...
@@ -220,7 +224,8 @@ public:
         }
         for (uint32_t child = numbering_.child_begin[patch]; child < numbering_.child_begin[patch + 1];
              ++child) {
-            write_outer_tables(index_, square, child, parts_);
+            write_outer_table(index_, square, child, parts_.outer);
+            write_kept_table(index_, square, child, parts_.kept);
             if (child < numbering_.first_leaf()) write(child, &square);
         }
     }

@@ -21,9 +21,7 @@ uint64_t outer_and_inner(const OverlayIndex& index, uint32_t patch) {
 // The size of all kept tables.
 uint64_t kept(const Numbering& numbering) {
     std::vector<uint64_t> count(numbering.patch_count(), 0);
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
-        for (uint32_t i = 0; i < numbering.overlay_size(p); ++i)
-            ++count[numbering.patch_of_slot[kept_slot(numbering, p, i)]];
+    for_each_kept(numbering, [&](uint32_t slot) { ++count[numbering.patch_of_slot[slot]]; });
     uint64_t codes = 0;
     for (const uint64_t vertices : count) codes += triangle_size(vertices);
     return codes;

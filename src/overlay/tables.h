@@ -126,6 +126,13 @@ inline uint32_t kept_slot(const Numbering& numbering, uint32_t patch, uint32_t o
     return slots[(first + last) % slots.size()];
 }
 
+// Calls use(slot) with that slot for each vertex of each overlay, in the order of the overlays.
+template <class Use>
+void for_each_kept(const Numbering& numbering, const Use& use) {
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
+        for (uint32_t i = 0; i < numbering.overlay_size(p); ++i) use(kept_slot(numbering, p, i));
+}
+
 // What the overlay engine answers from.
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
