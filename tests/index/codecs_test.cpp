@@ -13,6 +13,7 @@
 #include "src/overlay/codes.h"
 #include "tests/capi/calls.h"
 #include "tests/capi/refusals.h"
+#include "tests/index/changed_section.h"
 #include "tests/index/told_issues.h"
 
 using namespace geodesic;
@@ -66,15 +67,7 @@ void check_same_answers(const geoidx* a, const geoidx* b, uint32_t count) {
 
 // The packed file with the raw bytes of one section of tables changed.
 geoidx_status status_with(uint32_t changed, const std::function<void(Bytes&)>& change) {
-    const Bytes file = file_of(rounded(), GEOIDX_CODEC_PACKED);
-    const auto container = format::Container::parse(file, INDEX_TAGS);
-    format::ContainerWriter writer(container.mesh_fingerprint());
-    for (const format::Section& section : container.sections()) {
-        Bytes raw = container.read_bytes(section.tag, UINT64_MAX);
-        if (section.tag == changed) change(raw);
-        writer.add_bytes(section.tag, raw);
-    }
-    const Bytes bytes = writer.finish();
+    const Bytes bytes = with_changed_section(file_of(rounded(), GEOIDX_CODEC_PACKED), changed, change);
     geoidx* index = nullptr;
     const geoidx_status status = geoidx_open_memory(bytes.data(), bytes.size(), nullptr, &index);
     geoidx_close(index);

@@ -13,6 +13,7 @@
 #include "tests/capi/calls.h"
 #include "tests/capi/counting_allocator.h"
 #include "tests/capi/refusals.h"
+#include "tests/index/changed_section.h"
 #include "tests/index/told_issues.h"
 
 using namespace geodesic;
@@ -66,14 +67,7 @@ geoidx_open_options open_options(uint32_t flags = 0) {
 
 // The file with one section changed, as it is stored.
 Bytes with_section(uint32_t changed, const std::function<void(Bytes&)>& change) {
-    const auto container = format::Container::parse(mapped(), INDEX_TAGS);
-    format::ContainerWriter writer(container.mesh_fingerprint(), format::Packing::None);
-    for (const format::Section& section : container.sections()) {
-        Bytes raw = container.read_bytes(section.tag, UINT64_MAX);
-        if (section.tag == changed) change(raw);
-        writer.add_bytes(section.tag, raw);
-    }
-    return writer.finish();
+    return with_changed_section(mapped(), changed, change, format::Packing::None);
 }
 
 void set_code(Bytes& raw, size_t index, uint16_t code) {

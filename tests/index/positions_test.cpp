@@ -12,6 +12,7 @@
 #include "src/index/section_tags.h"
 #include "tests/capi/calls.h"
 #include "tests/capi/refusals.h"
+#include "tests/index/changed_section.h"
 #include "tests/index/taken_apart.h"
 #include "tests/index/told_issues.h"
 #include "tests/support/temporary_directory.h"
@@ -307,14 +308,7 @@ TEST_CASE("no positions: verify sees the sizes of packed tables, but not every e
     const Bytes file = save(rounded(), GEOIDX_CODEC_PACKED, NO_POSITIONS);
     const geoidx_mesh view = rounded_mesh().view();
     const auto changed = [&](const std::function<void(Bytes&)>& change) {
-        const auto container = format::Container::parse(file, INDEX_TAGS);
-        format::ContainerWriter writer(container.mesh_fingerprint());
-        for (const format::Section& section : container.sections()) {
-            Bytes raw = container.read_bytes(section.tag, UINT64_MAX);
-            if (section.tag == TAG_INTERNAL_TABLES) change(raw);
-            writer.add_bytes(section.tag, raw);
-        }
-        return writer.finish();
+        return with_changed_section(file, TAG_INTERNAL_TABLES, change);
     };
     CHECK(open_status(changed([](Bytes&) {}), view) == GEOIDX_OK);
     for (const auto& change : std::initializer_list<std::function<void(Bytes&)>>{
