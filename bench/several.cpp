@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "bench/commands.h"
 #include "bench/report.h"
@@ -48,41 +51,112 @@ struct Bench {
     }
 };
 
-// The vertices around the first source, of which it takes as many.
-std::vector<uint32_t> cluster(Bench& bench, uint32_t center, uint32_t count, std::mt19937_64& random) {
-    bench.ask({center});
-    std::vector<uint32_t> vertices(bench.field.size());
+enum class Arrangement { anywhere, together, circle, line };
+
+constexpr std::pair<Arrangement, const char*> ARRANGEMENTS[] = {{Arrangement::anywhere, "anywhere"},
+                                                                {Arrangement::together, "together"},
+                                                                {Arrangement::circle, "on a circle"},
+                                                                {Arrangement::line, "on a line"}};
+
+// The vertices that a field reaches, in ascending order of its distances.
+std::vector<uint32_t> in_order(const std::vector<float>& field) {
+    std::vector<uint32_t> vertices(field.size());
     std::iota(vertices.begin(), vertices.end(), 0u);
-    std::ranges::sort(vertices, {}, [&](uint32_t v) { return bench.field[v]; });
+    std::erase_if(vertices, [&](uint32_t v) { return std::isinf(field[v]); });
+    std::ranges::sort(vertices, {}, [&](uint32_t v) { return field[v]; });
+    return vertices;
+}
+
+// Those around a vertex.
+std::vector<uint32_t> together(Bench& bench, uint32_t center, uint32_t count, std::mt19937_64& random) {
+    bench.ask({center});
+    std::vector<uint32_t> vertices = in_order(bench.field), sources;
     vertices.resize(std::min(vertices.size(), size_t{CLUSTER} * count));
-    std::vector<uint32_t> sources;
     for (uint32_t i = 0; i < count; ++i) sources.push_back(vertices[random() % vertices.size()]);
     return sources;
 }
 
-Row several_row(Bench& bench, uint32_t count, bool is_cluster) {
+// Those that are nearly equally far from a vertex.
+std::vector<uint32_t> on_circle(Bench& bench, uint32_t center, uint32_t count, std::mt19937_64& random) {
+    bench.ask({center});
+    const std::vector<uint32_t> vertices = in_order(bench.field);
+    const size_t taken = std::min(size_t{count}, vertices.size());
+    const size_t first = random() % (vertices.size() - taken + 1);
+    return {vertices.data() + first, vertices.data() + first + taken};
+}
+
+// Those beside a path from a vertex to the farthest one.
+std::vector<uint32_t> on_line(Bench& bench, uint32_t end, uint32_t count) {
+    bench.ask({end});
+    std::vector<float> sum = bench.field;
+    bench.ask({in_order(bench.field).back()});
+    for (size_t v = 0; v < sum.size(); ++v) sum[v] += bench.field[v];
+    std::vector<uint32_t> vertices = in_order(sum);
+    vertices.resize(std::min(vertices.size(), size_t{count}));
+    return vertices;
+}
+
+std::vector<uint32_t> sources_of(Bench& bench, Arrangement where, uint32_t count, uint64_t seed,
+                                 std::mt19937_64& random) {
+    const uint32_t drawn = where == Arrangement::anywhere ? count : 1;
+    const std::vector<uint32_t> sources = random_sources(bench.solver, bench.model, drawn, seed);
+    switch (where) {
+    case Arrangement::together:
+        return together(bench, sources[0], count, random);
+    case Arrangement::circle:
+        return on_circle(bench, sources[0], count, random);
+    case Arrangement::line:
+        return on_line(bench, sources[0], count);
+    default:
+        return sources;
+    }
+}
+
+// The least answers of the single sources.
+std::vector<float> least_of_each(Bench& bench, const std::vector<uint32_t>& sources) {
+    std::vector<float> least(bench.field.size(), std::numeric_limits<float>::infinity());
+    for (const uint32_t source : sources) {
+        bench.ask({source});
+        for (size_t v = 0; v < least.size(); ++v) least[v] = std::min(least[v], bench.field[v]);
+    }
+    return least;
+}
+
+// By how much an answer is worse than another one, relative to the exact distance.
+double loss(double answer, double other, double exact) {
+    if (!(exact > 0) || std::isinf(exact)) return 0;
+    return (std::abs(answer - exact) - std::abs(other - exact)) / exact;
+}
+
+Row several_row(Bench& bench, uint32_t count, const std::pair<Arrangement, const char*>& where) {
     std::mt19937_64 random(SEED + count);
     std::vector<Duration> overlay, from_scratch;
     ErrorSample errors;
+    double largest_loss = 0;
     for (uint32_t round = 0; round < ROUNDS; ++round) {
-        std::vector<uint32_t> sources = random_sources(bench.solver, bench.model, is_cluster ? 1 : count,
-                                                       SEED + uint64_t{count} * ROUNDS + round);
-        if (is_cluster) sources = cluster(bench, sources.front(), count, random);
+        const std::vector<uint32_t> sources =
+            sources_of(bench, where.first, count, SEED + uint64_t{count} * ROUNDS + round, random);
+        const std::vector<float> least = least_of_each(bench, sources);
         bench.ask(sources);
         overlay.push_back(time_of([&] { bench.ask(sources); }));
         from_scratch.push_back(time_of([&] { bench.compute(sources); }));
-        for (size_t v = 0; v < bench.field.size(); ++v) errors.add(double{bench.field[v]}, bench.exact[v]);
+        for (size_t v = 0; v < bench.field.size(); ++v) {
+            errors.add(double{bench.field[v]}, bench.exact[v]);
+            largest_loss =
+                std::max(largest_loss, loss(double{bench.field[v]}, double{least[v]}, bench.exact[v]));
+        }
     }
     const double seconds = median(overlay).wall;
     const ErrorSummary error = errors.relative();
-    return {{"where", "where", is_cluster ? "together" : "anywhere"},
+    return {{"where", "where", where.second},
             {"sources", "sources", uint64_t{count}},
             {"msad_ms", "MSAD ms", 1e3 * seconds},
             {"msad_ns_per_vertex", "ns/vertex", 1e9 * seconds / static_cast<double>(bench.field.size())},
             {"exact_ms", "exact ms", 1e3 * median(from_scratch).wall},
             {"mean_percent", "mean %", 100 * error.mean},
             {"p999_percent", "p99.9 %", 100 * error.p999},
-            {"max_percent", "max %", 100 * error.max}};
+            {"max_percent", "max %", 100 * error.max},
+            {"loss_percent", "worse than the single ones by %", 100 * largest_loss}};
 }
 
 void several(const SeveralArguments& arguments) {
@@ -97,9 +171,10 @@ void several(const SeveralArguments& arguments) {
     const size_t count = model.mesh.vertex_count();
     Bench bench{model, *query, *solver, std::vector<float>(count), std::vector<double>(count)};
     Table table{"several_sources", "MSAD of several sources", {}};
-    for (const bool is_cluster : {false, true})
+    for (const auto& where : ARRANGEMENTS)
         for (const uint32_t sources : arguments.counts)
-            if (sources > 1 || !is_cluster) table.rows.push_back(several_row(bench, sources, is_cluster));
+            if (sources > 1 || where.first == Arrangement::anywhere)
+                table.rows.push_back(several_row(bench, sources, where));
     report.add(table);
 }
 

@@ -9,18 +9,6 @@
 
 namespace geodesic {
 
-// The vertices that a hop leads to, each with a row of a table.
-struct HopTargets {
-    Rows rows;
-    float quantum;           // of the rows
-    const uint32_t* numbers; // of the vertices; NULL if they are consecutive
-    uint32_t first;          // the number of the first one
-
-    uint32_t operator[](size_t row) const {
-        return numbers ? numbers[row] : first + static_cast<uint32_t>(row);
-    }
-};
-
 // The distances of a source from the places of one ring, prepared for the kernels that hop from it. The
 // object is used for one border after the other.
 class BorderField {

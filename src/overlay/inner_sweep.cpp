@@ -61,19 +61,8 @@ std::span<float> InnerSweep::cross() {
     return result();
 }
 
-std::span<float> InnerSweep::cross(uint16_t* winners) {
-    begin_from(0);
-    field_.cross(rows(), result_.data(), winners);
-    field_.cross_near(rows(), result_.data());
-    return result();
-}
-
 std::span<float> InnerSweep::result() {
     return std::span(result_).first(numbering_.inner_size(patch_) * sources_);
-}
-
-HopTargets InnerSweep::targets() {
-    return {rows(), index_.quantum[patch_], nullptr, numbering_.first_inner(patch_)};
 }
 
 // Prepares the border for one of the sources. Returns whether that source reaches it.

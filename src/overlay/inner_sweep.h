@@ -21,8 +21,8 @@ public:
     // Chooses the patch and reads the distances of its border, distances[number * sources + i] from the i-th
     // source. Returns whether there is anything to hop to: not if the patch has no inner vertices, if no
     // source reaches its border, or if its whole border lies beyond the radius of every source.
-    bool begin(uint32_t patch, const float* distances) {
-        return begin(patch, distances, segments_from(rings_, rings_.begin[patch]), INFINITE);
+    bool begin(uint32_t patch, const float* distances, float radius = INFINITE) {
+        return begin(patch, distances, segments_from(rings_, rings_.begin[patch]), radius);
     }
     // Does the same with other segments, which must stay valid until the hop is done.
     bool begin(uint32_t patch, const float* distances, const RingSegments& segments, float radius);
@@ -33,14 +33,6 @@ public:
 
     // Does the same, but returns the distances, which stay valid until the next hop.
     std::span<float> cross();
-
-    // Does the same for one source, straightened instead of over middles, which is slower, and tells over
-    // which place of the ring each way leads (see the winners of Kernels).
-    std::span<float> cross(uint16_t* winners);
-
-    // The inner vertices of that patch, with the rows of its inner table. They stay valid until the next
-    // begin().
-    HopTargets targets();
 
 private:
     Rows rows();

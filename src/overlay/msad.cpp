@@ -8,31 +8,11 @@
 namespace geodesic {
 
 OverlayMsad::Scratch::Scratch(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : sweep(index, 1, memory), border_sources(index, memory),
-      near(index, std::max(index.numbering.largest_overlay_size(), index.numbering.largest_inner_size()),
-           memory),
-      near_sources(index, memory), near_vertices(memory),
-      source(std::max(index.numbering.largest_overlay_size(), index.numbering.largest_inner_size()), memory),
-      winners(source.size(), memory) {}
-
-void OverlayMsad::Scratch::begin() {
-    near.reserve();
-    near_sources.clear();
-}
-
-// Finds the source of each way of a hop. With of_each, the source of each way is that of its winner.
-// Otherwise all ways have any one source: the border has only one, or the targets are internal vertices,
-// whose sources nobody reads.
-void OverlayMsad::Scratch::find_sources(size_t rows, bool of_each) {
-    for (size_t r = 0; r < rows; ++r)
-        source[r] = !of_each                                   ? border_sources.any()
-                    : winners[r] == BorderFromSource::NO_PLACE ? NONE
-                                                               : border_sources.at(winners[r]);
-}
+    : sweep(index, 1, memory), own(index, memory) {}
 
 OverlayMsad::OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), up_(index, memory), top_(index, memory), of_thread_(memory),
-      sources_inside_(memory), nearest_source_(memory) {
+      sources_inside_(memory), nearest_(index.numbering, memory) {
     set_threads(1);
 }
 
@@ -42,91 +22,58 @@ void OverlayMsad::set_threads(uint32_t count) {
 }
 
 void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
-    nearest_source_.resize(numbering_.border_vertex_count());
-    top_.begin();
-    for (Scratch& scratch : of_thread_) scratch.begin();
+    nearest_.clear();
     std::ranges::fill(distance, INFINITE);
-    for (uint32_t source : sources) start_from(source, distance);
-    for (uint32_t source : sources) look_around(source, distance);
+    for (const uint32_t source : sources)
+        for_each_way_from(index_, source, [&](uint32_t number, float way) {
+            distance[number] = std::min(distance[number], way);
+            if (numbering_.is_border(number)) nearest_.add(number, {way, source});
+        });
     count_sources(numbering_, sources, sources_inside_);
     ascend(numbering_, sources_inside_, [&](uint32_t child) { hop_up(child, distance); });
     descend_everywhere(numbering_, top_, std::span(of_thread_),
                        [&](uint32_t patch, Scratch& scratch) { hop_down(patch, radius, distance, scratch); });
 }
 
-void OverlayMsad::start_from(uint32_t source, std::span<float> distance) {
-    for_each_way_from(index_, source, [&](uint32_t number, float way) {
-        if (way >= distance[number]) return;
-        distance[number] = way;
-        if (numbering_.is_border(number)) nearest_source_[number] = source;
-    });
+bool OverlayMsad::is_within(uint32_t source, uint32_t patch) const {
+    return numbering_.is_within(numbering_.innermost_patch(source), patch);
 }
 
-void OverlayMsad::look_around(uint32_t source, std::span<const float> distance) {
-    for_each_way_from(index_, source, [&](uint32_t number, float way) {
-        if (numbering_.is_border(number)) top_.near_sources.add({source, number, way}, distance[number]);
-    });
-}
-
-// Hops to the overlay of the parent. The child's border keeps the distances it has.
+// Hops from the sources inside of a child to the overlay of its parent. The child's border keeps the
+// distances it has.
 void OverlayMsad::hop_up(uint32_t child, std::span<float> distance) {
-    top_.border_sources.read(child, distance.data(), nearest_source_.data());
-    if (!up_.begin(child, {distance.data()}, top_.border_sources.segments())) return;
-    const std::span<float> found = up_.cross(top_.winners.data());
-    top_.find_sources(found.size(), true);
-    const NearCrossing::Ways ways{up_.targets(), found, top_.source.data()};
-    cross_near(child, true, ways, top_);
-    take_lesser(ways, distance);
+    const auto is_inside = [&](uint32_t source) { return is_within(source, child); };
+    top_.own.for_each_source(child, nearest_, distance.data(), is_inside, [&](float* from, uint32_t source) {
+        if (!up_.begin(child, {from})) return;
+        const std::span<const float> found = up_.cross();
+        const std::span<const uint32_t> targets = up_.targets();
+        for (size_t r = 0; r < found.size(); ++r) {
+            float& known = distance[targets[r]];
+            known = std::min(known, found[r]);
+            add_way(targets[r], found[r], source);
+        }
+    });
 }
 
-// Hops to the inner vertices of a patch. A patch that contains all sources has their distances already.
+// Hops from the sources outside of a patch to its inner vertices. A source that is inside has all of its
+// distances there already. Nobody asks which source is the nearest to a vertex inside of a leaf.
 void OverlayMsad::hop_down(uint32_t patch, float radius, std::span<float> distance, Scratch& scratch) {
     if (sources_inside_[patch] == sources_inside_[0]) return;
-    BorderSources& border_sources = scratch.border_sources;
-    border_sources.read(patch, distance.data(), nearest_source_.data());
-    if (!scratch.sweep.begin(patch, distance.data(), border_sources.segments(), radius)) return;
-    const bool of_each = border_sources.are_several() && patch < numbering_.first_leaf();
-    const std::span<float> found =
-        of_each ? scratch.sweep.cross(scratch.winners.data()) : scratch.sweep.cross();
-    scratch.find_sources(found.size(), of_each);
-    const NearCrossing::Ways ways{scratch.sweep.targets(), found, scratch.source.data()};
-    cross_near(patch, false, ways, scratch);
-    take_lesser(ways, distance);
-}
-
-// Where the vertices of a border have different nearest sources, lets each source that is close to the border
-// cross it by itself. Also records which targets are close to their source.
-void OverlayMsad::cross_near(uint32_t patch, bool from_inside, const NearCrossing::Ways& ways,
-                             Scratch& scratch) const {
-    const auto learn = [&](uint32_t source, size_t row, float distance) {
-        if (const uint32_t number = ways.targets[row]; numbering_.is_border(number))
-            scratch.near_sources.add({source, number, distance}, ways.distance[row]);
+    const uint32_t first = numbering_.first_inner(patch);
+    const auto is_outside = [&](uint32_t source) { return !is_within(source, patch); };
+    const auto hop = [&](const float* from, uint32_t source) {
+        if (!scratch.sweep.begin(patch, from, radius)) return;
+        const std::span<const float> found = scratch.sweep.cross();
+        float* const inside = distance.data() + first;
+        for (size_t r = 0; r < found.size(); ++r) inside[r] = std::min(inside[r], found[r]);
+        if (patch >= numbering_.first_leaf()) return;
+        for (uint32_t r = 0; r < found.size(); ++r) add_way(first + r, found[r], source);
     };
-    if (!scratch.border_sources.are_several()) {
-        if (!from_inside && patch >= numbering_.first_leaf()) return;
-        for (size_t r = 0; r < ways.distance.size(); ++r)
-            if (ways.distance[r] < INFINITE) learn(ways.source[r], r, ways.distance[r]);
-        return;
-    }
-    Array<NearVertex>& vertices = scratch.near_vertices;
-    vertices.clear();
-    top_.near_sources.collect(patch, vertices);
-    if (&scratch != &top_) scratch.near_sources.collect(patch, vertices);
-    std::erase_if(vertices, [&](const NearVertex& v) {
-        return numbering_.is_within(numbering_.innermost_patch(v.source), patch) != from_inside;
-    });
-    scratch.near.cross(patch, vertices, ways, nearest_source_.data(), learn);
+    scratch.own.for_each_source(patch, nearest_, distance.data(), is_outside, hop);
 }
 
-// Keeps the lesser of the known distance and the one that a hop found. The nearest source of vertices inside
-// a leaf is not recorded, because nobody asks for it.
-void OverlayMsad::take_lesser(const NearCrossing::Ways& ways, std::span<float> distance) {
-    for (size_t r = 0; r < ways.distance.size(); ++r) {
-        const uint32_t number = ways.targets[r];
-        if (ways.distance[r] >= distance[number]) continue;
-        distance[number] = ways.distance[r];
-        if (numbering_.is_border(number)) nearest_source_[number] = ways.source[r];
-    }
+void OverlayMsad::add_way(uint32_t border_vertex, float distance, uint32_t source) {
+    if (distance < INFINITE) nearest_.add(border_vertex, {distance, source});
 }
 
 }

@@ -2,17 +2,17 @@
 
 #include <span>
 
-#include "src/overlay/border_sources.h"
 #include "src/overlay/inner_sweep.h"
-#include "src/overlay/near_sources.h"
+#include "src/overlay/nearest_sources.h"
 #include "src/overlay/outer_crossing.h"
+#include "src/overlay/own_distances.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic {
 
 // Distances to the nearest of multiple sources, for all destinations over overlay tables, by one sweep up
-// from all sources and one sweep down to all leaves. The sweeps also carry which source each border vertex is
-// nearest to. Vertices are given by their numbers.
+// from all sources and one sweep down to all leaves. Each source crosses by itself the borders on which it
+// may be the nearest one. Vertices are given by their numbers.
 class OverlayMsad {
 public:
     OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory);
@@ -28,24 +28,15 @@ private:
     // What one thread works with.
     struct Scratch {
         Scratch(const OverlayIndex& index, std::pmr::memory_resource* memory);
-        void begin();
-        void find_sources(size_t rows, bool of_each);
 
         InnerSweep sweep;
-        BorderSources border_sources;
-        NearCrossing near;
-        NearSources near_sources; // border vertices close to a source that this thread found
-        Array<NearVertex> near_vertices;
-        Array<uint32_t> source; // per row of a hop: the source of the way
-        Array<uint16_t> winners;
+        OwnDistances own;
     };
 
-    void start_from(uint32_t source, std::span<float> distance);
-    void look_around(uint32_t source, std::span<const float> distance);
+    bool is_within(uint32_t source, uint32_t patch) const;
     void hop_up(uint32_t child, std::span<float> distance);
     void hop_down(uint32_t patch, float radius, std::span<float> distance, Scratch& scratch);
-    void cross_near(uint32_t patch, bool from_inside, const NearCrossing::Ways& ways, Scratch& scratch) const;
-    void take_lesser(const NearCrossing::Ways& ways, std::span<float> distance);
+    void add_way(uint32_t border_vertex, float distance, uint32_t source);
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
@@ -53,7 +44,7 @@ private:
     Scratch top_; // for the sweep up, and for the patches that are not shared out to threads
     Array<Scratch> of_thread_;
     Array<uint32_t> sources_inside_; // per patch: how many
-    Array<uint32_t> nearest_source_; // by number, of the border vertices that a source reaches
+    NearestSources nearest_;
 };
 
 }

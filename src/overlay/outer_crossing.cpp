@@ -10,7 +10,6 @@ OuterCrossing::OuterCrossing(const OverlayIndex& index, std::pmr::memory_resourc
 }
 
 bool OuterCrossing::begin(uint32_t child, DistanceField distance, const RingSegments& segments) {
-    child_ = child;
     const uint32_t parent = numbering_.parent[child];
     const uint32_t first = rings_.begin[child], places = rings_.size(child);
     const auto border = field_.begin(rings_, first, places, index_.quantum[parent], segments);
@@ -25,14 +24,10 @@ bool OuterCrossing::begin(uint32_t child, DistanceField distance, const RingSegm
     return field_.finish();
 }
 
-std::span<float> OuterCrossing::cross(uint16_t* winners) {
-    field_.cross(rows_, outside_.data(), winners);
+std::span<float> OuterCrossing::cross() {
+    field_.cross(rows_, outside_.data());
     field_.cross_near(rows_, outside_.data());
     return std::span(outside_).first(rows_.size());
-}
-
-HopTargets OuterCrossing::targets() const {
-    return {rows_, index_.quantum[numbering_.parent[child_]], numbers_.data(), 0};
 }
 
 }

@@ -30,18 +30,17 @@ public:
     bool begin(uint32_t child, DistanceField distance, const RingSegments& segments);
 
     // Hops to each vertex of the parent's overlay that is not on the child's own border, whose distances are
-    // known; call it only if begin() returned true. Kernels describes `winners`.
-    std::span<float> cross(uint16_t* winners = nullptr);
+    // known; call it only if begin() returned true.
+    std::span<float> cross();
 
-    // These vertices, with the rows of the outer table.
-    HopTargets targets() const;
+    // The numbers of these vertices.
+    std::span<const uint32_t> targets() const { return numbers_; }
 
 private:
     const OverlayIndex& index_;
     const Numbering& numbering_;
     const Rings& rings_;
     BorderField field_;
-    uint32_t child_ = 0;
     Array<const uint16_t*> rows_;
     Array<uint32_t> numbers_; // per row: of its vertex
     Array<float> outside_;    // per row: the distance

@@ -57,7 +57,7 @@ void OverlaySsad::climb(std::span<const uint32_t> sources, std::span<float> dist
 void OverlaySsad::hop_up(uint32_t child, DistanceField distance) {
     if (!up_.begin(child, distance, segments_of(child))) return;
     const std::span<const float> ways = up_.cross();
-    const HopTargets targets = up_.targets();
+    const std::span<const uint32_t> targets = up_.targets();
     for (size_t r = 0; r < ways.size(); ++r) {
         float& known = distance[targets[r]];
         known = std::min(known, ways[r]);

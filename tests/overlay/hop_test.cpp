@@ -161,10 +161,29 @@ uint32_t position_of(const OverlayIndex& index, uint32_t patch, uint16_t winner)
     return index.rings.position[index.rings.begin[patch] + winner];
 }
 
+// The positions on the border that the ways from a source lead over, to each vertex of the parent's overlay
+// that is not on the border.
+std::vector<uint32_t> crossed_positions(const OverlayIndex& index, uint32_t child, const Field& source) {
+    const Rings& rings = index.rings;
+    const uint32_t first = rings.begin[child], parent = index.numbering.parent[child];
+    std::vector<const uint16_t*> rows;
+    for (uint32_t i = 0; i < index.numbering.overlay_size(parent); ++i)
+        if (const uint16_t* const row = index.outer_row(child, i)) rows.push_back(row);
+    BorderField field(index, std::pmr::get_default_resource());
+    const auto border = field.begin(rings, first, rings.size(child), index.quantum[parent]);
+    for (uint32_t k = 0; k < border.size(); ++k) border[k] = source.distance[rings.vertex[first + k]];
+    REQUIRE(field.finish());
+    std::vector<float> ways(rows.size());
+    std::vector<uint16_t> winners(rows.size());
+    field.cross(rows, ways.data(), winners.data());
+    std::vector<uint32_t> positions;
+    for (const uint16_t winner : winners) positions.push_back(position_of(index, child, winner));
+    return positions;
+}
+
 Tally hop_up(const Built& built) {
     const Numbering& numbering = built.numbering();
     OuterCrossing crossing(built.overlay(), std::pmr::get_default_resource());
-    std::vector<uint16_t> winners(numbering.largest_overlay_size());
     Tally tally;
     for (uint32_t child = 1; child < numbering.patch_count(); ++child) {
         const uint32_t parent = numbering.parent[child];
@@ -184,12 +203,13 @@ Tally hop_up(const Built& built) {
             const bool is_reached = crossing.begin(child, {distance.data()});
             CHECK(is_reached == plain.is_reached());
             if (!is_reached) continue;
-            const auto answers = crossing.cross(winners.data());
+            const auto answers = crossing.cross();
+            const auto crossed = crossed_positions(built.overlay(), child, field);
             REQUIRE(answers.size() == rows.size());
+            REQUIRE(crossed.size() == rows.size());
             for (uint32_t i = 0; i < rows.size(); ++i) {
                 CHECK(crossing.targets()[i] == targets[i]);
-                tally.add(plain.over_vertices(rows[i]), answers[i],
-                          position_of(built.overlay(), child, winners[i]));
+                tally.add(plain.over_vertices(rows[i]), answers[i], crossed[i]);
             }
         }
     }
@@ -230,20 +250,6 @@ Tally hop_down(const Built& built) {
     return tally;
 }
 
-// Over vertices instead of middles.
-Tally hop_down_straightened(const Built& built) {
-    std::vector<uint16_t> winners(built.numbering().largest_inner_size());
-    Tally tally;
-    for_each_hop_down(built, [&](uint32_t patch, const auto& rows, const PlainHop& plain, InnerSweep& sweep) {
-        const auto answers = sweep.cross(winners.data());
-        REQUIRE(answers.size() == rows.size());
-        for (size_t i = 0; i < rows.size(); ++i)
-            tally.add(plain.over_vertices(rows[i]), answers[i],
-                      position_of(built.overlay(), patch, winners[i]));
-    });
-    return tally;
-}
-
 // From AT_ONCE sources side by side, some of which may not reach the border.
 Tally hop_down_at_once(const Built& built) {
     const Numbering& numbering = built.numbering();
@@ -271,8 +277,8 @@ Tally hop_down_at_once(const Built& built) {
 }
 
 struct Tallies {
-    Tally up, down, straightened, at_once;
-    std::array<const Tally*, 4> all() const { return {&up, &down, &straightened, &at_once}; }
+    Tally up, down, at_once;
+    std::array<const Tally*, 3> all() const { return {&up, &down, &at_once}; }
 };
 
 void check_answers(const Tally& tally) {
@@ -282,8 +288,7 @@ void check_answers(const Tally& tally) {
 }
 
 Tallies check_hops(const Built& built) {
-    const Tallies tallies{hop_up(built), hop_down(built), hop_down_straightened(built),
-                          hop_down_at_once(built)};
+    const Tallies tallies{hop_up(built), hop_down(built), hop_down_at_once(built)};
     for (const Tally* tally : tallies.all()) check_answers(*tally);
     return tallies;
 }
@@ -298,7 +303,6 @@ void check_rules_applied(const Tallies& tallies) {
     }
     CHECK(other_by_near > 0);
     CHECK(tallies.up.straightened > 100);
-    CHECK(tallies.straightened.straightened > 100);
 }
 
 // How many segments close a chain, and how many positions end an open one.

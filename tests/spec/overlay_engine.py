@@ -3,8 +3,6 @@
 All is single precision, as the document has it: f below.
 """
 
-import copy
-
 import numpy
 
 from several_sources import SeveralSources
@@ -37,12 +35,6 @@ class Border:
         """Up to which distance all segments count: of those that begin where the source is known."""
         lengths = self.length[source < INFINITE]
         return f(5) * numpy.max(lengths[~numpy.isnan(lengths)], initial=f(0))
-
-    def with_gaps(self, sources):
-        """Without the segments whose ends are nearest to different sources."""
-        gapped = copy.copy(self)
-        gapped.length = numpy.where(sources == sources[self.second], self.length, f("nan"))
-        return gapped
 
 
 def place(first, second, length):
@@ -141,9 +133,9 @@ class OverlayEngine:
         kept = dict(zip(self.borders[patch].vertices.tolist(), source))
         return numpy.array([kept.get(v, way) for v, way in zip(vertices.tolist(), ways)], f)
 
-    def hop_down(self, patch, source, gapped=None):
+    def hop_down(self, patch, source):
         """Over positions and the middles of segments."""
-        border, rows, quantum = gapped or self.borders[patch], self.rows_down(patch), self.quantum[patch]
+        border, rows, quantum = self.borders[patch], self.rows_down(patch), self.quantum[patch]
         if len(source) == 0 or not source.min() < INFINITE:
             return numpy.full(len(rows), INFINITE)
         middle = middles(source, source[border.second], border.length)
