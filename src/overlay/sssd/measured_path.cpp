@@ -60,22 +60,22 @@ uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, con
     crossing.reached.clear();
     crossing.rows.clear();
     for (uint32_t i = 0; i < to.size(); ++i) {
+        const uint32_t position = overlay_position(to.first + i);
+        if (const uint16_t* const row = index.outer_row(patch, position)) {
+            crossing.reached.push_back(i);
+            crossing.rows.push_back(row + (read.first - rings.begin[patch]));
+            continue;
+        }
+        // The vertex is on the border that is crossed, too.
         const uint32_t at = common.find(rings.vertex[to.first + i]);
         if (at != NONE) {
             out[i] = distances[at];
             winners[i] = static_cast<uint16_t>(range.first + at - read.first);
             continue;
         }
-        const uint32_t position = overlay_position(to.first + i);
-        const uint16_t* const row = index.outer_row(patch, position);
-        if (!row) {
-            const auto [length, end] = go_along(index, patch, range, distances, position);
-            out[i] = length;
-            winners[i] = static_cast<uint16_t>(range.first + end - read.first);
-            continue;
-        }
-        crossing.reached.push_back(i);
-        crossing.rows.push_back(row + (read.first - rings.begin[patch]));
+        const auto [length, end] = go_along(index, patch, range, distances, position);
+        out[i] = length;
+        winners[i] = static_cast<uint16_t>(range.first + end - read.first);
     }
     if (crossing.rows.empty()) return read.first;
     begin_crossing(index, patch, read, range, distances, crossing.field);
