@@ -307,7 +307,7 @@ TEST_CASE("crossing: over samples it takes the least sum, with every instruction
     std::mt19937 random(11);
     const float quantum = 0.25f;
     for (const size_t samples : {1u, 2u, 31u, 32u, 33u, 70u})
-        for (const size_t columns : {1u, 15u, 32u, 33u, 100u}) {
+        for (const size_t columns : {1u, 15u, 32u, 33u, 70u, 100u}) {
             CAPTURE(samples);
             CAPTURE(columns);
             const size_t stride = SourceCode::whole_blocks(columns) + SourceCode::BLOCK;

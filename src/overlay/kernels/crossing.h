@@ -268,26 +268,51 @@ struct CrossSamples {
         }
         round_all<BYTES>(border.distance, rows.size(), Floats<BYTES>{} + nearest,
                          steps_per_distance(border.quantum), border.code);
-        for (size_t c = 0; c < SourceCode::whole_blocks(columns); c += LANES) {
-            Codes least{}, winner{}, sample{}, entries;
-            least += std::numeric_limits<int16_t>::max();
-            for (size_t i = 0; i < rows.size(); ++i, sample += 1) {
-                load(rows[i] + c, entries);
-                const Codes sum = entries + border.code[i];
-                winner = sum < least ? sample : winner;
-                lower(least, sum);
-            }
-            store(winner, winners + c);
-            int16_t sums[LANES];
-            store(least, sums);
-            decode(sums, nearest, border.quantum, distances + c);
-            decode(sums + LANES / 2, nearest, border.quantum, distances + c + LANES / 2);
-        }
+        const size_t end = SourceCode::whole_blocks(columns);
+        size_t c = 0;
+        for (; c + AT_ONCE * LANES <= end; c += AT_ONCE * LANES)
+            cross_columns<AT_ONCE>(border, nearest, rows, c, distances, winners);
+        for (; c < end; c += SourceCode::BLOCK)
+            cross_columns<SourceCode::BLOCK / LANES>(border, nearest, rows, c, distances, winners);
         for (const Samples::LongSegment& segment : border.long_segments)
             straighten(border, segment, rows, columns, distances, winners);
     }
 
 private:
+    // So many vectors of columns go through the rows together, so that each code of the border is read once
+    // for all of them.
+    static constexpr size_t AT_ONCE = BYTES < 32 ? 4 : 2 * SourceCode::BLOCK / LANES;
+
+    // Crosses to the columns of so many vectors, from column c on.
+    template <size_t VECTORS>
+    [[gnu::always_inline]] static void cross_columns(const SampledBorder& border, float nearest, Rows rows,
+                                                     size_t c, float* distances, uint16_t* winners) {
+        Codes least[VECTORS], winner[VECTORS], sample{};
+        for (size_t v = 0; v < VECTORS; ++v) {
+            least[v] = Codes{} + std::numeric_limits<int16_t>::max();
+            winner[v] = Codes{};
+        }
+        const uint16_t* const* const row = rows.data();
+        const int16_t* const code = border.code;
+        for (size_t i = 0; i < rows.size(); ++i, sample += 1) {
+            const Codes from = Codes{} + code[i];
+            for (size_t v = 0; v < VECTORS; ++v) {
+                Codes entries;
+                load(row[i] + c + v * LANES, entries);
+                const Codes sum = entries + from;
+                winner[v] = sum < least[v] ? sample : winner[v];
+                lower(least[v], sum);
+            }
+        }
+        for (size_t v = 0; v < VECTORS; ++v) {
+            store(winner[v], winners + c + v * LANES);
+            int16_t sums[LANES];
+            store(least[v], sums);
+            for (size_t half = 0; half < LANES; half += LANES / 2)
+                decode(sums + half, nearest, border.quantum, distances + c + v * LANES + half);
+        }
+    }
+
     [[gnu::always_inline]] static float nearest_of(const SampledBorder& border, size_t samples) {
         Floats<BYTES> nearest{}, distance;
         nearest += INFINITE;
@@ -328,15 +353,18 @@ private:
         }
     }
 
+    // Sums without a way are told from others by the sign of a difference. For AVX-512, GCC 12 compiles a
+    // comparison of widened sums lane by lane, which takes nearly as long as all rows.
     [[gnu::always_inline]] static void decode(const int16_t* sums, float nearest, float quantum,
                                               float* distances) {
         HalfCodes half;
         load(sums, half);
         const Numbers sum = __builtin_convertvector(half, Numbers);
-        const Floats<BYTES> none = Floats<BYTES>{} + INFINITE;
         Floats<BYTES> distance;
         decode_sums<HalfCodes, Floats<BYTES>>(half, quantum, Floats<BYTES>{} + nearest, distance);
-        store(sum < SourceCode::NO_SUM ? distance : none, distances);
+        const Numbers has_no_way = (SourceCode::NO_SUM - 1 - sum) >> 31;
+        const Numbers none = reinterpret_cast<Numbers>(Floats<BYTES>{} + INFINITE);
+        store((reinterpret_cast<Numbers>(distance) & ~has_no_way) | (none & has_no_way), distances);
     }
 };
 
