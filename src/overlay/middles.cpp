@@ -15,7 +15,7 @@ void add_middles(const uint16_t* row, std::span<const float> segment_length, uin
     for (size_t k = 0; k < segment_length.size(); ++k) {
         float square;
         middle_square(static_cast<float>(row[k]), static_cast<float>(row[k + 1]), segment_length[k], square);
-        const bool is_reached = std::max(row[k], row[k + 1]) < TableCode::UNREACHED && square >= 0;
+        const bool is_reached = std::max(row[k], row[k + 1]) < TableCode::UNREACHED && !std::isnan(square);
         middles[k] = is_reached ? TableCode::of_steps(std::sqrt(square)) : TableCode::UNREACHED;
     }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 
 #include "src/overlay/tables.h"
 
@@ -26,12 +27,23 @@ template <class V>
     for (size_t i = 0; i < sizeof v / sizeof(float); ++i) v[i] = std::sqrt(v[i]);
 }
 
+// Distances are rounded, and so a point beside a segment can have distances from its two ends that are too
+// short together. Squares that come out a little negative by this are taken for 0. Others are NaN: along the
+// surface, the ends of a long edge can be much nearer to each other than along the edge.
+template <class V>
+[[gnu::always_inline]] inline void mend_square(const V& length, V& square) {
+    const V least = (-1.f / 32) * (length * length);
+    const V none = V{} + std::numeric_limits<float>::quiet_NaN();
+    square = square < least ? none : (square < 0 ? V{} : square);
+}
+
 // The square of the distance from the middle of a segment to a point that has these distances from its ends.
-// It is NaN if the length is, and negative if there is no such point.
+// It is NaN if the length is, or if there is no such point.
 template <class V>
 [[gnu::always_inline]] inline void middle_square(const V& from_first, const V& from_second, const V& length,
                                                  V& square) {
     square = 0.5f * (from_first * from_first + from_second * from_second) - 0.25f * (length * length);
+    mend_square(length, square);
 }
 
 // Border segments. Each lies in a plane of its own, with its first end at 0 and its second end at (length,
@@ -47,6 +59,7 @@ struct Segments {
                                             V& height) const {
         foot = (from_first - from_second) * (from_first + from_second) * half_inverse + 0.5f * length;
         height = (from_first - foot) * (from_first + foot);
+        mend_square(length, height);
         take_square_root(height);
     }
 };

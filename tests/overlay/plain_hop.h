@@ -84,6 +84,12 @@ public:
     }
 
 private:
+    // The root of a square that rounded distances may have made a little too small, or NaN.
+    template <class Number>
+    static Number root(Number square, Number length) {
+        return square < -length * length / 32 ? NAN : std::sqrt(std::max(square, Number{0}));
+    }
+
     // More than every sum where there is no distance.
     int32_t steps(float distance, float least) const {
         if (!(distance < INFINITE)) return 1 << 20;
@@ -95,13 +101,14 @@ private:
     float middle(uint32_t p) const {
         if (border_.end[p] == NONE) return NAN;
         const float at_p = distances_[p], at_q = distances_[border_.end[p]], length = border_.length[p];
-        return std::sqrt(0.5f * (at_p * at_p + at_q * at_q) - 0.25f * (length * length));
+        return root(0.5f * (at_p * at_p + at_q * at_q) - 0.25f * (length * length), length);
     }
     // The same for x, as a code.
     float middle_code(const std::vector<uint16_t>& row, uint32_t p) const {
         if (border_.end[p] == NONE || row[p] == NO_PATH || row[border_.end[p]] == NO_PATH) return NAN;
         const float at_p = row[p], at_q = row[border_.end[p]], length = border_.length[p] / quantum_;
-        return std::trunc(std::sqrt(0.5f * (at_p * at_p + at_q * at_q) - 0.25f * (length * length)) + 0.5f);
+        return std::trunc(root(0.5f * (at_p * at_p + at_q * at_q) - 0.25f * (length * length), length) +
+                          0.5f);
     }
 
     double to_vertex(const std::vector<uint16_t>& row, uint32_t b) const {
@@ -130,7 +137,7 @@ private:
         const auto along = [&](double from_p, double from_q) {
             return (from_p - from_q) * (from_p + from_q) * (0.5 / length) + 0.5 * length;
         };
-        const auto off = [](double from_p, double x) { return std::sqrt((from_p - x) * (from_p + x)); };
+        const auto off = [&](double from_p, double x) { return root((from_p - x) * (from_p + x), length); };
         const double source_p{distances_[p]}, source_q{distances_[q]};
         const double target_p = to_vertex(row, p), target_q = to_vertex(row, q);
         const double xs = along(source_p, source_q), ys = off(source_p, xs);

@@ -69,7 +69,7 @@ TEST_CASE("several sources: the nearest straight line on a plane") {
 TEST_CASE("several sources: as exact as the nearest of them alone") {
     for (const auto& [name, made] : mesh_zoo()) {
         const TestMesh& mesh = made;
-        CAPTURE(name);
+        CAPTURE(mesh.vertex_count());
         const uint32_t count = mesh.vertex_count();
         const auto index = build(mesh, overlay_options());
         std::mt19937 random(7);

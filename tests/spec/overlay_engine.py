@@ -37,10 +37,16 @@ class Border:
         return f(5) * numpy.max(lengths[~numpy.isnan(lengths)], initial=f(0))
 
 
+def root(square, length):
+    """Of a square that rounded distances may have made a little too small."""
+    least = f(-1 / 32) * (length * length)
+    return numpy.where(square < least, f("nan"), numpy.sqrt(numpy.where(square < 0, f(0), square)))
+
+
 def place(first, second, length):
     """Where a point lies that is so far from the ends of a segment: along it, and off it."""
     along = (first - second) * (first + second) * (f(0.5) / length) + f(0.5) * length
-    return along, numpy.sqrt((first - along) * (first + along))
+    return along, root((first - along) * (first + along), length)
 
 
 def straight(border, source, target, segments=None):
@@ -69,7 +75,7 @@ def decoded(codes, quantum):
 
 
 def middles(first, second, length):
-    return numpy.sqrt(f(0.5) * (first * first + second * second) - f(0.25) * (length * length))
+    return root(f(0.5) * (first * first + second * second) - f(0.25) * (length * length), length)
 
 
 class OverlayEngine:
