@@ -19,19 +19,26 @@ uint32_t OwnDistances::only_source(uint32_t patch, const NearestSources& nearest
     return only;
 }
 
-void OwnDistances::collect(uint32_t patch, const NearestSources& nearest) {
-    own_.resize(index_.numbering.border_vertex_count(), INFINITE);
-    last_way_.resize(index_.numbering.vertex_count(), NONE);
+// What the border before has left, too, where a lack of memory ended its hops.
+void OwnDistances::forget() {
+    for (const uint32_t source : sources_) last_way_[source] = NONE;
+    for (const Way& way : ways_) own_[way.border_vertex] = INFINITE;
     sources_.clear();
     ways_.clear();
+}
+
+void OwnDistances::collect(uint32_t patch, const NearestSources& nearest) {
+    forget();
+    own_.resize(index_.numbering.border_vertex_count(), INFINITE);
+    last_way_.resize(index_.numbering.vertex_count(), NONE);
     const auto border = index_.numbering.border_of(patch);
     for (const uint32_t vertex : border) {
         const auto all = nearest.of(vertex);
         for (const NearestSources::Way& way : all) {
             if (way.distance > all[0].distance + index_.longest_segment[patch]) break;
             if (last_way_[way.source] != NONE) continue;
-            last_way_[way.source] = FIRST;
             sources_.push_back(way.source);
+            last_way_[way.source] = FIRST;
         }
     }
     for (const uint32_t vertex : border)

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory_resource>
-#include <utility>
 
 #include "src/overlay/nearest_sources.h"
 #include "src/overlay/tables.h"
@@ -27,8 +26,8 @@ public:
         }
         collect(patch, nearest);
         for (const uint32_t source : sources_) {
-            const uint32_t last = std::exchange(last_way_[source], NONE);
             if (!is_wanted(source)) continue;
+            const uint32_t last = last_way_[source];
             for (uint32_t w = last; w != FIRST; w = ways_[w].before)
                 own_[ways_[w].border_vertex] = ways_[w].distance;
             hop(own_.data(), source);
@@ -45,13 +44,14 @@ private:
     static constexpr uint32_t FIRST = NONE - 1;
 
     uint32_t only_source(uint32_t patch, const NearestSources& nearest) const;
+    void forget();
     void collect(uint32_t patch, const NearestSources& nearest);
 
     const OverlayIndex& index_;
     Array<uint32_t> sources_;  // those that may be the nearest one
-    Array<uint32_t> last_way_; // by number: the last way of such a source; NONE in between
+    Array<uint32_t> last_way_; // by number: the last way of such a source, NONE of all others
     Array<Way> ways_;          // from all of these sources
-    Array<float> own_;         // by number; infinite in between
+    Array<float> own_;         // by number: distances of the source that crosses, infinite elsewhere
 };
 
 }
