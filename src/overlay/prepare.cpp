@@ -9,6 +9,7 @@
 #include "format/error.h"
 #include "geoidx.h"
 #include "src/index/section_tags.h"
+#include "src/overlay/bounds.h"
 #include "src/overlay/middles.h"
 #include "src/overlay/proportion.h"
 
@@ -289,6 +290,7 @@ void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
         take_hop_codes(stored, index);
     else
         make_hop_codes(stored, index);
+    make_inner_bounds(index);
 }
 
 void restore_overlay(const OverlayIndex& index, StoredIndex& stored) {

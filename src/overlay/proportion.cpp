@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "format/error.h"
+#include "src/overlay/bounds.h"
 #include "src/overlay/labels.h"
 #include "src/overlay/samples.h"
 
@@ -31,7 +32,8 @@ uint64_t kept(const Numbering& numbering) {
 
 // No sum wraps around, since a ring has fewer than 2^15 places and there are fewer than 2^32 vertices.
 uint64_t derived_codes(const OverlayIndex& index) {
-    uint64_t codes = kept(index.numbering) + count_sample_codes(index) + count_label_codes(index);
+    uint64_t codes = kept(index.numbering) + count_bound_codes(index) + count_sample_codes(index) +
+                     count_label_codes(index);
     for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) codes += outer_and_inner(index, p);
     return codes;
 }

@@ -45,6 +45,22 @@ struct HopTables {
     Array<uint16_t> made;               // `codes`, unless they lie in a file
 };
 
+// For rows of inner tables along long borders: the least code of each block of PLACES places, those of the
+// middles included. A sum of two codes in a block is at least the sum of the least ones, so that most blocks
+// of a row need not be read. They follow from the other tables and are in no file.
+struct InnerBounds {
+    static constexpr size_t PLACES = 16;
+    static constexpr size_t FEWEST_PLACES = 224; // shorter borders are read as a whole as quickly
+
+    explicit InnerBounds(std::pmr::memory_resource* memory) : begin(memory), codes(memory) {}
+
+    Array<uint64_t> begin; // per patch: where those of its rows begin in `codes`
+    Array<uint16_t> codes;
+
+    static size_t blocks(size_t places) { return (places + PLACES - 1) / PLACES; }
+    static bool are_kept(size_t places) { return places >= FEWEST_PLACES; }
+};
+
 // The samples of all borders, and the distances between samples: SSSD looks for ways over these first. Each
 // sample is given by its own place in the ring of its border. Samples are numbered border by border, along
 // the ring, and have two kinds of tables, in steps of the quantum of the table that they are taken from.
@@ -137,7 +153,7 @@ void for_each_kept(const Numbering& numbering, const Use& use) {
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
         : numbering(memory), quantum(memory), shift(memory), rings(memory), longest_segment(memory),
-          hops(memory), pairs(memory) {}
+          hops(memory), bounds(memory), pairs(memory) {}
 
     Numbering numbering;
     Array<float> quantum; // per patch: the distance of one step of its codes
@@ -145,6 +161,7 @@ struct OverlayIndex {
     Rings rings;
     Array<float> longest_segment; // per patch: length of the longest segment of its border, or 0
     HopTables hops;
+    InnerBounds bounds;
     mutable PairTables pairs;
 
     float distance(uint16_t code, uint32_t patch) const { return TableCode::distance(code, quantum[patch]); }

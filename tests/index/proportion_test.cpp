@@ -20,7 +20,7 @@ uint64_t label_codes(const OverlayIndex& index) {
 }
 uint64_t codes_made(const OverlayIndex& index) {
     return index.hops.outer_begin.back() + index.hops.kept_begin.back() + 2 * index.hops.inner_begin.back() +
-           sample_codes(index) + label_codes(index);
+           index.bounds.codes.size() + sample_codes(index) + label_codes(index);
 }
 
 }
@@ -37,12 +37,13 @@ TEST_CASE("proportion: as many codes are derived as are foreseen, and they are f
         }
 }
 
-TEST_CASE("proportion: tables of samples and labels are foreseen") {
+TEST_CASE("proportion: bounds, tables of samples and labels are foreseen") {
     const TestMesh mesh = pressed(grid(300, 7), 0.01);
     for (const auto patches : {std::initializer_list<uint32_t>{2}, {2, 3, 2}}) {
         CAPTURE(patches.size());
         const OverlayOf built(mesh, options_of_plane(mesh, patches));
         const OverlayIndex& index = built.overlay();
+        CHECK(index.bounds.codes.size() > 1000);
         CHECK(sample_codes(index) > 10000);
         CHECK((label_codes(index) > 0) == (patches.size() > 1));
         CHECK(derived_codes(index) == codes_made(index));

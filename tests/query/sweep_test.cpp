@@ -75,8 +75,21 @@ struct Plane {
     std::vector<std::vector<float>> from; // per source and place
 };
 
-// Distances by row, of `count` sources from `first` on, side by side.
-std::vector<float> sweep(const Kernels& kernels, const Plane& plane, size_t first, size_t count) {
+// The least code or middle of each block of each row.
+std::vector<uint16_t> bounds_of(const Plane& plane) {
+    const size_t places = plane.border.size(), blocks = InnerBounds::blocks(places);
+    std::vector<uint16_t> bounds(plane.targets.size() * blocks, TableCode::UNREACHED);
+    for (size_t r = 0; r < plane.targets.size(); ++r)
+        for (size_t k = 0; k < places; ++k) {
+            uint16_t& bound = bounds[r * blocks + k / InnerBounds::PLACES];
+            bound = std::min({bound, plane.codes[r * places + k], plane.middles[r * places + k]});
+        }
+    return bounds;
+}
+
+// Distances by row, of `count` sources from `first` on, side by side; of one source, over bounds or not.
+std::vector<float> sweep(const Kernels& kernels, const Plane& plane, size_t first, size_t count,
+                         bool bounded = false) {
     const size_t places = plane.border.size();
     const size_t room = (SourceCode::whole_blocks(places) + SourceCode::BLOCK) * count;
     std::vector<float> from(room, INFINITE), middle_from(room, 12345);
@@ -85,18 +98,23 @@ std::vector<float> sweep(const Kernels& kernels, const Plane& plane, size_t firs
         for (size_t i = 0; i < count; ++i) from[k * count + i] = plane.from[first + i][k];
     const BorderDistances border{places, from.data(), plane.length.data(), plane.quantum};
     std::array<float, SOURCES> nearest{};
-    const BorderCodes codes{code.data(), middle.data(), nearest.data()};
-    const SweepRows rows{plane.targets.size(), plane.codes.data(), plane.middles.data()};
+    std::vector<int16_t> bound(InnerBounds::blocks(places), -77);
+    const std::vector<uint16_t> bounds = bounds_of(plane);
+    const BorderCodes codes{code.data(), middle.data(), nearest.data(), bound.data()};
+    const SweepRows rows{plane.targets.size(), plane.codes.data(), plane.middles.data(), bounds.data()};
     std::vector<float> distances(rows.count * count);
     (count == 1 ? kernels.prepare_sweep : kernels.prepare_sweep_each)(border, codes, middle_from.data());
     if (count == 1 && nearest[0] == INFINITE)
         distances.assign(rows.count, INFINITE);
     else
-        (count == 1 ? kernels.sweep : kernels.sweep_each)(border, codes, rows, distances.data());
+        (bounded      ? kernels.sweep_bounded
+         : count == 1 ? kernels.sweep
+                      : kernels.sweep_each)(border, codes, rows, distances.data());
     return distances;
 }
 
-// Of all sources, each alone and all at once, which must be the same bits, by every instruction set.
+// Of all sources, each alone, also over bounds, and all at once, which must be the same bits, by every
+// instruction set.
 std::vector<float> sweep_every_way(const Plane& plane) {
     const size_t rows = plane.targets.size();
     std::vector<float> first;
@@ -107,9 +125,10 @@ std::vector<float> sweep_every_way(const Plane& plane) {
         if (first.empty()) first = each;
         CHECK(std::memcmp(first.data(), each.data(), each.size() * sizeof(float)) == 0);
         for (size_t i = 0; i < SOURCES; ++i) {
-            const auto alone = sweep(kernels, plane, i, 1);
+            const auto alone = sweep(kernels, plane, i, 1), bounded = sweep(kernels, plane, i, 1, true);
             for (size_t r = 0; r < rows; ++r)
-                different += std::memcmp(&alone[r], &each[r * SOURCES + i], sizeof(float)) != 0;
+                for (const float distance : {alone[r], bounded[r]})
+                    different += std::memcmp(&distance, &each[r * SOURCES + i], sizeof(float)) != 0;
         }
     }
     CHECK(different == 0);

@@ -1,5 +1,6 @@
 #include "src/overlay/kernels/dispatch.h"
 
+#include "src/overlay/kernels/bounded_sweep.h"
 #include "src/overlay/kernels/crossing.h"
 #include "src/overlay/kernels/sweep.h"
 
@@ -62,7 +63,8 @@ constexpr Kernels kernels_of() {
             Set::template run<PrepareSweepOfOne>,
             Set::template run<PrepareSweepOfEach>,
             Set::template run<Sweep>,
-            Set::template run<SweepEach>};
+            Set::template run<SweepEach>,
+            Set::template run<SweepBounded>};
 }
 
 // A processor that runs one of them runs all before it.

@@ -66,12 +66,14 @@ struct BorderDistances {
 struct BorderCodes {
     int16_t *code, *middle;
     float* nearest; // per source; infinity: none is reached, and its codes say nothing
+    int16_t* bound; // scratch of sweep_bounded(): one a block of InnerBounds
 };
 
-// Rows of codes, end to end: one a place, and one a segment's middle.
+// Rows of codes, end to end: one a place, and one a segment's middle; of long borders, also one of
+// InnerBounds a block.
 struct SweepRows {
     size_t count;
-    const uint16_t *codes, *middles;
+    const uint16_t *codes, *middles, *bounds;
 };
 
 // ---- The table
@@ -124,6 +126,11 @@ struct Kernels {
                   float* distances);
     void (*sweep_each)(const BorderDistances& border, const BorderCodes& codes, const SweepRows& rows,
                        float* distances);
+
+    // The same bits as sweep(), for rows with bounds: of each row, only the blocks of places are read that
+    // may hold the least way.
+    void (*sweep_bounded)(const BorderDistances& border, const BorderCodes& codes, const SweepRows& rows,
+                          float* distances);
 };
 
 // Those that this processor can run, the fastest last. All give the same bits.

@@ -182,6 +182,13 @@ struct Sweep {
         Eight folded[ROWS], sums;
         for (size_t r = 0; r < ROWS; ++r) fold(least[r], folded[r]);
         least_lanes_of_eight(folded, sums);
+        decode(border, codes, rows, row_begin, sums, distances);
+    }
+
+    // From the least sums of eight rows to distances.
+    [[gnu::always_inline]] static void decode(const BorderDistances& border, const BorderCodes& codes,
+                                              const SweepRows& rows, const size_t* row_begin,
+                                              const Eight& sums, float* distances) {
         using EightFloats = Floats<ROWS * sizeof(float)>;
         EightFloats decoded;
         decode_sums<Eight, EightFloats>(sums, border.quantum, EightFloats{} + *codes.nearest, decoded);
