@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <list>
 
 #include "src/overlay/sssd/border_range.h"
@@ -219,4 +220,34 @@ TEST_CASE("border ranges: each place lies well inside of the range beside it, or
     }
     CHECK(moved > 100);
     CHECK(repeated > 100);
+}
+
+TEST_CASE("border ranges: from the sample before the first one within a limit to the one after the last") {
+    uint64_t wrong = 0, parts = 0;
+    std::mt19937 random(5);
+    for (const OverlayOf& of : built()) {
+        const OverlayIndex& overlay = of.overlay();
+        for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
+            const auto places = overlay.pairs.samples.of(p);
+            if (places.empty()) continue;
+            const BorderRange whole = whole_border(overlay, p);
+            std::vector<float> values(places.size());
+            for (float& value : values) value = static_cast<float>(random() % 100);
+            for (const float limit : {-1.f, 2.f, 30.f, 99.f}) {
+                BorderRange expected = whole; // where no value is within the limit, too
+                bool is_any = false;
+                for (size_t i = 0; i < places.size(); ++i) {
+                    if (values[i] > limit) continue;
+                    if (!is_any) expected.first = whole.first + (i > 0 ? places[i - 1] : 0u);
+                    expected.last = i + 1 < places.size() ? whole.first + places[i + 1] : whole.last;
+                    is_any = true;
+                }
+                const BorderRange range = range_within(overlay, p, values, limit);
+                wrong += range.first != expected.first || range.last != expected.last;
+                parts += range.size() < whole.size();
+            }
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(parts > 20);
 }

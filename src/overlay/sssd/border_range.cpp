@@ -22,6 +22,20 @@ BorderRange whole_border(const OverlayIndex& index, uint32_t patch) {
     return {index.rings.begin[patch], index.rings.begin[patch + 1] - 1};
 }
 
+BorderRange range_within(const OverlayIndex& index, uint32_t patch, std::span<const float> values,
+                         float limit) {
+    const auto places = index.pairs.samples.of(patch);
+    BorderRange range = whole_border(index, patch);
+    const uint32_t ring = range.first;
+    const auto is_within = [&](float value) { return value <= limit; };
+    const auto first = std::ranges::find_if(values, is_within) - values.begin();
+    if (first == std::ssize(values)) return range;
+    const auto last = values.rend() - std::ranges::find_if(values.rbegin(), values.rend(), is_within) - 1;
+    if (first > 0) range.first = ring + places[static_cast<size_t>(first - 1)];
+    if (last + 1 < std::ssize(places)) range.last = ring + places[static_cast<size_t>(last + 1)];
+    return range;
+}
+
 // A parabola through the three lengths has its lowest point where the shortest way is expected.
 BorderRange range_near(const OverlayIndex& index, uint32_t patch, uint32_t sample,
                        const WaysNearSample& ways) {

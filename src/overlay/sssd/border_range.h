@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "src/overlay/tables.h"
 
@@ -17,6 +18,11 @@ struct BorderRange {
 
 // The whole border of a patch, which must not be empty.
 BorderRange whole_border(const OverlayIndex& index, uint32_t patch);
+
+// The part of a border between the samples whose value is at most `limit`, from the sample before the first
+// one to the one after the last; the whole border if there is none.
+BorderRange range_within(const OverlayIndex& index, uint32_t patch, std::span<const float> values,
+                         float limit);
 
 // The lengths of the ways over a sample of a border and over its two neighbours, infinite if there is none.
 struct WaysNearSample {

@@ -38,8 +38,7 @@ float least_of(uint32_t count, const Value& value) {
 
 // Finds the shortest of those ways that are worth measuring and no longer than the ways over the two
 // neighbouring samples, in ascending order.
-std::array<Way, Candidates::MOST_BY_LENGTH> shortest_ways(const WaysOverSamples& ways) {
-    const float least = least_of(ways.count(), [&](uint32_t i) { return ways.length(i); });
+std::array<Way, Candidates::MOST_BY_LENGTH> shortest_ways(const WaysOverSamples& ways, float least) {
     const float longest = least * WORTH_MEASURING;
     std::array<Way, Candidates::MOST_BY_LENGTH> shortest;
     if (!(least < INFINITE)) return shortest;
@@ -72,9 +71,13 @@ uint32_t sample_beside_an_end(const WaysOverSamples& ways, float spacing) {
 
 }
 
-Candidates find_candidates(const WaysOverSamples& ways, float spacing) {
+float WaysOverSamples::least() const {
+    return least_of(count(), [&](uint32_t i) { return length(i); });
+}
+
+Candidates find_candidates(const WaysOverSamples& ways, float least, float spacing) {
     Candidates candidates;
-    const auto shortest = shortest_ways(ways);
+    const auto shortest = shortest_ways(ways, least);
     uint32_t beside = sample_beside_an_end(ways, spacing);
     for (const Way& way : shortest) {
         if (!(way.length < INFINITE)) break;

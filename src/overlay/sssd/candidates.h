@@ -16,6 +16,8 @@ struct WaysOverSamples {
     bool is_round;                   // The first sample comes after the last one, too.
 
     uint32_t count() const { return static_cast<uint32_t>(lengths.size()); }
+    // The least length, or infinity.
+    float least() const;
     float length(uint32_t sample) const { return lengths[sample]; }
     // Infinity if there is no such sample.
     float length_of_previous(uint32_t sample) const {
@@ -40,8 +42,8 @@ private:
     size_t count_ = 0;
 };
 
-// Chooses candidates; `spacing` is that of the samples. Those by length come first, the shortest one
-// foremost.
-Candidates find_candidates(const WaysOverSamples& ways, float spacing);
+// Chooses candidates; `least` is ways.least(), `spacing` that of the samples. Those by length come first, the
+// shortest one foremost.
+Candidates find_candidates(const WaysOverSamples& ways, float least, float spacing);
 
 }

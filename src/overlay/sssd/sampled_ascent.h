@@ -21,10 +21,11 @@ public:
     // Hops from the samples of the last border to those of a sibling's border, which is then the last one.
     void hop_across(const Ascent& ascent, uint32_t sibling);
 
-    // The distances from the samples of the last border.
-    std::span<const float> last_distances() const {
-        return {distances_of(borders_.size() - 1), samples_of(borders_.back()).size()};
+    // The distances from the samples of a border, and of the last one.
+    std::span<const float> distances(size_t border) const {
+        return {distances_of(border), samples_of(borders_[border]).size()};
     }
+    std::span<const float> last_distances() const { return distances(borders_.size() - 1); }
 
     // The sample, of the border before, that the way to a sample of a border comes over. There must be a way.
     uint32_t sample_before(size_t border, uint32_t sample) const {

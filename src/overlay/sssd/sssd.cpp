@@ -16,6 +16,10 @@ namespace {
 // finding the part of them that a path may cross.
 constexpr size_t FEW_PAIRS = size_t{1} << 13;
 
+// Of ways no longer than so many spacings of samples, the shortest one need not be the shortest over samples:
+// these make each longer by a share of a spacing. Everything that such a way can cross is measured.
+constexpr float NEAR_SPACINGS = 10;
+
 // Ranges are moved along with the way at most this many times.
 constexpr int MOST_MOVES = 8;
 
@@ -101,6 +105,16 @@ void OverlaySssd::End::take_ranges(const OverlayIndex& index, uint32_t sample, B
     }
 }
 
+// Takes the ranges that a way no longer than this can cross.
+void OverlaySssd::End::take_ranges_within(const OverlayIndex& index, float length) {
+    ranges.clear();
+    for (size_t b = 0; b < ascent.patches.size(); ++b) {
+        const uint32_t patch = ascent.patches[b];
+        ranges.push_back(
+            range_within(index, patch, sampled.distances(b), length + index.pairs.samples.spacing[patch]));
+    }
+}
+
 // Asks for the codes from each range to the next one.
 void OverlaySssd::End::prefetch_rows(const OverlayIndex& index) const {
     for (size_t b = 0; b + 1 < ranges.size(); ++b) {
@@ -179,17 +193,29 @@ float OverlaySssd::meet() {
     to_.sampled.climb(to_.ascent);
     const std::span<const float> from = sample_from(), to = to_.sampled.last_distances();
     measure_ways(from, to);
-    if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_))
-        return lengths_.empty() ? INFINITE : *std::ranges::min_element(lengths_);
     const WaysOverSamples ways{from, to, lengths_, chains.size() == 1 && chains[0].is_closed};
+    const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
+    if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_)) return least;
+    if (least < NEAR_SPACINGS * spacing) return measure_within(least);
     float shortest = INFINITE;
-    for (const uint32_t sample : find_candidates(ways, index_.pairs.samples.spacing[patch])) {
+    for (const uint32_t sample : find_candidates(ways, least, spacing)) {
         take_ranges(sample, range_near(index_, patch, sample,
                                        {ways.length_of_previous(sample), ways.length(sample),
                                         ways.length_of_next(sample)}));
         shortest = std::min(shortest, follow(shortest));
     }
     return shortest;
+}
+
+// Measures the path over all that a way of at most this length can cross.
+float OverlaySssd::measure_within(float length) {
+    to_.take_ranges_within(index_, length);
+    if (!from_.is_at_top()) from_.take_ranges_within(index_, length);
+    const uint32_t patch = meeting_patch();
+    to_.ranges.back() = range_within(index_, patch, lengths_, length + index_.pairs.samples.spacing[patch]);
+    prefetch_rows();
+    uint32_t place;
+    return measure(place);
 }
 
 // Whether all borders may be crossed as a whole.

@@ -39,6 +39,7 @@ private:
         bool crosses_segments(const OverlayIndex& index) const;
         bool take_whole_borders(const OverlayIndex& index);
         void take_ranges(const OverlayIndex& index, uint32_t sample, BorderRange last_range);
+        void take_ranges_within(const OverlayIndex& index, float length);
         void prefetch_rows(const OverlayIndex& index) const;
         bool move_ranges(const OverlayIndex& index, uint32_t place_of_last);
 
@@ -60,6 +61,7 @@ private:
     void measure_ways(std::span<const float> from, std::span<const float> to);
     void take_ranges(uint32_t sample, BorderRange of_meeting_border);
     void prefetch_rows() const;
+    float measure_within(float length);
     float follow(float other_way);
     bool move_ranges(uint32_t place);
     float measure(uint32_t& place);
