@@ -10,6 +10,7 @@ void add_queries(CLI::App& app);
 void add_metric(CLI::App& app);
 void add_error(CLI::App& app);
 void add_several(CLI::App& app);
+void add_tails(CLI::App& app);
 void add_open(CLI::App& app);
 void add_pairs(CLI::App& app);
 void add_files(CLI::App& app);
