@@ -18,7 +18,10 @@ constexpr size_t FEW_PAIRS = size_t{1} << 13;
 
 // Of ways no longer than so many spacings of samples, the shortest one need not be the shortest over samples:
 // these make each longer by a share of a spacing. Everything that such a way can cross is measured.
-constexpr float NEAR_SPACINGS = 10;
+constexpr float NEAR_SPACINGS = 14;
+
+// Unless these are more pairs of places than that, which would take too long.
+constexpr size_t MOST_NEAR_PAIRS = size_t{3} << 13;
 
 // Ranges are moved along with the way at most this many times.
 constexpr int MOST_MOVES = 8;
@@ -115,6 +118,12 @@ void OverlaySssd::End::take_ranges_within(const OverlayIndex& index, float lengt
     }
 }
 
+size_t OverlaySssd::End::pairs_between_ranges() const {
+    size_t pairs = 0;
+    for (size_t b = 1; b < ranges.size(); ++b) pairs += size_t{ranges[b - 1].size()} * ranges[b].size();
+    return pairs;
+}
+
 // Asks for the codes from each range to the next one.
 void OverlaySssd::End::prefetch_rows(const OverlayIndex& index) const {
     for (size_t b = 0; b + 1 < ranges.size(); ++b) {
@@ -196,7 +205,8 @@ float OverlaySssd::meet() {
     const WaysOverSamples ways{from, to, lengths_, chains.size() == 1 && chains[0].is_closed};
     const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
     if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_)) return least;
-    if (least < NEAR_SPACINGS * spacing) return measure_within(least);
+    uint32_t place;
+    if (least < NEAR_SPACINGS * spacing && take_ranges_within(least)) return measure(place);
     float shortest = INFINITE;
     for (const uint32_t sample : find_candidates(ways, least, spacing)) {
         take_ranges(sample, range_near(index_, patch, sample,
@@ -207,15 +217,20 @@ float OverlaySssd::meet() {
     return shortest;
 }
 
-// Measures the path over all that a way of at most this length can cross.
-float OverlaySssd::measure_within(float length) {
+// Takes the ranges of both ends that a way no longer than this can cross. Returns whether they are small
+// enough to be measured.
+bool OverlaySssd::take_ranges_within(float length) {
     to_.take_ranges_within(index_, length);
-    if (!from_.is_at_top()) from_.take_ranges_within(index_, length);
     const uint32_t patch = meeting_patch();
     to_.ranges.back() = range_within(index_, patch, lengths_, length + index_.pairs.samples.spacing[patch]);
+    size_t pairs = to_.pairs_between_ranges();
+    if (!from_.is_at_top()) {
+        from_.take_ranges_within(index_, length);
+        pairs += from_.pairs_between_ranges() + size_t{from_.ranges.back().size()} * to_.ranges.back().size();
+    }
+    if (pairs > MOST_NEAR_PAIRS) return false;
     prefetch_rows();
-    uint32_t place;
-    return measure(place);
+    return true;
 }
 
 // Whether all borders may be crossed as a whole.

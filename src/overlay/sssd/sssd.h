@@ -40,6 +40,7 @@ private:
         bool take_whole_borders(const OverlayIndex& index);
         void take_ranges(const OverlayIndex& index, uint32_t sample, BorderRange last_range);
         void take_ranges_within(const OverlayIndex& index, float length);
+        size_t pairs_between_ranges() const;
         void prefetch_rows(const OverlayIndex& index) const;
         bool move_ranges(const OverlayIndex& index, uint32_t place_of_last);
 
@@ -60,8 +61,8 @@ private:
     std::span<const float> sample_from();
     void measure_ways(std::span<const float> from, std::span<const float> to);
     void take_ranges(uint32_t sample, BorderRange of_meeting_border);
+    bool take_ranges_within(float length);
     void prefetch_rows() const;
-    float measure_within(float length);
     float follow(float other_way);
     bool move_ranges(uint32_t place);
     float measure(uint32_t& place);
