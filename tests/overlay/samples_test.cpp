@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <list>
+#include <random>
 
 #include "src/overlay/sssd/border_range.h"
 #include "tests/overlay/overlay_of.h"
