@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <utility>
 
 #include "bench/commands.h"
 #include "bench/report.h"
@@ -51,7 +52,7 @@ struct Edges {
         return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
     }
 
-    // The vertices so many edges from a vertex, in no order that matters.
+    // The vertices FEWEST_EDGES to MOST_EDGES edges from a vertex, the nearest first.
     std::vector<uint32_t> around(uint32_t center) const {
         std::vector<uint32_t> reached{center}, found;
         std::vector<uint8_t> seen(neighbours.size(), 0);
@@ -60,10 +61,9 @@ struct Edges {
         for (uint32_t edges = 1; edges <= MOST_EDGES; ++edges)
             for (const size_t end = reached.size(); begin < end; ++begin)
                 for (const uint32_t v : neighbours[reached[begin]]) {
-                    if (seen[v]++) continue;
+                    if (std::exchange(seen[v], 1)) continue;
                     reached.push_back(v);
                     if (edges >= FEWEST_EDGES) found.push_back(v);
-                    seen[v] = 1;
                 }
         return found;
     }
