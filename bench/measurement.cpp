@@ -9,11 +9,6 @@ namespace {
 
 constexpr size_t PREPARED_TARGETS = 50; // of each prepared source
 
-struct QueryCloser {
-    void operator()(geoidx_query* query) const { geoidx_query_close(query); }
-};
-using Query = std::unique_ptr<geoidx_query, QueryCloser>;
-
 // One thread's questions about one index; the answers of msad() live in `field`.
 class Questions {
 public:
@@ -60,7 +55,7 @@ public:
 private:
     const std::string& name_;
     std::vector<float> field_, fields_;
-    Query query_;
+    tools::Query query_;
 };
 
 void add_pairs_of_field(size_t field, Questions& questions, const std::vector<float>& msad,

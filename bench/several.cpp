@@ -25,11 +25,6 @@ struct SeveralArguments {
     ReportArguments report;
 };
 
-struct QueryCloser {
-    void operator()(geoidx_query* query) const { geoidx_query_close(query); }
-};
-using Query = std::unique_ptr<geoidx_query, QueryCloser>;
-
 // What all rounds of all rows are measured with.
 struct Bench {
     const Model& model;
@@ -167,7 +162,7 @@ void several(const SeveralArguments& arguments) {
     const tools::Solver solver = tools::make_solver(model.mesh, model.path, options_for(1, {}));
     geoidx_query* created = nullptr;
     tools::require_ok(geoidx_query_create(index.get(), &created), arguments.index);
-    const Query query(created);
+    const tools::Query query(created);
     const size_t count = model.mesh.vertex_count();
     Bench bench{model, *query, *solver, std::vector<float>(count), std::vector<double>(count)};
     Table table{"several_sources", "MSAD of several sources", {}};

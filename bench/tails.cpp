@@ -27,10 +27,6 @@ struct TailsArguments {
     ReportArguments report;
 };
 
-struct QueryCloser {
-    void operator()(geoidx_query* query) const { geoidx_query_close(query); }
-};
-
 struct Edge {
     uint32_t a, b;
     double length;
@@ -239,7 +235,7 @@ void tails(const TailsArguments& arguments) {
     const tools::Solver solver = tools::make_solver(model.mesh, model.path, options_for(1, {}));
     geoidx_query* created = nullptr;
     tools::require_ok(geoidx_query_create(index.get(), &created), arguments.index);
-    const std::unique_ptr<geoidx_query, QueryCloser> query(created);
+    const tools::Query query(created);
     Bench bench(model, *query, *solver);
     std::mt19937_64 random(SEED);
     const uint32_t sources = (arguments.pairs + TARGETS - 1) / TARGETS;

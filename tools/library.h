@@ -17,7 +17,11 @@ struct IndexCloser {
 struct SolverCloser {
     void operator()(geoidx_solver* solver) const { geoidx_solver_close(solver); }
 };
+struct QueryCloser {
+    void operator()(geoidx_query* query) const { geoidx_query_close(query); }
+};
 using Index = std::unique_ptr<geoidx, IndexCloser>;
+using Query = std::unique_ptr<geoidx_query, QueryCloser>;
 using Solver = std::unique_ptr<geoidx_solver, SolverCloser>;
 
 // Throws Failure("what: why") with the library's own words where the status is an error.

@@ -19,11 +19,6 @@ struct BenchArguments {
     bool json = false;
 };
 
-struct QueryCloser {
-    void operator()(geoidx_query* query) const { geoidx_query_close(query); }
-};
-using Query = std::unique_ptr<geoidx_query, QueryCloser>;
-
 template <class Work>
 double microseconds(const Work& work) {
     const auto begin = std::chrono::steady_clock::now();
