@@ -4,13 +4,14 @@
 #include <string>
 
 #include "format/error.h"
+#include "src/base/heap.h"
 
 namespace geodesic {
 
 void* CallerMemory::do_allocate(size_t size, size_t alignment) {
     take_share(size);
     try {
-        if (!allocator_.allocate) return ::operator new (size, std::align_val_t{alignment});
+        if (!allocator_.allocate) return allocate_on_heap(size, alignment);
         void* memory = allocator_.allocate(allocator_.user, size, alignment);
         if (!memory) throw std::bad_alloc();
         return memory;
@@ -33,7 +34,7 @@ void CallerMemory::do_deallocate(void* memory, size_t size, size_t alignment) {
     if (allocator_.release)
         allocator_.release(allocator_.user, memory, size, alignment);
     else
-        ::operator delete (memory, std::align_val_t{alignment});
+        release_on_heap(memory, size, alignment);
 }
 
 Query* QueryPool::take() {
