@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <random>
 
 #include "tests/query/query_cases.h"
 #include "tests/support/sanitized.h"
@@ -61,6 +62,31 @@ struct Differences {
     double mean() const { return count ? sum / static_cast<double>(count) : 0; }
 };
 
+constexpr uint32_t PLANE_SIDE = SANITIZED ? 120 : 200;
+
+const TestMesh& large_plane() {
+    static const TestMesh mesh = grid(PLANE_SIDE, PLANE_SIDE, 0.25);
+    return mesh;
+}
+
+// An index of the plane with long borders, some pieces of which belong to patches of all levels.
+const geoidx* index_with_long_borders() {
+    static const auto index = [] {
+        auto options = overlay_options(GEOIDX_METRIC_CALLBACK, 3, 1);
+        options.patches[0] = 2;
+        options.patches[1] = options.patches[2] = 8;
+        options.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
+        options.metric_callback = [](void*, uint32_t source, const uint32_t* targets, uint32_t target_count,
+                                     double* distances) {
+            for (uint32_t i = 0; i < target_count; ++i)
+                distances[i] = large_plane().straight(source, targets[i]);
+            return geoidx_status{GEOIDX_OK};
+        };
+        return build(large_plane(), options);
+    }();
+    return index.get();
+}
+
 }
 
 // Along edges every path crosses borders at vertices, so that nothing but the codes is rounded: a hop adds at
@@ -105,31 +131,41 @@ TEST_CASE("overlay: a vertex far from all borders finds its way as MSAD does") {
 
 // Samples of these borders are farther apart than these vertices.
 TEST_CASE("overlay: near vertices find their way across a large border") {
-    constexpr uint32_t SIDE = 120, COUNT = SIDE * SIDE;
-    TestMesh mesh = grid(SIDE, SIDE, 0.25);
-    auto options = overlay_options(GEOIDX_METRIC_CALLBACK, 3, 1);
-    options.patches[0] = 2;
-    options.patches[1] = options.patches[2] = 8;
-    options.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
-    options.metric_user = &mesh;
-    options.metric_callback = [](void* user, uint32_t source, const uint32_t* targets, uint32_t target_count,
-                                 double* distances) {
-        const auto* plane = static_cast<const TestMesh*>(user);
-        for (uint32_t i = 0; i < target_count; ++i) distances[i] = plane->straight(source, targets[i]);
-        return geoidx_status{GEOIDX_OK};
-    };
-    const auto index = build(mesh, options);
     Differences errors;
-    for (uint32_t source = 0; source < COUNT; source += sparse(1))
+    for (uint32_t source = 0; source < large_plane().vertex_count(); source += sparse(3))
         for (uint32_t right = 0; right <= 3; ++right)
             for (uint32_t up = right == 0; up <= 3; ++up) {
-                if (source % SIDE + right >= SIDE || source / SIDE + up >= SIDE) continue;
-                const uint32_t target = source + right + up * SIDE;
-                errors.add(double{sssd(index.get(), source, target)}, mesh.straight(source, target));
+                if (source % PLANE_SIDE + right >= PLANE_SIDE || source / PLANE_SIDE + up >= PLANE_SIDE)
+                    continue;
+                const uint32_t target = source + right + up * PLANE_SIDE;
+                errors.add(double{sssd(index_with_long_borders(), source, target)},
+                           large_plane().straight(source, target));
             }
     CHECK(errors.reached_wrongly == 0);
     CHECK(errors.mean() < 2e-3); // entries are rounded to 1/64 edge, and pairs are 1 to 4 edges apart
     CHECK(errors.largest < 0.2);
+}
+
+// Without labels a path climbs over the borders of all levels.
+TEST_CASE("overlay: far vertices find their way over borders that have pieces in common") {
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    options.flags = GEOIDX_OPEN_NO_LABELS;
+    const Bytes bytes = save(index_with_long_borders());
+    geoidx* opened = nullptr;
+    require_success(geoidx_open_memory(bytes.data(), bytes.size(), &options, &opened));
+    const IndexHandle without_labels(opened);
+    Differences errors;
+    std::mt19937 random(7);
+    const auto any_vertex = [&] { return static_cast<uint32_t>(random() % large_plane().vertex_count()); };
+    for (uint32_t i = 0; i < 400000; i += sparse(1)) {
+        const uint32_t source = any_vertex(), target = any_vertex();
+        const double straight = large_plane().straight(source, target);
+        if (straight > 5) errors.add(double{sssd(opened, source, target)}, straight);
+    }
+    CHECK(errors.reached_wrongly == 0);
+    CHECK(errors.mean() < 2e-3);
+    CHECK(errors.largest < 0.02);
 }
 
 // A path between near vertices may pass a jagged border far from the border vertex that is the least detour.

@@ -30,14 +30,19 @@ void begin_crossing(const OverlayIndex& index, uint32_t patch, BorderRange read,
     std::fill(inside.end(), places.end(), INFINITE);
 }
 
-// Goes from either end of a patch's border range to another vertex of the border, which the outer table has
-// no row for: returns the length, and the end as a place of the range.
+// Goes from either end of what is reached of a patch's border range to another vertex of the border, which
+// the outer table has no row for: returns the length, and the end as a place of the range.
 std::pair<float, uint32_t> go_along(const OverlayIndex& index, uint32_t patch, BorderRange range,
-                                    const float* distances, uint32_t overlay_position) {
+                                    std::span<const float> distances, uint32_t overlay_position) {
     const uint32_t parent = index.numbering.parent[patch];
     const uint32_t* positions = index.numbering.overlay_position.data() + index.numbering.border_begin[patch];
+    const auto is_reached = [](float distance) { return distance < INFINITE; };
+    const auto first = std::ranges::find_if(distances, is_reached) - distances.begin();
+    const auto last =
+        distances.rend() - std::ranges::find_if(distances.rbegin(), distances.rend(), is_reached) - 1;
     std::pair<float, uint32_t> least{INFINITE, 0};
-    for (const uint32_t end : {0u, range.size() - 1}) {
+    if (last < first) return least;
+    for (const auto end : {static_cast<uint32_t>(first), static_cast<uint32_t>(last)}) {
         const uint32_t from = positions[index.rings.position[range.first + end]];
         const float length =
             distances[end] + index.distance(index.overlay_code(parent, from, overlay_position), parent);
@@ -48,8 +53,9 @@ std::pair<float, uint32_t> go_along(const OverlayIndex& index, uint32_t patch, B
 
 // Crosses from a range of a patch's border to places of another border inside of the same parent.
 // overlay_position(k) is the position of place k in the parent's overlay. Vertices that are in both ranges
-// keep their distances. Returns the place
-// that winners are counted from.
+// keep their distances. Where there are any, a path to a vertex that lies on the border beside the range is
+// not looked for: if it were the shortest, those at the end of the range would be the best here, and the
+// range is moved then. Returns the place that winners are counted from.
 template <class OverlayPosition>
 uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, const float* distances,
                BorderRange to, const OverlayPosition& overlay_position, BorderCrossing& crossing, float* out,
@@ -57,26 +63,32 @@ uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, con
     const Rings& rings = index.rings;
     const BorderRange read = range_read(index, patch, range);
     VertexFinder common({rings.vertex.data() + range.first, range.size()});
+    bool has_common = false;
     crossing.reached.clear();
     crossing.rows.clear();
+    crossing.beside.clear();
+    const auto keep = [&](uint32_t i, float length, uint32_t at) {
+        out[i] = length;
+        winners[i] = static_cast<uint16_t>(range.first + at - read.first);
+    };
     for (uint32_t i = 0; i < to.size(); ++i) {
-        const uint32_t position = overlay_position(to.first + i);
-        if (const uint16_t* const row = index.outer_row(patch, position)) {
+        if (const uint16_t* const row = index.outer_row(patch, overlay_position(to.first + i))) {
             crossing.reached.push_back(i);
             crossing.rows.push_back(row + (read.first - rings.begin[patch]));
-            continue;
+        } else if (const uint32_t at = common.find(rings.vertex[to.first + i]); at != NONE) {
+            keep(i, distances[at], at);
+            has_common = has_common || distances[at] < INFINITE;
+        } else {
+            keep(i, INFINITE, 0);
+            crossing.beside.push_back(i);
         }
-        // The vertex is on the border that is crossed, too.
-        const uint32_t at = common.find(rings.vertex[to.first + i]);
-        if (at != NONE) {
-            out[i] = distances[at];
-            winners[i] = static_cast<uint16_t>(range.first + at - read.first);
-            continue;
-        }
-        const auto [length, end] = go_along(index, patch, range, distances, position);
-        out[i] = length;
-        winners[i] = static_cast<uint16_t>(range.first + end - read.first);
     }
+    if (!has_common)
+        for (const uint32_t i : crossing.beside) {
+            const auto [length, at] =
+                go_along(index, patch, range, {distances, range.size()}, overlay_position(to.first + i));
+            keep(i, length, at);
+        }
     if (crossing.rows.empty()) return read.first;
     begin_crossing(index, patch, read, range, distances, crossing.field);
     if (crossing.field.finish()) {

@@ -12,16 +12,19 @@ namespace geodesic {
 // Scratch for crossing one border. Both ends use the same one, in turn, and nothing stays in it.
 struct BorderCrossing {
     BorderCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory)
-        : field(index, memory), rows(memory), reached(memory), distances(index.rings.largest_size(), memory),
-          winners(index.rings.largest_size(), memory) {
+        : field(index, memory), rows(memory), reached(memory), beside(memory),
+          distances(index.rings.largest_size(), memory), winners(index.rings.largest_size(), memory) {
         rows.reserve(index.rings.largest_size());
         reached.reserve(index.rings.largest_size());
+        beside.reserve(index.rings.largest_size());
     }
 
     BorderField field;
     Array<const uint16_t*> rows;
     // Of the places that rows lead to: where in their range they are, and what the crossing finds.
     Array<uint32_t> reached;
+    // The places of vertices that lie on the border that is crossed, too, but beside the range there.
+    Array<uint32_t> beside;
     Array<float> distances;
     Array<uint16_t> winners;
 };
