@@ -14,5 +14,6 @@ void add_tails(CLI::App& app);
 void add_open(CLI::App& app);
 void add_pairs(CLI::App& app);
 void add_files(CLI::App& app);
+void add_farthest(CLI::App& app);
 
 }

@@ -23,6 +23,7 @@ void add_commands(CLI::App& app) {
     add_metric(app);
     add_error(app);
     add_several(app);
+    add_farthest(app);
     add_tails(app);
     add_open(app);
     add_pairs(app);

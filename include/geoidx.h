@@ -535,6 +535,18 @@ GEOIDX_API geoidx_status geoidx_query_msad_within(geoidx_query* query, const uin
                                                   uint32_t source_count, float radius, float* distances,
                                                   uint32_t distance_count);
 
+/* Farthest-point sampling: points[i] is the vertex that is farthest from the nearest of the 1 or more sources
+ * and of the points before it, and distances[i] how far it is; of several that are as far, one whose choice
+ * depends on the index alone. Vertices that cannot be reached are infinitely far, so that each component has
+ * a point before any has two. Vertices that no triangle uses are never chosen, nor are two at one place.
+ * *count is set to how many were found: point_count, unless there are fewer vertices. `points` and
+ * `distances` have room for point_count; distances may be NULL. Each point after the first ones looks only at
+ * what lies nearer to it than the farthest vertex. 8 bytes of the index's memory a vertex are taken during
+ * the call. */
+GEOIDX_API geoidx_status geoidx_query_farthest_points(geoidx_query* query, const uint32_t* sources,
+                                                      uint32_t source_count, uint32_t point_count,
+                                                      uint32_t* points, float* distances, uint32_t* count);
+
 /* From then on geoidx_query_msad and geoidx_query_msad_within of this query use so many threads, which begin
  * and end within each call, for the same bits, or as many of them as the system can begin: 1 at first, 0
  * means one per processor, at most 1024. GEOIDX_ENGINE_GRAPH uses one. */

@@ -232,6 +232,17 @@ public:
         check(geoidx_query_ssad_batch(get(), sources.data(), detail::count_of(sources), distances.data(),
                                       distances.size()));
     }
+    // Returns how many of the points there are; `distances` are as many as the points, or none.
+    std::uint32_t farthest_points(std::span<const std::uint32_t> sources, std::span<std::uint32_t> points,
+                                  std::span<float> distances = {}) {
+        if (!distances.empty() && distances.size() != points.size())
+            throw error(GEOIDX_ERROR_INVALID_ARGUMENT, "points and distances are not equally long");
+        std::uint32_t count = 0;
+        check(geoidx_query_farthest_points(get(), sources.data(), detail::count_of(sources),
+                                           detail::count_of(points), points.data(),
+                                           distances.empty() ? nullptr : distances.data(), &count));
+        return count;
+    }
     void set_threads(std::uint32_t threads) { check(geoidx_query_set_threads(get(), threads)); }
 
     // From then on prepared() is from this source.

@@ -107,6 +107,20 @@ geoidx_status geoidx_query_msad_within(geoidx_query* query, const uint32_t* sour
     });
 }
 
+geoidx_status geoidx_query_farthest_points(geoidx_query* query, const uint32_t* sources,
+                                           uint32_t source_count, uint32_t point_count, uint32_t* points,
+                                           float* distances, uint32_t* count) {
+    if (count) *count = 0;
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(sources, "sources is NULL");
+        require(point_count == 0 || points, "points is NULL");
+        require(count, "count is NULL");
+        *count = query->query.farthest_points({sources, source_count}, {points, point_count},
+                                              {distances, distances ? point_count : 0});
+    });
+}
+
 geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t threads) {
     return guarded([&] {
         require(query, "query is NULL");

@@ -129,17 +129,28 @@ void Query::write_by_id(const SideBySide& fields) const {
     }
 }
 
-void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<float> distances) {
-    check_count(distances, 1);
+// Takes the numbers of sources, in an order of their own, so that answers do not depend on that of the ids.
+void Query::take_sources(std::span<const uint32_t> source_ids) {
     if (source_ids.empty()) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "there is no source");
-    if (!(radius >= 0)) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "the radius is negative or NaN");
     sources_.clear();
     for (uint32_t id : source_ids)
         if (const uint32_t source = number_of(id); source != NONE) sources_.push_back(source);
-    std::ranges::sort(sources_); // so that answers do not depend on their order
+    std::ranges::sort(sources_);
     sources_.erase(std::unique(sources_.begin(), sources_.end()), sources_.end());
+}
+
+// Returns the distances from the sources that were taken, by number.
+std::span<const float> Query::field_within(float radius) {
     const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
     std::visit([&](auto& engine) { engine.msad(sources_, radius, by_number); }, engine_);
+    return by_number;
+}
+
+void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<float> distances) {
+    check_count(distances, 1);
+    if (!(radius >= 0)) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "the radius is negative or NaN");
+    take_sources(source_ids);
+    field_within(radius);
     write_by_id(distances);
     if (radius < INFINITE)
         for (float& d : distances)

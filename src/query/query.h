@@ -29,6 +29,11 @@ public:
     // Multiple sources, all destinations: distances[id] to the nearest source, infinite beyond the radius.
     void msad(std::span<const uint32_t> source_ids, float radius, std::span<float> distances);
 
+    // Fills points[i] with the vertex that is farthest from all sources and from the points before it, and
+    // distances[i] with how far it is, unless `distances` is empty. Returns how many points there are.
+    uint32_t farthest_points(std::span<const uint32_t> source_ids, std::span<uint32_t> points,
+                             std::span<float> distances);
+
     // Threads of msad(), 0: one per processor; the graph engine uses one.
     void set_threads(uint32_t count);
 
@@ -38,6 +43,8 @@ public:
 private:
     uint32_t number_of(uint32_t id) const;
     void check_count(std::span<const float> distances, uint64_t fields) const;
+    void take_sources(std::span<const uint32_t> source_ids);
+    std::span<const float> field_within(float radius);
     void ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_ids, std::span<float> distances);
     void write_by_id(std::span<float> field) const;
     using SideBySide = std::array<float*, OverlayQuery::FIELDS_AT_ONCE>;

@@ -48,6 +48,9 @@ static geoidx_status (*const query_msad)(geoidx_query*, const uint32_t*, uint32_
                                          uint32_t) = geoidx_query_msad;
 static geoidx_status (*const query_msad_within)(geoidx_query*, const uint32_t*, uint32_t, float, float*,
                                                 uint32_t) = geoidx_query_msad_within;
+static geoidx_status (*const query_farthest_points)(geoidx_query*, const uint32_t*, uint32_t, uint32_t,
+                                                    uint32_t*, float*,
+                                                    uint32_t*) = geoidx_query_farthest_points;
 static geoidx_status (*const query_set_threads)(geoidx_query*, uint32_t) = geoidx_query_set_threads;
 static geoidx_status (*const query_ssad_batch)(geoidx_query*, const uint32_t*, uint32_t, float*,
                                                uint64_t) = geoidx_query_ssad_batch;
@@ -108,6 +111,7 @@ static int check_queries(const geoidx* index) {
     geoidx_query* query = NULL;
     const uint32_t sources[2] = {0, COUNT - 1}, pairs[4] = {0, COUNT - 1, 5, 5};
     float all[COUNT], same[COUNT], batch[2], one = -1;
+    uint32_t farthest = COUNT, found = 0;
     EXPECT(sssd(index, 0, COUNT - 1, &one) == GEOIDX_OK && is_straight(0, COUNT - 1, one));
     EXPECT(sssd_batch(index, pairs, 2, batch) == GEOIDX_OK && batch[0] == one && batch[1] == 0);
     EXPECT(msad(index, sources, 2, all, COUNT) == GEOIDX_OK && is_straight(0, SIDE - 1, all[SIDE - 1]));
@@ -116,6 +120,8 @@ static int check_queries(const geoidx* index) {
     EXPECT(query_msad(query, sources, 2, same, COUNT) == GEOIDX_OK && memcmp(all, same, sizeof all) == 0);
     EXPECT(query_msad_within(query, sources, 2, 1e30f, same, COUNT) == GEOIDX_OK &&
            memcmp(all, same, sizeof all) == 0);
+    EXPECT(query_farthest_points(query, sources, 2, 1, &farthest, &one, &found) == GEOIDX_OK && found == 1 &&
+           one == all[farthest]);
     EXPECT(query_set_threads(query, 2) == GEOIDX_OK);
     EXPECT(query_msad(query, sources, 2, same, COUNT) == GEOIDX_OK && memcmp(all, same, sizeof all) == 0);
     EXPECT(ssad_batch(index, sources, 1, all, COUNT) == GEOIDX_OK);

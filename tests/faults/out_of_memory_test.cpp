@@ -143,6 +143,12 @@ const Question QUESTIONS_TO_A_QUERY[] = {
          return geoidx_query_msad_within(a.query, a.few.data(), size_of(a.few), 3, a.answer.data(),
                                          a.vertex_count);
      }},
+    {"farthest points", true,
+     [](Asked& a) {
+         uint32_t points[5], count;
+         return geoidx_query_farthest_points(a.query, a.few.data(), size_of(a.few), 5, points,
+                                             a.answer.data(), &count);
+     }},
     {"ssad batch", false,
      [](Asked& a) {
          return geoidx_query_ssad_batch(a.query, a.many.data(), size_of(a.many), a.answer.data(),

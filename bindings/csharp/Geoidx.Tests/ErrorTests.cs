@@ -50,6 +50,8 @@ namespace Geoidx.Tests
                 () => query.FromPrepared(0),
                 () => query.SetThreads(1025),
                 () => query.FromSourcesWithin(new[] { 0 }, -1, new float[4]),
+                () => query.FarthestPoints(new int[0], new int[2]),
+                () => query.FarthestPoints(new[] { 0 }, new int[2], new float[1]),
                 () => solver.Distance(0, 4),
             };
             foreach (Action call in calls) Fails<GeodesicArgumentException>(GeodesicStatus.InvalidArgument, "", call);
@@ -80,6 +82,7 @@ namespace Geoidx.Tests
                 () => query.Distance(-1, 0),
                 () => query.Prepare(-1),
                 () => query.FromSourcesWithin(new[] { -1 }, 1, new float[4]),
+                () => query.FarthestPoints(new[] { -1 }, new int[1]),
                 () => solver.Distance(0, -1),
                 () => GeodesicIndex.Build(Shapes.Square(), edgeCost),
             };

@@ -285,6 +285,21 @@ namespace Geoidx.Tests
         private static int LastRecord(byte[] bytes) => 48 * (int)BitConverter.ToUInt32(bytes, 20);
 
         [Fact]
+        public void FarthestPointsAreAsFarAsAnyVertex()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
+            using GeodesicQuery query = index.CreateQuery();
+            var points = new int[5];
+            var distances = new float[5];
+            Assert.Equal(3, query.FarthestPoints(new[] { 0 }, points, distances));
+            Assert.Equal(index.FromSources(0).Max(), distances[0]);
+            Assert.Equal(distances[0], index.FromSources(0)[points[0]]);
+            Assert.Equal(index.FromSources(0, points[0]).Max(), distances[1]);
+            Assert.Equal(new[] { 1, 2, 3 }, points.Take(3).OrderBy(point => point));
+            Assert.Equal(1, query.FarthestPoints(new[] { 0 }, points.AsSpan(0, 1)));
+        }
+
+        [Fact]
         public void AnUnusedVertexIsUnreachable()
         {
             using GeodesicIndex index = GeodesicIndex.Build(

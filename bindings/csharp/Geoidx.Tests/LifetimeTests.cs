@@ -65,6 +65,7 @@ namespace Geoidx.Tests
                 () => query.FromSources(new[] { 0 }, floats),
                 () => query.FromSourcesWithin(new[] { 0 }, 1, floats),
                 () => query.FromEachSource(new[] { 0 }, floats),
+                () => query.FarthestPoints(new[] { 0 }, new int[4], floats),
                 () => query.Prepare(0),
                 () => query.FromPrepared(0),
                 () => query.SetThreads(1),

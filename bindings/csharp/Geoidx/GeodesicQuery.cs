@@ -61,6 +61,33 @@ namespace Geoidx
                     handle, first, (uint)sources.Length, radius, results, (uint)distances.Length).ThrowIfError();
         }
 
+        /// <summary>
+        /// Farthest-point sampling: each point is the vertex that is farthest from the sources and from the points
+        /// before it.
+        /// </summary>
+        /// <param name="sources">One or more vertices.</param>
+        /// <param name="points">Takes the points.</param>
+        /// <param name="distances">
+        /// As long as <paramref name="points"/>, or empty; takes how far each point is, in the mesh's unit, infinite
+        /// if it is the first one of a component.
+        /// </param>
+        /// <returns>How many points there are: fewer than there is room for only if no vertex is left.</returns>
+        /// <exception cref="GeodesicArgumentException">A source or the number of distances is wrong.</exception>
+        public unsafe int FarthestPoints(
+            ReadOnlySpan<int> sources, Span<int> points, Span<float> distances = default)
+        {
+            if (!distances.IsEmpty) Lengths.CheckEqual(points.Length, distances.Length);
+            using SingleUse.Scope scope = use.Begin();
+            uint count;
+            fixed (int* first = &MemoryMarshal.GetReference(sources))
+            fixed (int* chosen = &MemoryMarshal.GetReference(points))
+            fixed (float* results = &MemoryMarshal.GetReference(distances))
+                NativeMethods.geoidx_query_farthest_points(
+                    handle, first, (uint)sources.Length, (uint)points.Length, chosen,
+                    distances.IsEmpty ? null : results, out count).ThrowIfError();
+            return (int)count;
+        }
+
         /// <inheritdoc cref="GeodesicIndex.FromEachSource(ReadOnlySpan{int}, Span{float})"/>
         public unsafe void FromEachSource(ReadOnlySpan<int> sources, Span<float> distances)
         {

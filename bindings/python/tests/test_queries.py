@@ -21,6 +21,26 @@ class Queries(unittest.TestCase):
         cls.query = cls.index.query()
 
 
+class FarthestPoints(Queries):
+    def test_each_is_as_far_from_those_before_it_as_any_vertex(self):
+        points = self.index.farthest_points(6, sources=[5])
+        self.assertEqual(points.dtype, np.uint32)
+        nearest = self.index.msad(5)
+        for point in points:
+            self.assertEqual(nearest[point], nearest.max())
+            nearest = np.minimum(nearest, self.index.msad(point))
+        np.testing.assert_array_equal(self.query.farthest_points(6, sources=5), points)
+
+    def test_there_are_no_more_than_vertices(self):
+        points = self.index.farthest_points(self.n + 3)
+        self.assertEqual(sorted([0, *points]), list(range(self.n)))
+
+    def test_what_is_wrong_is_refused(self):
+        for count, sources in ((1, []), (1, [self.n]), (-1, [0])):
+            with self.assertRaises(geoidx.InvalidArgumentError):
+                self.index.farthest_points(count, sources=sources)
+
+
 class Sssd(Queries):
     def test_two_vertices_give_a_float(self):
         for a, b in ((3, 200), (np.int64(3), np.uint8(200)), (np.array(3), 200)):

@@ -108,6 +108,11 @@ namespace Geoidx
             uint distance_count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_farthest_points(
+            QueryHandle query, int* sources, uint source_count, uint point_count, int* points, float* distances,
+            out uint count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_query_set_threads(QueryHandle query, uint threads);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

@@ -106,6 +106,11 @@ namespace Geoidx
             uint distance_count);
 
         [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_farthest_points(
+            QueryHandle query, int* sources, uint source_count, uint point_count, int* points, float* distances,
+            out uint count);
+
+        [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_query_set_threads(QueryHandle query, uint threads);
 
         [LibraryImport(Library)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from ctypes import byref, c_uint64, c_void_p, sizeof
-from typing import Any, Callable, Sequence, overload
+from typing import Any, Callable, Sequence, SupportsIndex, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -356,6 +356,15 @@ class Index(Closable):
         out: float32 of that shape, C-contiguous, to be written to and returned.
         """
         return _fields.ssad(library.geoidx_ssad_batch, self._handle, sources, self.vertex_count, out)
+
+    def farthest_points(self, count: SupportsIndex, *, sources: ArrayLike = 0) -> Ids:
+        """Farthest-point sampling: (count,) vertices, each the farthest from the sources and from those before it.
+
+        sources: a vertex or (k,) of them, at least one; they are not among the points. Components that no source lies
+        in come first. There are fewer points only if no vertex is left.
+        """
+        with self.query() as query:
+            return query.farthest_points(count, sources=sources)
 
     def query(self, *, threads: int = 1) -> Query:
         """Scratch for the queries of one thread; `threads` is how many its `msad` uses, 0: one per processor."""

@@ -203,6 +203,10 @@ FUNCTIONS = {
     "geoidx_query_msad": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint32]),
     "geoidx_query_ssad_batch": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint64]),
     "geoidx_query_msad_within": (c_int32, [c_void_p, c_void_p, c_uint32, c_float, c_void_p, c_uint32]),
+    "geoidx_query_farthest_points": (
+        c_int32,
+        [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p, c_void_p, POINTER(c_uint32)],
+    ),
     "geoidx_query_set_threads": (c_int32, [c_void_p, c_uint32]),
     "geoidx_query_prepare": (c_int32, [c_void_p, c_uint32]),
     "geoidx_query_prepared": (c_int32, [c_void_p, c_void_p, c_uint64, c_void_p]),

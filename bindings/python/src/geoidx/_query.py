@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from ctypes import byref, c_void_p
+from ctypes import byref, c_uint32, c_void_p
 from typing import NoReturn, SupportsIndex, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _fields
-from ._arrays import Vertex, Vertices, address, ids, output, real_number, vertex, whole_number
+from ._arrays import Ids, Vertex, Vertices, address, id_list, ids, output, real_number, vertex, whole_number
 from ._errors import check
 from ._fields import Distances
 from ._handle import Closable, Handle, OneThread
@@ -70,6 +70,20 @@ class Query(Closable):
         with self._one_thread:
             call = library.geoidx_query_ssad_batch
             return _fields.ssad(call, self._handle, sources, self._vertex_count, out)
+
+    def farthest_points(self, count: SupportsIndex, *, sources: ArrayLike = 0) -> Ids:
+        """As `Index.farthest_points`."""
+        wanted = whole_number(count, "count")
+        first = id_list(sources, "sources")
+        points = np.empty(wanted, np.uint32)
+        found = c_uint32()
+        with self._one_thread:
+            check(
+                library.geoidx_query_farthest_points(
+                    self._handle, address(first), first.size, wanted, address(points), None, byref(found)
+                )
+            )
+        return points[: found.value]
 
     def prepare(self, source: SupportsIndex) -> None:
         """Keeps what depends on the source, for `prepared`, until the next call."""
