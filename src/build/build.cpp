@@ -7,12 +7,15 @@
 #include "src/build/filling.h"
 #include "src/build/metric_options.h"
 #include "src/build/rounds.h"
+#include "src/build/stated_errors.h"
 #include "src/index/stored.h"
 #include "src/partition/hierarchy.h"
 
 namespace geodesic {
 
 namespace {
+
+constexpr double FILLING_END = 0.95; // the share of the whole work; looking for large errors is the rest
 
 [[noreturn]] void invalid(const std::string& detail) { throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail); }
 
@@ -85,15 +88,20 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     const Intake intake = take_in(mesh, intake_options(options));
     const auto metric = make_metric(mesh, intake, options);
     const Description about = describe(intake, options);
+    const ProgressFunction filling_progress = part_of_progress(progress, 0, FILLING_END);
     const double first_end = may_add_vertices(options) ? FIRST_FILLING_END : 1;
-    Workers workers(*metric, options.threads, part_of_progress(progress, 0, first_end));
+    Workers workers(*metric, options.threads, part_of_progress(filling_progress, 0, first_end));
 
     workers.begin_stage("patches", 0.1);
     const Hierarchy hierarchy = build_hierarchy(intake.mesh, hierarchy_options(intake, options), workers);
     Filling filling(intake, options, about, index);
     StoredIndex stored = filling.fill({intake.mesh, hierarchy}, workers);
-    if (!may_add_vertices(options)) return;
-    Rounds(options, progress, filling, index).run({intake.mesh, hierarchy}, *metric, std::move(stored));
+    if (may_add_vertices(options))
+        Rounds(options, filling_progress, filling, index)
+            .run({intake.mesh, hierarchy}, *metric, std::move(stored));
+    Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
+    stating.begin_stage("accuracy", 1);
+    state_errors(intake, filling.solved_fields(), stating, index);
 }
 
 }

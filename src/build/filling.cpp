@@ -34,6 +34,13 @@ StoredIndex Filling::fill(const SplitSurface& surface, Workers& workers) {
     return stored;
 }
 
+std::vector<const ExactFields*> Filling::solved_fields() const {
+    std::vector<const ExactFields*> solved;
+    for (const auto* fields : {&measuring_, &calibration_})
+        if (*fields) solved.push_back(&**fields);
+    return solved;
+}
+
 uint64_t Filling::count_entries(const SplitSurface& surface, Workers& workers) const {
     StoredIndex stored;
     lay_out_vertices(surface, workers, stored);

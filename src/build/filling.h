@@ -28,6 +28,10 @@ public:
     // From the borders to the measured index, which is prepared, too. The workers' metric is of this mesh.
     StoredIndex fill(const SplitSurface& surface, Workers& workers);
 
+    // What was solved for fill(): first the fields that the error was measured by, then those that the index
+    // was calibrated by, if it was.
+    std::vector<const ExactFields*> solved_fields() const;
+
     // The number of table entries that fill() would make.
     uint64_t count_entries(const SplitSurface& surface, Workers& workers) const;
 

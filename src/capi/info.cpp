@@ -53,6 +53,15 @@ void fill_info(const Index& index, geoidx_info& info) {
     info.codec = about.codec;
     info.file_flags = about.file_flags;
     info.added_vertex_count = numbering.vertex_count() - index.vertices_with_id;
+    const auto& [near_by, middle, far_off] = about.error.by_distance;
+    info.error_near_mean = near_by.mean;
+    info.error_near_max = near_by.max;
+    info.error_middle_mean = middle.mean;
+    info.error_middle_max = middle.max;
+    info.error_far_mean = far_off.mean;
+    info.error_far_max = far_off.max;
+    info.error_several_mean = about.error.several.mean;
+    info.error_several_max = about.error.several.max;
     if (const auto* overlay = std::get_if<OverlayIndex>(&index.engine)) fill_steps(*overlay, info);
 }
 

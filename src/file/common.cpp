@@ -16,7 +16,7 @@ constexpr uint64_t MAX_BYTES = uint64_t{1} << 40; // of one section of numbers
 
 // ---- META
 
-constexpr uint64_t META_BYTES = 120;
+constexpr uint64_t META_BYTES = 184;
 
 std::vector<std::byte> meta_bytes(const Description& meta) {
     format::ByteWriter writer;
@@ -36,6 +36,12 @@ std::vector<std::byte> meta_bytes(const Description& meta) {
     writer.u32(meta.engine);
     writer.f64(meta.error.mean_at_vertices);
     writer.u32(meta.codec);
+    for (const MeanAndMax& of_class : meta.error.by_distance) {
+        writer.f64(of_class.mean);
+        writer.f64(of_class.max);
+    }
+    writer.f64(meta.error.several.mean);
+    writer.f64(meta.error.several.max);
     return writer.take();
 }
 
@@ -58,6 +64,9 @@ void check_meta(const Description& meta) {
     for (double error : {meta.error.mean, meta.error.signed_mean, meta.error.p99, meta.error.p999,
                          meta.error.max, meta.error.mean_at_vertices})
         if (std::isnan(error)) corrupt("a measured error is NaN");
+    const auto& [near_by, middle, far_off] = meta.error.by_distance;
+    for (const MeanAndMax& error : {near_by, middle, far_off, meta.error.several})
+        if (std::isnan(error.mean) || std::isnan(error.max)) corrupt("a measured error is NaN");
 }
 
 void read_meta(const format::Container& container, Description& meta) {
@@ -80,6 +89,12 @@ void read_meta(const format::Container& container, Description& meta) {
     meta.engine = reader.u32();
     meta.error.mean_at_vertices = reader.f64();
     meta.codec = reader.u32();
+    for (MeanAndMax& of_class : meta.error.by_distance) {
+        of_class.mean = reader.f64();
+        of_class.max = reader.f64();
+    }
+    meta.error.several.mean = reader.f64();
+    meta.error.several.max = reader.f64();
     reader.expect_end();
     check_meta(meta);
 }

@@ -1,14 +1,28 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace geodesic {
 
-// The relative error of MSAD compared with the metric, over all targets of some random sources.
+struct MeanAndMax {
+    double mean = 0, max = 0;
+
+    bool operator==(const MeanAndMax&) const = default;
+};
+
+// How many classes of distances errors are stated for: near, up to 10 average edges of the mesh; middle, up
+// to 100; far, beyond.
+inline constexpr size_t DISTANCE_CLASSES = 3;
+
+// The relative error of MSAD compared with the metric, over all targets of some random sources. Maxima are of
+// pairs of vertices, too, and of other sources, where errors are large.
 struct MeasuredError {
     uint32_t sources = 0;
     double mean = 0, signed_mean = 0, p99 = 0, p999 = 0, max = 0;
     double mean_at_vertices = 0; // if paths crossed borders at vertices only
+    std::array<MeanAndMax, DISTANCE_CLASSES> by_distance{};
+    MeanAndMax several; // of MSAD from more than one source
 
     bool operator==(const MeasuredError&) const = default;
 };

@@ -20,4 +20,12 @@ void require_pair_tables(const OverlayIndex& index) {
     pairs.are_made.store(true, std::memory_order_release);
 }
 
+void release_pair_tables(const OverlayIndex& index) {
+    PairTables& pairs = index.pairs;
+    std::pmr::memory_resource* memory = pairs.samples.codes.get_allocator().resource();
+    pairs.are_made = false;
+    pairs.samples = Samples(memory);
+    pairs.labels = Labels(memory);
+}
+
 }

@@ -8,4 +8,7 @@ namespace geodesic {
 // wait; when that throws, as where memory is short, the next one to ask begins anew.
 void require_pair_tables(const OverlayIndex& index);
 
+// Frees them again. The next thread that asks makes them anew. No query may be running.
+void release_pair_tables(const OverlayIndex& index);
+
 }

@@ -37,6 +37,10 @@ void prepare_pairs(const Index& index) {
     if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine)) require_pair_tables(*overlay);
 }
 
+void release_pairs(const Index& index) {
+    if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine)) release_pair_tables(*overlay);
+}
+
 void leave_out_labels(Index& index) {
     if (auto* const overlay = std::get_if<OverlayIndex>(&index.engine)) overlay->pairs.has_labels = false;
 }

@@ -36,6 +36,9 @@ void prepare(const StoredIndex& stored, Index& index);
 // may call it at any time; the first pair that is asked for does.
 void prepare_pairs(const Index& index);
 
+// Frees what prepare_pairs() made. No query may be running.
+void release_pairs(const Index& index);
+
 // Makes prepare_pairs() make no labels, from now on.
 void leave_out_labels(Index& index);
 

@@ -162,7 +162,15 @@ FIELD(geoidx_info, file_flags, 196);
 FIELD(geoidx_info, smallest_step, 200);
 FIELD(geoidx_info, largest_step, 208);
 FIELD(geoidx_info, added_vertex_count, 216);
-SIZE(geoidx_info, 224);
+FIELD(geoidx_info, error_near_mean, 224);
+FIELD(geoidx_info, error_near_max, 232);
+FIELD(geoidx_info, error_middle_mean, 240);
+FIELD(geoidx_info, error_middle_max, 248);
+FIELD(geoidx_info, error_far_mean, 256);
+FIELD(geoidx_info, error_far_max, 264);
+FIELD(geoidx_info, error_several_mean, 272);
+FIELD(geoidx_info, error_several_max, 280);
+SIZE(geoidx_info, 288);
 
 FIELD(geoidx_save_options, struct_size, 0);
 FIELD(geoidx_save_options, codec, 4);

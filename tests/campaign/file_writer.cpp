@@ -109,6 +109,7 @@ void add_meta(const FileContent& content, Writer& writer) {
     bytes.u32(content.engine);
     bytes.f64(0); // the error at vertices
     bytes.u32(content.is_packed ? 0 : 1);
+    for (int error = 0; error < 8; ++error) bytes.f64(0); // near, middle, far, several sources
     writer.add("META", bytes);
 }
 

@@ -117,7 +117,10 @@ void check_info(const BuildInput& input, const geoidx_info& info) {
     expect(info.welded_vertex_count == input.surface().welded_vertex_count(), "info: welded_vertex_count",
            "%llu, counted %u", static_cast<unsigned long long>(info.welded_vertex_count),
            input.surface().welded_vertex_count());
-    for (double error : {info.error_mean, info.error_p99, info.error_p999, info.error_max})
+    for (double error :
+         {info.error_mean, info.error_p99, info.error_p999, info.error_max, info.error_near_mean,
+          info.error_near_max, info.error_middle_mean, info.error_middle_max, info.error_far_mean,
+          info.error_far_max, info.error_several_mean, info.error_several_max})
         expect(error >= 0 && error < FAR, "info: errors", "%g", error);
 }
 

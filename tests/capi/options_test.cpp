@@ -140,8 +140,9 @@ TEST_CASE("info is filled up to its struct_size and not beyond") {
     CHECK(whole.error_mean <= whole.error_max);
     CHECK(whole.error_p99 <= whole.error_p999);
 
-    for (size_t size : {sizeof(uint32_t), offsetof(geoidx_info, mesh_fingerprint),
-                        offsetof(geoidx_info, error_mean) + sizeof(double)}) {
+    for (size_t size :
+         {sizeof(uint32_t), offsetof(geoidx_info, mesh_fingerprint),
+          offsetof(geoidx_info, error_mean) + sizeof(double), offsetof(geoidx_info, error_near_mean)}) {
         const ShortStruct<geoidx_info> part(geoidx_info{}, size);
         require_success(geoidx_get_info(index.get(), part.get()));
         geoidx_info expected = whole;

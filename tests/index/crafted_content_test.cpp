@@ -95,6 +95,9 @@ TEST_CASE("crafted META") {
     for (size_t i = 0; i < 5; ++i)
         check_corrupt("error", [i](TakenApart& parts) { parts.meta.errors[i] = double{NOT_A_NUMBER}; });
     check_corrupt("error", [](TakenApart& parts) { parts.meta.error_at_vertices = double{NOT_A_NUMBER}; });
+    for (size_t i = 0; i < 8; ++i)
+        check_corrupt("error",
+                      [i](TakenApart& parts) { parts.meta.errors_by_kind[i] = double{NOT_A_NUMBER}; });
     for (uint32_t engine : {1u, 2u, UINT32_MAX}) check_corrupt("engine", set(&Meta::engine, engine));
     check_corrupt("bytes too many",
                   [](TakenApart& parts) { parts.extra_bytes[TAG_META] = Bytes(1, std::byte{0}); });
@@ -440,7 +443,7 @@ TEST_CASE("a section that is missing is told by its number, at the beginning") {
 TEST_CASE("stored bytes that cannot be decoded are told by one number, where the section begins") {
     const auto unchanged = [](uint32_t, Bytes bytes) { return bytes; };
     for (const auto& [tag, size, name] :
-         {std::tuple(TAG_META, 120, "META"), std::tuple(TAG_BORDERS, 4000, "BORD")})
+         {std::tuple(TAG_META, 184, "META"), std::tuple(TAG_BORDERS, 4000, "BORD")})
         check_told(with_hollow_section(tag, static_cast<uint64_t>(size), unchanged), 100, name);
 
     // The signature of the first PNG, behind the count and the lengths.

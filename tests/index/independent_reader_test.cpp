@@ -248,6 +248,7 @@ struct IndependentIndex {
         CHECK(meta.u32() == GEOIDX_ENGINE_GRAPH);
         CHECK(!std::isnan(meta.f64()));
         CHECK(meta.u32() == 1); // lossless
+        for (int i = 0; i < 8; ++i) CHECK(!std::isnan(meta.f64()));
         CHECK(meta.remaining() == 0);
     }
 

@@ -25,6 +25,7 @@ struct TakenApart {
         uint32_t metric_flags, engine;
         double error_at_vertices;
         uint32_t codec;
+        double errors_by_kind[8]; // near, middle, far, several sources: mean and largest
     } meta;
     uint32_t level_count;
     uint64_t inner_count;
@@ -63,6 +64,7 @@ inline TakenApart take_apart(std::span<const std::byte> file) {
     parts.meta.engine = meta.u32();
     parts.meta.error_at_vertices = meta.f64();
     parts.meta.codec = meta.u32();
+    for (double& error : parts.meta.errors_by_kind) error = meta.f64();
 
     const auto hierarchy_bytes = bytes(TAG_HIERARCHY);
     format::ByteReader hierarchy(hierarchy_bytes);
@@ -156,6 +158,7 @@ inline Bytes put_together(const TakenApart& parts, const TakenApart& shapes, uin
     bytes.u32(parts.meta.engine);
     bytes.f64(parts.meta.error_at_vertices);
     bytes.u32(parts.meta.codec);
+    for (double error : parts.meta.errors_by_kind) bytes.f64(error);
     add(TAG_META, bytes);
     bytes.take();
     bytes.u32(parts.level_count);

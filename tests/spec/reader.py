@@ -206,7 +206,7 @@ class Index:
         with open(path, "rb") as file:
             self.sections, self.fingerprint = read_sections(file.read())
         meta = self.sections["META"].bytes()
-        require(len(meta) == 120, "META of another size")
+        require(len(meta) == 184, "META of another size")
         (self.id_count, triangle_count) = struct.unpack_from("<QQ", meta)
         (self.engine,) = struct.unpack_from("<I", meta, 104)
         (self.codec,) = struct.unpack_from("<I", meta, 116)

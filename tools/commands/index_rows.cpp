@@ -72,9 +72,17 @@ std::vector<IndexRow> error_rows(const geoidx_info& info) {
         {"error_signed_mean", "relative error, signed mean", printed(info.error_signed_mean)},
         {"error_p99", "relative error, p99", printed(info.error_p99)},
         {"error_p999", "relative error, p99.9", printed(info.error_p999)},
-        {"error_max", "relative error, max", printed(info.error_max)},
+        {"error_max", "relative error, max seen", printed(info.error_max)},
         {"error_mean_at_vertices", "mean, crossing borders at vertices",
-         printed(info.error_mean_at_vertices)}};
+         printed(info.error_mean_at_vertices)},
+        {"error_near_mean", "relative error up to 10 average edges, mean", printed(info.error_near_mean)},
+        {"error_near_max", "relative error up to 10 average edges, max", printed(info.error_near_max)},
+        {"error_middle_mean", "up to 100 average edges, mean", printed(info.error_middle_mean)},
+        {"error_middle_max", "up to 100 average edges, max", printed(info.error_middle_max)},
+        {"error_far_mean", "beyond, mean", printed(info.error_far_mean)},
+        {"error_far_max", "beyond, max", printed(info.error_far_max)},
+        {"error_several_mean", "relative error, several sources, mean", printed(info.error_several_mean)},
+        {"error_several_max", "relative error, several sources, max", printed(info.error_several_max)}};
     return rows;
 }
 

@@ -160,6 +160,11 @@ namespace Geoidx.Tests
             Assert.InRange(info.ErrorP99, 0, info.ErrorP999);
             Assert.InRange(Math.Abs(info.ErrorSignedMean), 0, info.ErrorMean);
             Assert.Equal(info.ErrorMean, info.ErrorMeanAtVertices);
+            Assert.InRange(info.ErrorNearMean, 0, info.ErrorNearMax);
+            Assert.InRange(info.ErrorMiddleMean, 0, info.ErrorMiddleMax);
+            Assert.Equal((0.0, 0.0), (info.ErrorFarMean, info.ErrorFarMax));
+            Assert.Equal(info.ErrorMax, Math.Max(info.ErrorNearMax, info.ErrorMiddleMax));
+            Assert.InRange(info.ErrorSeveralMean, 0, info.ErrorSeveralMax);
             Assert.Equal(0ul, info.MetricFingerprint);
             Assert.Equal(plane.Info.MeshFingerprint, info.MeshFingerprint);
             Assert.Equal(plane.Info.FormatVersion, info.FormatVersion);

@@ -38,6 +38,14 @@ namespace Geoidx
             SmallestStep = native.smallest_step;
             LargestStep = native.largest_step;
             AddedVertexCount = (long)native.added_vertex_count;
+            ErrorNearMean = native.error_near_mean;
+            ErrorNearMax = native.error_near_max;
+            ErrorMiddleMean = native.error_middle_mean;
+            ErrorMiddleMax = native.error_middle_max;
+            ErrorFarMean = native.error_far_mean;
+            ErrorFarMax = native.error_far_max;
+            ErrorSeveralMean = native.error_several_mean;
+            ErrorSeveralMax = native.error_several_max;
         }
 
         /// <summary>What a distance is.</summary>
@@ -100,7 +108,7 @@ namespace Geoidx
         /// <summary>The relative error that 0.1 % of the distances exceed.</summary>
         public double ErrorP999 { get; }
 
-        /// <summary>The largest relative error.</summary>
+        /// <summary>The largest relative error that was found from one source, by MSAD or SSSD.</summary>
         public double ErrorMax { get; }
 
         /// <summary>What the mean relative error would be if paths crossed borders at vertices only.</summary>
@@ -130,6 +138,33 @@ namespace Geoidx
         /// Vertices of the tables that have no id and are in no answer, see <see cref="BuildOptions.TargetError"/>.
         /// </summary>
         public long AddedVertexCount { get; }
+
+        /// <summary>
+        /// The mean relative error of MSAD from random sources over near distances, which are up to 10 average edges of
+        /// the mesh; 0 where there are none.
+        /// </summary>
+        public double ErrorNearMean { get; }
+
+        /// <summary>The largest relative error that was found over near distances, by MSAD or SSSD.</summary>
+        public double ErrorNearMax { get; }
+
+        /// <summary>As <see cref="ErrorNearMean"/>, over longer distances up to 100 average edges.</summary>
+        public double ErrorMiddleMean { get; }
+
+        /// <summary>As <see cref="ErrorNearMax"/>, over longer distances up to 100 average edges.</summary>
+        public double ErrorMiddleMax { get; }
+
+        /// <summary>As <see cref="ErrorNearMean"/>, over distances beyond 100 average edges.</summary>
+        public double ErrorFarMean { get; }
+
+        /// <summary>As <see cref="ErrorNearMax"/>, over distances beyond 100 average edges.</summary>
+        public double ErrorFarMax { get; }
+
+        /// <summary>The mean relative error of MSAD from several sources.</summary>
+        public double ErrorSeveralMean { get; }
+
+        /// <summary>The largest relative error that was found of MSAD from several sources.</summary>
+        public double ErrorSeveralMax { get; }
 
         /// <summary>Each property in a line of its own.</summary>
         public override string ToString() =>
@@ -164,6 +199,14 @@ namespace Geoidx
             $"{nameof(SmallestStep)}: {SmallestStep}",
             $"{nameof(LargestStep)}: {LargestStep}",
             $"{nameof(AddedVertexCount)}: {AddedVertexCount}",
+            $"{nameof(ErrorNearMean)}: {ErrorNearMean}",
+            $"{nameof(ErrorNearMax)}: {ErrorNearMax}",
+            $"{nameof(ErrorMiddleMean)}: {ErrorMiddleMean}",
+            $"{nameof(ErrorMiddleMax)}: {ErrorMiddleMax}",
+            $"{nameof(ErrorFarMean)}: {ErrorFarMean}",
+            $"{nameof(ErrorFarMax)}: {ErrorFarMax}",
+            $"{nameof(ErrorSeveralMean)}: {ErrorSeveralMean}",
+            $"{nameof(ErrorSeveralMax)}: {ErrorSeveralMax}",
         };
 
         private string PatchCountsText() => string.Join(" / ", PatchCounts);

@@ -72,6 +72,11 @@ class Options(unittest.TestCase):
         self.assertLess(fine.info.error_mean, plain.info.error_mean)
         for index in (plain, default, fine):
             self.assertEqual(index.info.welded_vertex_count, len(mesh[0]))
+            info = index.info
+            self.assertEqual(info.error_max, max(info.error_near_max, info.error_middle_max, info.error_far_max))
+            self.assertLess(0, info.error_near_mean)
+            self.assertLess(info.error_near_mean, info.error_near_max)
+            self.assertLess(info.error_several_mean, info.error_several_max)
             self.assertEqual(len(index.msad([0])), len(mesh[0]))
 
     def test_out_of_range(self):

@@ -128,6 +128,14 @@ namespace Geoidx
         internal double smallest_step;
         internal double largest_step;
         internal ulong added_vertex_count;
+        internal double error_near_mean;
+        internal double error_near_max;
+        internal double error_middle_mean;
+        internal double error_middle_max;
+        internal double error_far_mean;
+        internal double error_far_max;
+        internal double error_several_mean;
+        internal double error_several_max;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -48,6 +48,7 @@ class Info:
     error_p99: float
     error_p999: float
     error_max: float
+    """The largest that was found from one source, by MSAD or SSSD."""
     error_mean_at_vertices: float
     """The mean error if paths crossed borders at vertices only."""
     codec: Codec
@@ -60,6 +61,19 @@ class Info:
     """The same of the table with the largest steps. Half a step is the most that rounding changes an entry by."""
     added_vertex_count: int
     """Vertices of the tables that have no id and are in no answer, see `target_error` of `Index.build`."""
+    error_near_mean: float
+    """Of distances up to 10 average edges of the mesh: the mean of MSAD from random sources; 0 where there are none."""
+    error_near_max: float
+    """The largest error that was found, by MSAD or SSSD."""
+    error_middle_mean: float
+    """The same of longer distances up to 100 average edges."""
+    error_middle_max: float
+    error_far_mean: float
+    """The same of longer distances."""
+    error_far_max: float
+    error_several_mean: float
+    """Of MSAD from several sources."""
+    error_several_max: float
 
     @property
     def level_count(self) -> int:

@@ -147,6 +147,14 @@ class Info(Structure):
         ("smallest_step", c_double),
         ("largest_step", c_double),
         ("added_vertex_count", c_uint64),
+        ("error_near_mean", c_double),
+        ("error_near_max", c_double),
+        ("error_middle_mean", c_double),
+        ("error_middle_max", c_double),
+        ("error_far_mean", c_double),
+        ("error_far_max", c_double),
+        ("error_several_mean", c_double),
+        ("error_several_max", c_double),
     ]
 
 

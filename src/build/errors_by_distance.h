@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "src/index/description.h"
+#include "src/metric/metric.h"
+
+namespace geodesic {
+
+// Whether an answer can have a relative error at this distance.
+inline bool has_relative_error(double exact) { return exact > 0 && exact < UNREACHABLE; }
+
+inline double relative_error(double exact, double answer) { return std::abs((answer - exact) / exact); }
+
+// The mean and the largest of relative errors, which are added one by one.
+class ErrorSum {
+public:
+    void add(double error) {
+        sum_ += error;
+        ++count_;
+        add_to_max(error);
+    }
+    void add_to_max(double error) { max_ = std::max(max_, error); }
+    void add(const ErrorSum& other) {
+        sum_ += other.sum_;
+        count_ += other.count_;
+        add_to_max(other.max_);
+    }
+    MeanAndMax result() const { return {count_ == 0 ? 0 : sum_ / static_cast<double>(count_), max_}; }
+
+private:
+    double sum_ = 0, max_ = 0;
+    uint64_t count_ = 0;
+};
+
+// Relative errors by the exact distance.
+class ErrorsByDistance {
+public:
+    static constexpr double NEAR_EDGES = 10, MIDDLE_EDGES = 100;
+
+    explicit ErrorsByDistance(double average_edge)
+        : near_limit_(NEAR_EDGES * average_edge), middle_limit_(MIDDLE_EDGES * average_edge) {}
+
+    ErrorSum& of(double exact) { return sums_[exact <= near_limit_ ? 0 : exact <= middle_limit_ ? 1 : 2]; }
+    void add(const ErrorsByDistance& other) {
+        for (size_t i = 0; i < sums_.size(); ++i) sums_[i].add(other.sums_[i]);
+    }
+    std::array<MeanAndMax, DISTANCE_CLASSES> result() const {
+        std::array<MeanAndMax, DISTANCE_CLASSES> results;
+        std::ranges::transform(sums_, results.begin(), [](const ErrorSum& sum) { return sum.result(); });
+        return results;
+    }
+
+private:
+    double near_limit_, middle_limit_;
+    std::array<ErrorSum, DISTANCE_CLASSES> sums_;
+};
+
+}

@@ -1,0 +1,220 @@
+#include "src/build/near_search.h"
+
+#include <limits>
+#include <numeric>
+
+#include "src/query/query.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr double SEARCHED_EDGES = 11;  // how far from each source, in average edges
+constexpr size_t SOURCES_AT_ONCE = 16; // which share a query
+
+}
+
+// One thread's answers from one source at a time.
+class NearSearch::Answers {
+public:
+    explicit Answers(const NearSearch& search)
+        : index_(search.index_), intake_(search.intake_), radius_(SEARCHED_EDGES * search.average_edge_),
+          query_(index_, std::pmr::get_default_resource()), field_(index_.description.id_count) {}
+
+    // How far from the source answers are compared.
+    double radius() const { return radius_; }
+
+    // Answers MSAD, which may leave out what is farther than twice the radius.
+    void set_source(uint32_t vertex, bool is_whole = false) {
+        source_ = vertex;
+        const uint32_t id = id_of(vertex);
+        const double reach = std::min(2 * radius_, double{std::numeric_limits<float>::max()});
+        query_.msad({&id, 1}, is_whole ? INFINITE : static_cast<float>(reach), field_);
+    }
+    float msad(uint32_t vertex) const { return field_[id_of(vertex)]; }
+    float sssd(uint32_t vertex) { return query_.sssd(id_of(source_), id_of(vertex)); }
+
+    // Whether SSSD may be worse than MSAD. Of two inner vertices of one leaf, tables hold the distance
+    // itself, and with the graph engine it is not worse anywhere.
+    bool may_be_worse(uint32_t vertex) const {
+        return index_.description.engine == GEOIDX_ENGINE_OVERLAY && is_across(vertex);
+    }
+
+    // By how much SSSD and MSAD differ at most, relative to MSAD.
+    double disagreement() {
+        double most = 0;
+        for (uint32_t v = 0; v < intake_.mesh.vertex_count(); ++v)
+            if (const double d = msad(v); d > 0 && d <= radius_ && may_be_worse(v))
+                most = std::max(most, relative_error(d, sssd(v)));
+        return most;
+    }
+
+private:
+    bool is_across(uint32_t vertex) const {
+        const Numbering& numbering = index_.numbering();
+        const uint32_t first = index_.number_of_id[id_of(source_)],
+                       second = index_.number_of_id[id_of(vertex)];
+        return numbering.is_border(first) || numbering.is_border(second) ||
+               numbering.leaf_of(first) != numbering.leaf_of(second);
+    }
+    uint32_t id_of(uint32_t vertex) const { return intake_.id_of_vertex[vertex]; }
+
+    const Index& index_;
+    const Intake& intake_;
+    const double radius_;
+    Query query_;
+    uint32_t source_ = NONE;
+    std::vector<float> field_; // by id
+};
+
+// One thread's comparison of answers with the metric.
+class NearSearch::Comparison {
+public:
+    Comparison(const NearSearch& search, FieldSolver& solver)
+        : vertex_count_(search.intake_.mesh.vertex_count()), solver_(solver), answers_(search),
+          errors_(search.average_edge_) {}
+
+    void compare(Source& source) {
+        find_near(source.vertex);
+        // Some answer may be so wrong that it is beyond the radius.
+        answers_.set_source(source.vertex);
+        if (std::ranges::any_of(near_, [&](uint32_t v) { return answers_.msad(v) == INFINITE; }))
+            answers_.set_source(source.vertex, true);
+        for (const uint32_t vertex : near_) {
+            note(source, vertex, answers_.msad(vertex));
+            if (answers_.may_be_worse(vertex)) note(source, vertex, answers_.sssd(vertex));
+        }
+    }
+
+    const ErrorsByDistance& errors() const { return errors_; }
+
+private:
+    void find_near(uint32_t source) {
+        near_.clear();
+        solver_.solve({&source, 1}, {}, answers_.radius());
+        for (uint32_t v = 0; v < vertex_count_; ++v)
+            if (const double d = solver_.distance(v); d <= answers_.radius() && has_relative_error(d))
+                near_.push_back(v);
+    }
+
+    void note(Source& source, uint32_t vertex, float answer) {
+        const double exact = solver_.distance(vertex), error = relative_error(exact, answer);
+        errors_.of(exact).add_to_max(error);
+        if (error <= source.largest) return;
+        source.largest = error;
+        source.worst = vertex;
+    }
+
+    const uint32_t vertex_count_;
+    FieldSolver& solver_;
+    Answers answers_;
+    std::vector<uint32_t> near_; // vertices
+    ErrorsByDistance errors_;
+};
+
+NearSearch::NearSearch(const Index& index, const Intake& intake, double average_edge)
+    : index_(index), intake_(intake), average_edge_(average_edge),
+      is_source_(intake.mesh.vertex_count(), false), errors_(average_edge) {}
+
+void NearSearch::run(const NearEffort& effort, uint64_t seed, Workers& workers) {
+    Random random(seed);
+    add_first_sources(effort, random, workers);
+    compare_new_sources(workers);
+    for (uint32_t i = 0; i < effort.climbs && climb(effort.sources_per_climb); ++i)
+        compare_new_sources(workers);
+}
+
+// Different vertices, a quarter of them anywhere.
+std::vector<uint32_t> NearSearch::choose_candidates(uint32_t count, Random& random) const {
+    const uint32_t vertex_count = intake_.mesh.vertex_count();
+    const BorderVertices borders(index_, intake_);
+    std::vector<uint32_t> candidates;
+    std::vector<bool> is_chosen(vertex_count, false);
+    for (uint32_t i = 0; i < count; ++i) {
+        const bool anywhere = i % 4 == 0 || !borders.are_there();
+        const uint32_t v = anywhere ? random.below(vertex_count) : borders.on_or_next_to(random);
+        if (!is_chosen[v]) candidates.push_back(v);
+        is_chosen[v] = true;
+    }
+    return candidates;
+}
+
+// On a mesh that is not much larger, all vertices are sources. Otherwise these are a third as they come, and
+// those where answers disagree most.
+void NearSearch::add_first_sources(const NearEffort& effort, Random& random, Workers& workers) {
+    const uint32_t vertex_count = intake_.mesh.vertex_count(), count = effort.first_sources;
+    if (vertex_count <= count + effort.climbs * effort.sources_per_climb) {
+        for (uint32_t v = 0; v < vertex_count; ++v) add_source(v);
+        return;
+    }
+    const auto candidates = choose_candidates(std::max(effort.candidates, count), random);
+    std::vector<size_t> order(candidates.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    if (effort.candidates > count) {
+        const auto score = disagreements(candidates, workers);
+        std::stable_sort(order.begin() + static_cast<ptrdiff_t>(std::min<size_t>(count / 3, order.size())),
+                         order.end(), [&](size_t a, size_t b) { return score[a] > score[b]; });
+    }
+    for (const size_t i : std::span(order).first(std::min<size_t>(count, order.size())))
+        add_source(candidates[i]);
+}
+
+std::vector<double> NearSearch::disagreements(std::span<const uint32_t> sources, Workers& workers) const {
+    std::vector<double> result(sources.size());
+    workers.run((sources.size() + SOURCES_AT_ONCE - 1) / SOURCES_AT_ONCE, [&](FieldSolver&, size_t task) {
+        Answers answers(*this);
+        const size_t begin = task * SOURCES_AT_ONCE, end = std::min(begin + SOURCES_AT_ONCE, sources.size());
+        for (size_t i = begin; i < end; ++i) {
+            answers.set_source(sources[i]);
+            result[i] = answers.disagreement();
+        }
+    });
+    return result;
+}
+
+// Errors of neighbours resemble each other, so the worst pair of all lies near bad ones. Makes new sources of
+// the vertices around the worst pairs, those of the worst ones first. Returns whether there are any.
+bool NearSearch::climb(uint32_t most_sources) {
+    std::vector<size_t> order;
+    for (size_t i = 0; i < compared_; ++i)
+        if (!sources_[i].is_climbed && sources_[i].worst != NONE) order.push_back(i);
+    std::ranges::sort(order, [&](size_t a, size_t b) {
+        return sources_[a].largest != sources_[b].largest ? sources_[a].largest > sources_[b].largest : a < b;
+    });
+    const size_t most = compared_ + most_sources;
+    const auto add = [&](uint32_t vertex) {
+        if (sources_.size() < most) add_source(vertex);
+    };
+    for (const size_t i : order) {
+        if (sources_.size() >= most) break;
+        const uint32_t ends[] = {sources_[i].vertex, sources_[i].worst};
+        sources_[i].is_climbed = true;
+        add(ends[1]);
+        for (const uint32_t end : ends)
+            for (const uint32_t v : neighbours(intake_.mesh, end)) add(v);
+    }
+    return sources_.size() > compared_;
+}
+
+void NearSearch::add_source(uint32_t vertex) {
+    if (is_source_[vertex]) return;
+    is_source_[vertex] = true;
+    sources_.push_back({vertex});
+}
+
+void NearSearch::compare_new_sources(Workers& workers) {
+    const auto fresh = std::span(sources_).subspan(compared_);
+    const size_t tasks = (fresh.size() + SOURCES_AT_ONCE - 1) / SOURCES_AT_ONCE;
+    std::vector<ErrorsByDistance> errors(tasks, ErrorsByDistance(average_edge_));
+    workers.run(tasks, [&](FieldSolver& solver, size_t task) {
+        Comparison comparison(*this, solver);
+        const size_t begin = task * SOURCES_AT_ONCE;
+        for (Source& source : fresh.subspan(begin, std::min(SOURCES_AT_ONCE, fresh.size() - begin)))
+            comparison.compare(source);
+        errors[task] = comparison.errors();
+    });
+    for (const ErrorsByDistance& of_task : errors) errors_.add(of_task);
+    compared_ = sources_.size();
+}
+
+}
