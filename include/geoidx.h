@@ -64,6 +64,9 @@ typedef struct geoidx_query geoidx_query;
 /* A mesh with a metric and one thread's scratch: distances computed from scratch, without an index. */
 typedef struct geoidx_solver geoidx_solver;
 
+/* A mesh with its adjacency, for points of the surface: immutable, shared by any number of threads. */
+typedef struct geoidx_surface geoidx_surface;
+
 /* 0 is success, errors are negative. The numbers never change once released. */
 typedef int32_t geoidx_status;
 
@@ -86,7 +89,8 @@ enum {
     GEOIDX_ERROR_CANCELLED = -11, /* a progress callback returned 0 */
     GEOIDX_ERROR_BAD_MESH = -12,  /* the mesh cannot be used; geoidx_last_error() names the element */
     GEOIDX_ERROR_CALLBACK = -13,  /* the caller's metric failed or returned NaN or a negative number */
-    GEOIDX_ERROR_INTERNAL = -14   /* a defect of this library */
+    GEOIDX_ERROR_INTERNAL = -14,  /* a defect of this library */
+    GEOIDX_ERROR_NO_PATH = -15    /* no path on the surface joins the two points */
 };
 
 /* The release of the library: major * 10000 + minor * 100 + patch. */
@@ -509,6 +513,43 @@ typedef int32_t (*geoidx_issue_fn)(void* user, const geoidx_issue* issue);
  * first problem's status. `issue` may be NULL. */
 GEOIDX_API geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user);
 
+/* ---- Points of the surface
+ * ------------------------------------------------------------------------------ */
+
+/* A point of the surface: of triangle `triangle` of the caller's array, which must not be degenerate, with
+ * the weights of its three corners: not negative, 1 in sum (to 1e-6; they are scaled to it). Weights of 0 put
+ * it on an edge, a weight of 1 at a corner. */
+typedef struct geoidx_surface_point {
+    uint32_t triangle;
+    uint32_t reserved; /* not read */
+    double weights[3];
+} geoidx_surface_point;
+
+typedef struct geoidx_surface_options {
+    uint32_t struct_size;
+    uint32_t reserved;     /* not read */
+    double weld_tolerance; /* of the index that it is used with, as in geoidx_build_options; default 0 */
+} geoidx_surface_options;
+
+GEOIDX_API void geoidx_surface_options_init_sized(geoidx_surface_options* options, uint32_t struct_size);
+static inline void geoidx_surface_options_init(geoidx_surface_options* options) {
+    geoidx_surface_options_init_sized(options, sizeof(geoidx_surface_options));
+}
+
+/* Makes a surface of the caller's mesh, by the rules of geoidx_mesh; `options` may be NULL. It takes some 125
+ * bytes a vertex of a closed mesh, from the global heap, and no more for any number of threads. A query takes
+ * a surface of the mesh that its index was built from; GEOIDX_ERROR_MESH_MISMATCH for another one. To be
+ * closed with geoidx_surface_close. */
+GEOIDX_API geoidx_status geoidx_surface_create(const geoidx_mesh* mesh, const geoidx_surface_options* options,
+                                               geoidx_surface** out);
+GEOIDX_API void geoidx_surface_close(geoidx_surface* surface);
+
+/* The point of the surface that is nearest to a position in space, three finite numbers; of several that are
+ * as near, one of them. Its triangle is one of the caller's that is not degenerate, of duplicate ones the
+ * first. `distance`, the straight one in space, may be NULL. */
+GEOIDX_API geoidx_status geoidx_closest_point(const geoidx_surface* surface, const double* position,
+                                              geoidx_surface_point* point, double* distance);
+
 /* ---- Queries (paper section 3.4)
  * ----------------------------------------------------------------------------- */
 
@@ -584,6 +625,61 @@ GEOIDX_API geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t sour
 GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32_t* targets,
                                                uint64_t target_count, float* distances);
 
+/* The functions below take points of the surface. They serve indices of GEOIDX_METRIC_EXACT without
+ * edge_lengths and of GEOIDX_METRIC_EDGES without edge costs; with another metric, what a way within a
+ * triangle costs is not known: GEOIDX_ERROR_INVALID_ARGUMENT. By GEOIDX_METRIC_EDGES a way leads from a point
+ * straight to the corners of its triangle, and along edges from there. `surface` must be of the index's mesh,
+ * and stay open during the call only. */
+
+/* geoidx_query_sssd between points of the surface, symmetric bit for bit. Of points at vertices it gives the
+ * same bits. By GEOIDX_METRIC_EXACT, points of one triangle are as far apart as the straight line between
+ * them is long, and so are those of triangles that share an edge which that line crosses, unless the index
+ * knows a much shorter way; others are to the accuracy of the index. +INFINITY where there is no path. */
+GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
+                                                 const geoidx_surface_point* source,
+                                                 const geoidx_surface_point* target, float* distance);
+
+/* geoidx_query_msad from points of the surface: distances[v] is the least of offsets[i] + the distance from
+ * sources[i] to v. `offsets` are finite and not negative; NULL: all are 0. */
+GEOIDX_API geoidx_status geoidx_query_point_msad(geoidx_query* query, const geoidx_surface* surface,
+                                                 const geoidx_surface_point* sources, uint32_t source_count,
+                                                 const float* offsets, float* distances,
+                                                 uint32_t distance_count);
+
+/* ---- Paths
+ * ------------------------------------------------------------------------------ */
+
+enum {
+    /* A path that is locally shortest: no vertex that it passes can be passed on a shorter side. Its length
+     * is never below the distance and mostly equal to it. */
+    GEOIDX_PATH_STRAIGHT = 0,
+    /* A shortest path: distances are computed by the metric itself in a corridor, the vertices over which the
+     * index allows a way about as short. */
+    GEOIDX_PATH_EXACT = 1
+};
+
+/* A point of a path: on a triangle of the caller's, and in space. */
+typedef struct geoidx_path_point {
+    geoidx_surface_point point;
+    double position[3];
+} geoidx_path_point;
+
+/* Finds a path and keeps it in the query until the next call; *length is the sum of the lengths of its
+ * pieces. `quality` is a GEOIDX_PATH_*; not read by GEOIDX_METRIC_EDGES, whose path leads over vertices.
+ * GEOIDX_ERROR_NO_PATH if the points are in different components. Between a point and itself there is a path
+ * of length 0. A path has its own scratch from the global heap. */
+GEOIDX_API geoidx_status geoidx_query_path(geoidx_query* query, const geoidx_surface* surface,
+                                           const geoidx_surface_point* source,
+                                           const geoidx_surface_point* target, uint32_t quality,
+                                           double* length);
+
+/* The points of the latest path, from source to target: at least two. *count is always set to their number,
+ * 0 if there is no path; when capacity is smaller, nothing is written and GEOIDX_ERROR_INVALID_ARGUMENT is
+ * returned, unless points is NULL and capacity 0, which asks for the number and succeeds. The piece
+ * from each point to the next one is the straight line, on the triangle of the first of them. */
+GEOIDX_API geoidx_status geoidx_query_path_points(const geoidx_query* query, geoidx_path_point* points,
+                                                  uint64_t capacity, uint64_t* count);
+
 /* ---- Distances without an index
  * ------------------------------------------------------------------------------ */
 
@@ -599,15 +695,6 @@ GEOIDX_API void geoidx_solver_close(geoidx_solver* solver);
 GEOIDX_API geoidx_status geoidx_solver_distances(geoidx_solver* solver, const uint32_t* sources,
                                                  uint32_t source_count, const uint32_t* targets,
                                                  uint32_t target_count, double* distances);
-
-/* A point of the surface: of triangle `triangle` of the caller's array, which must not be degenerate, with
- * the weights of its three corners: not negative, 1 in sum (to 1e-6; they are scaled to it). Weights of 0 put
- * it on an edge, a weight of 1 at a corner. */
-typedef struct geoidx_surface_point {
-    uint32_t triangle;
-    uint32_t reserved; /* not read */
-    double weights[3];
-} geoidx_surface_point;
 
 /* distances[i]: from targets[i] to the nearest of 1 or more sources, which are points of the surface. For
  * GEOIDX_METRIC_EXACT and _WEIGHTED only. */

@@ -12,6 +12,8 @@
 #include "geoidx.h"
 #include "src/mesh/intake.h"
 #include "src/metric/metric.h"
+#include "src/path/face_boxes.h"
+#include "src/path/surface.h"
 #include "src/query/index.h"
 #include "src/query/query.h"
 
@@ -72,14 +74,23 @@ struct geoidx {
 
 struct geoidx_query {
     explicit geoidx_query(const geoidx& index, std::pmr::memory_resource& memory)
-        : memory(memory), query(index.index, &memory) {}
+        : memory(memory), index(index.index), query(index.index, &memory) {}
 
     std::pmr::memory_resource& memory; // of the index
+    const geodesic::Index& index;
     geodesic::Query query;
+    std::vector<geoidx_path_point> path; // the latest one
 };
 
 struct geoidx_solver {
     geodesic::Intake intake;
     std::unique_ptr<geodesic::Metric> metric;
     std::unique_ptr<geodesic::FieldSolver> solver;
+};
+
+struct geoidx_surface {
+    explicit geoidx_surface(geodesic::Intake&& intake) : surface(std::move(intake)), boxes(surface) {}
+
+    geodesic::Surface surface;
+    geodesic::FaceBoxes boxes;
 };

@@ -30,3 +30,7 @@ void geoidx_save_options_init_sized(geoidx_save_options* options, uint32_t struc
 void geoidx_open_options_init_sized(geoidx_open_options* options, uint32_t struct_size) {
     init_sized(options, struct_size, {});
 }
+
+void geoidx_surface_options_init_sized(geoidx_surface_options* options, uint32_t struct_size) {
+    init_sized(options, struct_size, {});
+}

@@ -1,8 +1,13 @@
 // Questions to an index, by scratch of its own or by the handle of a query.
+#include <algorithm>
+
 #include "geoidx.h"
 #include "src/base/numbers.h"
 #include "src/capi/handles.h"
+#include "src/capi/points.h"
 #include "src/capi/status.h"
+#include "src/path/path.h"
+#include "src/path/point_queries.h"
 
 using namespace geodesic;
 
@@ -151,5 +156,74 @@ geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32_t* targets
         require(target_count == 0 || targets, "targets is NULL");
         require(target_count == 0 || distances, "distances is NULL");
         for (uint64_t i = 0; i < target_count; ++i) distances[i] = query->query.prepared_sssd(targets[i]);
+    });
+}
+
+geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
+                                      const geoidx_surface_point* source, const geoidx_surface_point* target,
+                                      float* distance) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(surface, "surface is NULL");
+        require(source, "source is NULL");
+        require(target, "target is NULL");
+        require(distance, "distance is NULL");
+        const SurfacePoint from = checked_point(surface->surface, *source, "source"),
+                           to = checked_point(surface->surface, *target, "target");
+        *distance = PointQueries(query->index, query->query, surface->surface).sssd(from, to);
+    });
+}
+
+geoidx_status geoidx_query_point_msad(geoidx_query* query, const geoidx_surface* surface,
+                                      const geoidx_surface_point* sources, uint32_t source_count,
+                                      const float* offsets, float* distances, uint32_t distance_count) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(surface, "surface is NULL");
+        require(sources, "sources is NULL");
+        require(source_count > 0, "there is no source");
+        require(distances, "distances is NULL");
+        std::vector<SurfacePoint> points;
+        for (uint32_t i = 0; i < source_count; ++i) {
+            points.push_back(checked_point(surface->surface, sources[i], "source " + std::to_string(i)));
+            require(!offsets || (offsets[i] >= 0 && offsets[i] < INFINITE),
+                    "an offset is negative, infinite or NaN");
+        }
+        PointQueries(query->index, query->query, surface->surface)
+            .msad(points, {offsets, offsets ? source_count : 0}, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_path(geoidx_query* query, const geoidx_surface* surface,
+                                const geoidx_surface_point* source, const geoidx_surface_point* target,
+                                uint32_t quality, double* length) {
+    if (query) query->path.clear();
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(surface, "surface is NULL");
+        require(source, "source is NULL");
+        require(target, "target is NULL");
+        require(length, "length is NULL");
+        require(quality <= GEOIDX_PATH_EXACT, "quality is not a GEOIDX_PATH_*");
+        const SurfacePoint from = checked_point(surface->surface, *source, "source"),
+                           to = checked_point(surface->surface, *target, "target");
+        const SurfacePath path =
+            find_path(query->index, query->query, surface->surface, from, to,
+                      quality == GEOIDX_PATH_EXACT ? PathQuality::EXACT : PathQuality::STRAIGHT);
+        query->path = callers_path(surface->surface, path.points);
+        *length = path.length;
+    });
+}
+
+geoidx_status geoidx_query_path_points(const geoidx_query* query, geoidx_path_point* points,
+                                       uint64_t capacity, uint64_t* count) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(count, "count is NULL");
+        *count = query->path.size();
+        require(points || capacity == 0, "points is NULL, but capacity is not 0");
+        if (!points) return;
+        require(*count <= capacity, "there are more points than capacity");
+        std::ranges::copy(query->path, points);
     });
 }

@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "geoidx.h"
 #include "src/build/metric_options.h"
 #include "src/capi/handles.h"
+#include "src/capi/points.h"
 #include "src/capi/status.h"
 #include "src/capi/structs.h"
 
@@ -47,36 +47,12 @@ void solve(geoidx_solver& solver, std::span<const uint32_t> sources, std::span<c
     }
 }
 
-[[noreturn]] void refuse(const std::string& detail) { throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail); }
-
-void check_weights(const geoidx_surface_point& point, double sum, const std::string& name) {
-    for (double weight : point.weights)
-        if (!(weight >= 0)) refuse(name + " has the weight " + std::to_string(weight));
-    if (!(std::abs(sum - 1) <= 1e-6)) refuse(name + " has weights of " + std::to_string(sum) + " in sum");
-}
-
-SurfacePoint surface_point(const Intake& intake, const geoidx_surface_point& point, const std::string& name) {
-    const size_t triangle_count = intake.face_of_triangle.size();
-    const std::string on = name + " is on triangle " + std::to_string(point.triangle);
-    if (point.triangle >= triangle_count) refuse(on + ", but the mesh has " + std::to_string(triangle_count));
-    const uint32_t face = intake.face_of_triangle[point.triangle];
-    if (face == NONE) refuse(on + ", which is degenerate");
-    const double sum = point.weights[0] + point.weights[1] + point.weights[2];
-    check_weights(point, sum, name);
-    std::array<uint32_t, 3> corners{0, 1, 2};
-    if (const auto found = intake.corners_of_duplicate.find(point.triangle);
-        found != intake.corners_of_duplicate.end())
-        corners = found->second;
-    SurfacePoint result{face, {}};
-    for (size_t k = 0; k < 3; ++k) result.weights[corners[k]] = point.weights[k] / sum;
-    return result;
-}
-
 std::vector<SurfacePoint> surface_points(const Intake& intake, std::span<const geoidx_surface_point> points,
                                          const char* name) {
     std::vector<SurfacePoint> result;
     for (size_t i = 0; i < points.size(); ++i)
-        result.push_back(surface_point(intake, points[i], std::string(name) + " " + std::to_string(i)));
+        result.push_back(checked_point(TriangleFaces{intake.face_of_triangle, intake.corners_of_duplicate},
+                                       points[i], std::string(name) + " " + std::to_string(i)));
     return result;
 }
 

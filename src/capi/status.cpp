@@ -52,6 +52,8 @@ const char* geoidx_status_string(geoidx_status status) {
         return "the metric callback failed";
     case GEOIDX_ERROR_INTERNAL:
         return "internal error";
+    case GEOIDX_ERROR_NO_PATH:
+        return "there is no path";
     default:
         return "unknown status";
     }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "src/overlay/point_ways.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic {
@@ -36,12 +37,41 @@ void for_each_way_from(const OverlayIndex& index, uint32_t source, const Functio
         function(first + i, i == own ? 0 : index.distance(index.internal_code(leaf, own, i), leaf));
 }
 
+// The same from a point of a face.
+template <class Function>
+void for_each_way_from(const OverlayIndex& index, const PointWays& point, const Function& function) {
+    const auto border = index.numbering.border_of(point.leaf);
+    for (size_t i = 0; i < border.size(); ++i) function(border[i], point.distance[i]);
+    uint32_t number = index.numbering.first_internal(point.leaf);
+    for (size_t i = border.size(); i < point.distance.size(); ++i) function(number++, point.distance[i]);
+}
+
+// The sources of a sweep, each with a key: that of a vertex is its number, and those of points follow the
+// numbers of all vertices.
+struct Sources {
+    std::span<const uint32_t> keys;
+    std::span<const PointWays> points{};
+
+    uint32_t innermost_patch(const Numbering& numbering, uint32_t key) const {
+        const uint32_t vertices = numbering.vertex_count();
+        return key < vertices ? numbering.innermost_patch(key) : points[key - vertices].leaf;
+    }
+    template <class Function>
+    void for_each_way(const OverlayIndex& index, uint32_t key, const Function& function) const {
+        const uint32_t vertices = index.numbering.vertex_count();
+        if (key < vertices)
+            for_each_way_from(index, key, function);
+        else
+            for_each_way_from(index, points[key - vertices], function);
+    }
+};
+
 // Counts how many sources lie inside of each patch. The whole mesh, patch 0, has all of them.
-inline void count_sources(const Numbering& numbering, std::span<const uint32_t> sources,
+inline void count_sources(const Numbering& numbering, const Sources& sources,
                           Array<uint32_t>& sources_inside) {
     sources_inside.assign(numbering.patch_count(), 0);
-    for (const uint32_t source : sources)
-        for (uint32_t p = numbering.innermost_patch(source); p != NONE; p = numbering.parent[p])
+    for (const uint32_t key : sources.keys)
+        for (uint32_t p = sources.innermost_patch(numbering, key); p != NONE; p = numbering.parent[p])
             ++sources_inside[p];
 }
 

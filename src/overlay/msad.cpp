@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "src/overlay/ascend.h"
 #include "src/overlay/descend.h"
 
 namespace geodesic {
@@ -21,11 +20,15 @@ void OverlayMsad::set_threads(uint32_t count) {
     while (of_thread_.size() < count) of_thread_.emplace_back(index_, of_thread_.get_allocator().resource());
 }
 
-void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
+void OverlayMsad::sweep(const Sources& sources, float radius, std::span<float> distance) {
+    sources_ = sources;
+    const uint32_t keys = numbering_.vertex_count() + static_cast<uint32_t>(sources.points.size());
+    top_.own.set_keys(keys);
+    for (Scratch& scratch : of_thread_) scratch.own.set_keys(keys);
     nearest_.clear();
     std::ranges::fill(distance, INFINITE);
-    for (const uint32_t source : sources)
-        for_each_way_from(index_, source, [&](uint32_t number, float way) {
+    for (const uint32_t source : sources.keys)
+        sources.for_each_way(index_, source, [&](uint32_t number, float way) {
             distance[number] = std::min(distance[number], way);
             if (numbering_.is_border(number)) nearest_.add(number, {way, source});
         });
@@ -36,7 +39,7 @@ void OverlayMsad::sweep(std::span<const uint32_t> sources, float radius, std::sp
 }
 
 bool OverlayMsad::is_within(uint32_t source, uint32_t patch) const {
-    return numbering_.is_within(numbering_.innermost_patch(source), patch);
+    return numbering_.is_within(sources_.innermost_patch(numbering_, source), patch);
 }
 
 // Hops from the sources inside of a child to the overlay of its parent. The child's border keeps the

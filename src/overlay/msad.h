@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "src/overlay/ascend.h"
 #include "src/overlay/inner_sweep.h"
 #include "src/overlay/nearest_sources.h"
 #include "src/overlay/outer_crossing.h"
@@ -22,7 +23,7 @@ public:
 
     // Fills distance[number] of every vertex. Patches whose whole border is farther than `radius` are
     // skipped, and their vertices stay at infinity.
-    void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distance);
+    void sweep(const Sources& sources, float radius, std::span<float> distance);
 
 private:
     // What one thread works with.
@@ -45,6 +46,7 @@ private:
     Array<Scratch> of_thread_;
     Array<uint32_t> sources_inside_; // per patch: how many
     NearestSources nearest_;
+    Sources sources_{}; // of the sweep that runs
 };
 
 }

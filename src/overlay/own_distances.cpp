@@ -30,7 +30,7 @@ void OwnDistances::forget() {
 void OwnDistances::collect(uint32_t patch, const NearestSources& nearest) {
     forget();
     own_.resize(index_.numbering.border_vertex_count(), INFINITE);
-    last_way_.resize(index_.numbering.vertex_count(), NONE);
+    if (last_way_.size() < keys_) last_way_.resize(keys_, NONE);
     const auto border = index_.numbering.border_of(patch);
     for (const uint32_t vertex : border) {
         const auto all = nearest.of(vertex);

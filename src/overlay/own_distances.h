@@ -12,7 +12,11 @@ namespace geodesic {
 class OwnDistances {
 public:
     OwnDistances(const OverlayIndex& index, std::pmr::memory_resource* memory)
-        : index_(index), sources_(memory), last_way_(memory), ways_(memory), own_(memory) {}
+        : index_(index), sources_(memory), last_way_(memory), ways_(memory), own_(memory),
+          keys_(index.numbering.vertex_count()) {}
+
+    // Sources have keys below this number, which is that of vertices at first.
+    void set_keys(uint32_t count) { keys_ = count; }
 
     // Calls hop(distances, source) for each source that may be the nearest one somewhere on a patch's border,
     // if is_wanted(source). distances[number] is infinite where the distance from that source is not known.
@@ -49,9 +53,10 @@ private:
 
     const OverlayIndex& index_;
     Array<uint32_t> sources_;  // those that may be the nearest one
-    Array<uint32_t> last_way_; // by number: the last way of such a source, NONE of all others
+    Array<uint32_t> last_way_; // by key: the last way of such a source, NONE of all others
     Array<Way> ways_;          // from all of these sources
     Array<float> own_;         // by number: distances of the source that crosses, infinite elsewhere
+    uint32_t keys_;
 };
 
 }

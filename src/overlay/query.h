@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <memory_resource>
 #include <optional>
 #include <span>
 
 #include "src/overlay/msad.h"
 #include "src/overlay/pair_tables.h"
+#include "src/overlay/point_ways.h"
 #include "src/overlay/ssad.h"
 #include "src/overlay/sssd/prepared_source.h"
 #include "src/overlay/sssd/sssd.h"
@@ -18,13 +20,15 @@ class OverlayQuery {
 public:
     OverlayQuery(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : index_(index), memory_(memory), field_(index, memory), nearest_(index, memory),
-          batch_(index, memory, FIELDS_AT_ONCE), prepared_(index, memory) {}
+          batch_(index, memory, FIELDS_AT_ONCE),
+          prepared_(index, memory), rows_{Array<uint16_t>(memory), Array<uint16_t>(memory)}, points_(memory),
+          keys_(memory), ends_{PreparedSource(index, memory), PreparedSource(index, memory)} {}
 
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
     float sssd(uint32_t low, uint32_t high) { return pairs().distance(low, high); }
 
     // Prepares a source: prepared_sssd() then answers distances from it.
-    void prepare(uint32_t source) { prepared_.prepare(source, field_); }
+    void prepare(uint32_t source) { prepared_.prepare({{&source, 1}}, field_); }
     float prepared_sssd(uint32_t target) { return prepared_.distance(target); }
 
     // Sets how many threads msad() uses.
@@ -38,8 +42,22 @@ public:
         if (sources.size() == 1)
             field_.sweep(sources, radius, distance);
         else
-            nearest_.sweep(sources, radius, distance);
+            nearest_.sweep({sources}, radius, distance);
     }
+
+    // Whether points of a face can be answered by the tables of one leaf, as the following require.
+    bool takes(const FacePoint& point) const { return leaf_of_face(index_.numbering, point.corners) != NONE; }
+
+    // Of two points; callers pass both orders of a pair the same way.
+    float point_sssd(const FacePoint& first, const FacePoint& second);
+
+    // Fills distance[number] of every vertex: the least of offsets[i] + the distance from points[i].
+    void point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
+                    std::span<float> distance);
+
+    // Prepares one of the two ends of a path, 0 or 1: end_distance() then answers distances from it.
+    void prepare_end(size_t end, const FacePoint& point);
+    float end_distance(size_t end, uint32_t number) { return ends_[end].distance(number); }
 
     // Fills distances[number * FIELDS_AT_ONCE + i] with the distance from the i-th of FIELDS_AT_ONCE sources.
     // For fewer than FEWEST_AT_ONCE different ones it is faster to call msad() for each.
@@ -49,6 +67,9 @@ public:
     }
 
 private:
+    PathEnd end_of(const FacePoint& point, Array<uint16_t>& row) const;
+    void add_point(const FacePoint& point, float offset);
+
     // The first pair of all makes the tables that pairs need, and the first one of this object its scratch.
     OverlaySssd& pairs() {
         if (pairs_) return *pairs_;
@@ -63,6 +84,10 @@ private:
     OverlayMsad nearest_;
     OverlaySsad batch_;
     PreparedSource prepared_;
+    std::array<Array<uint16_t>, 2> rows_; // of the points of a pair
+    Array<PointWays> points_;             // of a sweep, or of the end that is prepared
+    Array<uint32_t> keys_;
+    std::array<PreparedSource, 2> ends_;
 };
 
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "src/overlay/ascend.h"
 #include "src/overlay/descend.h"
 
 namespace geodesic {
@@ -26,30 +25,32 @@ void OverlaySsad::set_threads(uint32_t count) {
     while (down_.size() < count) down_.push_back({index_, fields_, down_.get_allocator().resource()});
 }
 
-void OverlaySsad::sweep(std::span<const uint32_t> sources, float radius, std::span<float> distances) {
+void OverlaySsad::sweep(const Sources& sources, float radius, std::span<float> distances) {
     climb(sources, distances);
     descend_everywhere(numbering_, down_.front(), std::span(down_), [&](uint32_t patch, InnerSweep& sweep) {
         hop_down(patch, sources, radius, distances, sweep);
     });
 }
 
-void OverlaySsad::sweep_borders(uint32_t source, std::span<float> distance) {
-    climb({&source, 1}, distance);
+void OverlaySsad::sweep_borders(const Sources& source, std::span<float> distance) {
+    climb(source, distance);
     for (uint32_t p = 1; p < numbering_.first_leaf(); ++p)
-        hop_down(p, {&source, 1}, INFINITE, distance, down_.front());
+        hop_down(p, source, INFINITE, distance, down_.front());
 }
 
 // Fills the distances to the overlays of all patches that contain the source, for each field. All others are
 // infinite.
-void OverlaySsad::climb(std::span<const uint32_t> sources, std::span<float> distances) {
+void OverlaySsad::climb(const Sources& sources, std::span<float> distances) {
     std::ranges::fill(distances, INFINITE);
     const auto field = [&](size_t i) { return DistanceField{distances.data() + i, fields_}; };
     for (size_t i = 0; i < fields_; ++i)
-        for_each_way_from(index_, sources[i], [&](uint32_t number, float way) { field(i)[number] = way; });
+        sources.for_each_way(index_, sources.keys[i],
+                             [&](uint32_t number, float way) { field(i)[number] = way; });
     count_sources(numbering_, sources, sources_inside_);
     ascend(numbering_, sources_inside_, [&](uint32_t child) {
         for (size_t i = 0; i < fields_; ++i)
-            if (numbering_.is_within(numbering_.innermost_patch(sources[i]), child)) hop_up(child, field(i));
+            if (numbering_.is_within(sources.innermost_patch(numbering_, sources.keys[i]), child))
+                hop_up(child, field(i));
     });
 }
 
@@ -65,8 +66,8 @@ void OverlaySsad::hop_up(uint32_t child, DistanceField distance) {
 }
 
 // Hops to the inner vertices of a patch. Their distances from sources inside of the patch are known already.
-void OverlaySsad::hop_down(uint32_t patch, std::span<const uint32_t> sources, float radius,
-                           std::span<float> distances, InnerSweep& sweep) const {
+void OverlaySsad::hop_down(uint32_t patch, const Sources& sources, float radius, std::span<float> distances,
+                           InnerSweep& sweep) const {
     if (sources_inside_[patch] == fields_) return;
     if (!sweep.begin(patch, distances.data(), segments_of(patch), radius)) return;
     float* const inside = distances.data() + numbering_.first_inner(patch) * fields_;
@@ -76,7 +77,7 @@ void OverlaySsad::hop_down(uint32_t patch, std::span<const uint32_t> sources, fl
     }
     const std::span<const float> ways = sweep.cross();
     for (size_t i = 0; i < fields_; ++i)
-        if (!numbering_.is_within(numbering_.innermost_patch(sources[i]), patch))
+        if (!numbering_.is_within(sources.innermost_patch(numbering_, sources.keys[i]), patch))
             for (size_t k = i; k < ways.size(); k += fields_) inside[k] = ways[k];
 }
 

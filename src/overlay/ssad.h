@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "src/overlay/ascend.h"
 #include "src/overlay/inner_sweep.h"
 #include "src/overlay/outer_crossing.h"
 #include "src/overlay/tables.h"
@@ -30,17 +31,20 @@ public:
     // Fills distances[number * fields + i] of every vertex with its distance from the i-th source; there are
     // as many sources as fields. Patches whose whole border is farther than `radius` are skipped, and their
     // vertices stay at infinity.
-    void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distances);
+    void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distances) {
+        sweep(Sources{sources}, radius, distances);
+    }
+    void sweep(const Sources& sources, float radius, std::span<float> distances);
 
     // For one field. Fills the distances to all border vertices, and to the inner vertices of the patches
     // that contain the source. All others are infinite.
-    void sweep_borders(uint32_t source, std::span<float> distance);
+    void sweep_borders(const Sources& source, std::span<float> distance);
 
 private:
     RingSegments segments_of(uint32_t patch) const;
-    void climb(std::span<const uint32_t> sources, std::span<float> distances);
+    void climb(const Sources& sources, std::span<float> distances);
     void hop_up(uint32_t child, DistanceField distance);
-    void hop_down(uint32_t patch, std::span<const uint32_t> sources, float radius, std::span<float> distances,
+    void hop_down(uint32_t patch, const Sources& sources, float radius, std::span<float> distances,
                   InnerSweep& sweep) const;
 
     const OverlayIndex& index_;

@@ -34,6 +34,23 @@ public:
     uint32_t farthest_points(std::span<const uint32_t> source_ids, std::span<uint32_t> points,
                              std::span<float> distances);
 
+    // Of two points of faces: symmetric bit for bit.
+    float point_sssd(const FacePoint& source, const FacePoint& target);
+
+    // Multiple points, all destinations: the least of offsets[i] + the distance from points[i]. Without
+    // offsets all are 0. `known` are ways, by number, that the distances are not to be longer than.
+    struct KnownWay {
+        uint32_t number;
+        float length;
+    };
+    void point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
+                    std::span<const KnownWay> known, std::span<float> distances);
+
+    // Prepares one of the two ends of a path, 0 or 1: end_distance() then answers distances from it to
+    // vertices by their numbers.
+    void prepare_end(size_t end, const FacePoint& point);
+    float end_distance(size_t end, uint32_t number);
+
     // Threads of msad(), 0: one per processor; the graph engine uses one.
     void set_threads(uint32_t count);
 
@@ -45,6 +62,9 @@ private:
     void check_count(std::span<const float> distances, uint64_t fields) const;
     void take_sources(std::span<const uint32_t> source_ids);
     std::span<const float> field_within(float radius);
+    bool takes(const FacePoint& point) const;
+    float vertex_to_point(uint32_t vertex, const FacePoint& point);
+    void add_point_field(const FacePoint& point, float offset);
     void ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_ids, std::span<float> distances);
     void write_by_id(std::span<float> field) const;
     using SideBySide = std::array<float*, OverlayQuery::FIELDS_AT_ONCE>;
@@ -56,6 +76,11 @@ private:
     Array<std::pair<uint64_t, uint32_t>> order_; // the vertex numbers of a pair, and its position
     Array<uint32_t> sources_;                    // of MSAD, by number
     Array<float> distance_;                      // by number; of ssad_at_once() side by side
+    // Of points where the engine takes none: by number from each corner, from all points, and from the ends
+    // of a path.
+    std::array<Array<float>, 3> corner_fields_;
+    Array<float> point_field_;
+    std::array<Array<float>, 2> end_fields_;
 };
 
 }

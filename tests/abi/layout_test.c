@@ -25,6 +25,9 @@ NUMBER(GEOIDX_ERROR_CANCELLED, -11);
 NUMBER(GEOIDX_ERROR_BAD_MESH, -12);
 NUMBER(GEOIDX_ERROR_CALLBACK, -13);
 NUMBER(GEOIDX_ERROR_INTERNAL, -14);
+NUMBER(GEOIDX_ERROR_NO_PATH, -15);
+NUMBER(GEOIDX_PATH_STRAIGHT, 0);
+NUMBER(GEOIDX_PATH_EXACT, 1);
 NUMBER(GEOIDX_ISSUE_MAGIC, 1);
 NUMBER(GEOIDX_ISSUE_HEADER_TRUNCATED, 2);
 NUMBER(GEOIDX_ISSUE_VERSION, 3);
@@ -196,5 +199,14 @@ FIELD(geoidx_surface_point, triangle, 0);
 FIELD(geoidx_surface_point, reserved, 4);
 FIELD(geoidx_surface_point, weights, 8);
 SIZE(geoidx_surface_point, 32);
+
+FIELD(geoidx_surface_options, struct_size, 0);
+FIELD(geoidx_surface_options, reserved, 4);
+FIELD(geoidx_surface_options, weld_tolerance, 8);
+SIZE(geoidx_surface_options, 16);
+
+FIELD(geoidx_path_point, point, 0);
+FIELD(geoidx_path_point, position, 32);
+SIZE(geoidx_path_point, 56);
 
 int main(void) { return 0; }

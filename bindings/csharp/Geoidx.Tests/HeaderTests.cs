@@ -24,6 +24,7 @@ namespace Geoidx.Tests
             ("GEOIDX_OPEN_", typeof(OpenFlags)),
             ("GEOIDX_CODEC_", typeof(GeodesicCodec)),
             ("GEOIDX_SAVE_", typeof(SaveFlags)),
+            ("GEOIDX_PATH_", typeof(PathQuality)),
             ("GEOIDX_ISSUE_", typeof(GeodesicIssueNumber)),
             ("GEOIDX_", typeof(GeodesicStatus)),
         };

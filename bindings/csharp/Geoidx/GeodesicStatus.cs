@@ -47,5 +47,8 @@ namespace Geoidx
 
         /// <summary>A defect of the native library.</summary>
         Internal = -14,
+
+        /// <summary>No path on the surface joins the two points.</summary>
+        NoPath = -15,
     }
 }

@@ -46,6 +46,27 @@ struct Ascent {
     RingRow first_row; // from the vertex to the border of the first patch
 };
 
+// The end of a path: a vertex, or a point of a face with its row to the ring of a leaf (see fill_row).
+struct PathEnd {
+    uint32_t vertex = NONE;
+    uint32_t leaf = NONE; // of a point
+    const uint16_t* row = nullptr;
+};
+
+// The innermost patch around an end.
+inline uint32_t innermost_patch(const Numbering& numbering, const PathEnd& end) {
+    return end.vertex == NONE ? end.leaf : numbering.innermost_patch(end.vertex);
+}
+
+// Climbs from a point, which has no labels, up to a child of `top`.
+inline void climb_from_point(const OverlayIndex& index, const PathEnd& end, uint32_t top, Ascent& ascent) {
+    ascent.vertex = NONE;
+    ascent.patches.clear();
+    ascent.first_row = {end.row, index.rings.begin[end.leaf], index.quantum[end.leaf]};
+    for (uint32_t patch = end.leaf; patch != top; patch = index.numbering.parent[patch])
+        ascent.patches.push_back(patch);
+}
+
 // Climbs from a vertex up to a child of `top`.
 inline void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Ascent& ascent) {
     const Numbering& numbering = index.numbering;

@@ -8,7 +8,7 @@
 
 namespace geodesic {
 
-void PreparedSource::prepare(uint32_t source, OverlaySsad& field) {
+void PreparedSource::prepare(const Sources& source, OverlaySsad& field) {
     known_.resize(index_.numbering.vertex_count());
     for (auto* distances : {&from_, &to_})
         distances->resize(SourceCode::whole_blocks(index_.rings.largest_size()) + SourceCode::BLOCK);

@@ -15,7 +15,7 @@ public:
     PreparedSource(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : index_(index), known_(memory), from_(memory), to_(memory) {}
 
-    void prepare(uint32_t source, OverlaySsad& field);
+    void prepare(const Sources& source, OverlaySsad& field);
 
     // prepare() comes before.
     float distance(uint32_t target);

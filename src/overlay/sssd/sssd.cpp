@@ -58,8 +58,11 @@ uint32_t place_of_least_sum(const float* from, const float* to, uint32_t count) 
 
 // ---- One end
 
-void OverlaySssd::End::climb(const OverlayIndex& index, uint32_t of, uint32_t top) {
-    geodesic::climb(index, of, top, ascent);
+void OverlaySssd::End::climb(const OverlayIndex& index, const PathEnd& of, uint32_t top) {
+    if (of.vertex == NONE)
+        climb_from_point(index, of, top, ascent);
+    else
+        geodesic::climb(index, of.vertex, top, ascent);
     measured.begin();
     if (!is_at_top()) prefetch(ascent.first_row.codes, index.rings.size(ascent.patches.front()));
 }
@@ -163,8 +166,19 @@ float OverlaySssd::distance(uint32_t low, uint32_t high) {
     const uint32_t climber = high_climbs ? high : low, other = high_climbs ? low : high;
     if (!low_climbs || !high_climbs)
         if (const float d = distance_to_border(other, climber); d < INFINITE) return d;
-    to_.climb(index_, climber, top);
-    from_.climb(index_, other, top);
+    to_.climb(index_, {climber}, top);
+    from_.climb(index_, {other}, top);
+    return meet();
+}
+
+// A point always climbs: the leaves around it have both ends together in no table.
+float OverlaySssd::distance_of_points(const PathEnd& first, const PathEnd& second) {
+    const uint32_t first_patch = innermost_patch(numbering_, first),
+                   second_patch = innermost_patch(numbering_, second);
+    const uint32_t top = lowest_common_patch(numbering_, first_patch, second_patch);
+    const bool second_climbs = second_patch != top;
+    to_.climb(index_, second_climbs ? second : first, top);
+    from_.climb(index_, second_climbs ? first : second, top);
     return meet();
 }
 

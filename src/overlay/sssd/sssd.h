@@ -25,6 +25,9 @@ public:
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
     float distance(uint32_t low, uint32_t high);
 
+    // Of two ends of which at least one is a point. They must not be in one leaf or on its border.
+    float distance_of_points(const PathEnd& first, const PathEnd& second);
+
 private:
     struct End {
         End(const OverlayIndex& index, std::pmr::memory_resource* memory)
@@ -32,7 +35,7 @@ private:
             ascent.patches.reserve(index.numbering.level_count());
             ranges.reserve(index.numbering.level_count());
         }
-        void climb(const OverlayIndex& index, uint32_t of, uint32_t top);
+        void climb(const OverlayIndex& index, const PathEnd& of, uint32_t top);
         // Whether the end lies inside of the patch where the ends meet, and on no border inside of that.
         bool is_at_top() const { return ascent.patches.empty(); }
         bool has_few_pairs(const Rings& rings) const;

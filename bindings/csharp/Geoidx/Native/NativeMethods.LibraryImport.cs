@@ -136,6 +136,41 @@ namespace Geoidx
         internal static partial GeodesicStatus geoidx_solver_point_distances(
             SolverHandle solver, SurfacePoint* sources, uint source_count, SurfacePoint* targets,
             uint target_count, double* distances);
+
+        [LibraryImport(Library)]
+        internal static partial void geoidx_surface_options_init_sized(
+            void* options, uint struct_size);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_surface_create(
+            NativeMesh* mesh, NativeSurfaceOptions* options, out IntPtr surface);
+
+        [LibraryImport(Library)]
+        internal static partial void geoidx_surface_close(
+            IntPtr surface);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_closest_point(
+            IntPtr surface, double* position, SurfacePoint* point, double* distance);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_point_sssd(
+            QueryHandle query, IntPtr surface, SurfacePoint* source, SurfacePoint* target,
+            out float distance);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_point_msad(
+            QueryHandle query, IntPtr surface, SurfacePoint* sources, uint source_count,
+            float* offsets, float* distances, uint distance_count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_path(
+            QueryHandle query, IntPtr surface, SurfacePoint* source, SurfacePoint* target,
+            PathQuality quality, out double length);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_path_points(
+            QueryHandle query, NativePathPoint* points, ulong capacity, out ulong count);
     }
 }
 #endif

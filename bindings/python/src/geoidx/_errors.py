@@ -30,6 +30,7 @@ class Status(IntEnum):
     BAD_MESH = -12
     CALLBACK = -13
     INTERNAL = -14
+    NO_PATH = -15
 
 
 def status_of(number: int) -> int:

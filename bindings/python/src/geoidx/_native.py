@@ -180,6 +180,14 @@ class SurfacePoint(Structure):
     _fields_ = [("triangle", c_uint32), ("reserved", c_uint32), ("weights", c_double * 3)]
 
 
+class SurfaceOptions(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("weld_tolerance", c_double)]
+
+
+class PathPoint(Structure):
+    _fields_ = [("point", SurfacePoint), ("position", c_double * 3)]
+
+
 _HANDLE_OUT = POINTER(c_void_p)
 
 # Arrays and handles are addresses here: void pointers.
@@ -218,6 +226,23 @@ FUNCTIONS = {
     "geoidx_query_set_threads": (c_int32, [c_void_p, c_uint32]),
     "geoidx_query_prepare": (c_int32, [c_void_p, c_uint32]),
     "geoidx_query_prepared": (c_int32, [c_void_p, c_void_p, c_uint64, c_void_p]),
+    "geoidx_surface_options_init_sized": (None, [POINTER(SurfaceOptions), c_uint32]),
+    "geoidx_surface_create": (c_int32, [POINTER(Mesh), POINTER(SurfaceOptions), _HANDLE_OUT]),
+    "geoidx_surface_close": (None, [c_void_p]),
+    "geoidx_closest_point": (c_int32, [c_void_p, c_void_p, POINTER(SurfacePoint), POINTER(c_double)]),
+    "geoidx_query_point_sssd": (
+        c_int32,
+        [c_void_p, c_void_p, POINTER(SurfacePoint), POINTER(SurfacePoint), c_void_p],
+    ),
+    "geoidx_query_point_msad": (
+        c_int32,
+        [c_void_p, c_void_p, c_void_p, c_uint32, c_void_p, c_void_p, c_uint32],
+    ),
+    "geoidx_query_path": (
+        c_int32,
+        [c_void_p, c_void_p, POINTER(SurfacePoint), POINTER(SurfacePoint), c_uint32, POINTER(c_double)],
+    ),
+    "geoidx_query_path_points": (c_int32, [c_void_p, c_void_p, c_uint64, POINTER(c_uint64)]),
     "geoidx_solver_create": (c_int32, [POINTER(Mesh), POINTER(BuildOptions), _HANDLE_OUT]),
     "geoidx_solver_close": (None, [c_void_p]),
     "geoidx_solver_distances": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint32, c_void_p]),

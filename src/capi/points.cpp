@@ -1,0 +1,56 @@
+#include "src/capi/points.h"
+
+#include <cmath>
+
+#include "format/error.h"
+#include "src/base/numbers.h"
+
+namespace geodesic {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& detail) { throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail); }
+
+void check_weights(const geoidx_surface_point& point, double sum, const std::string& name) {
+    for (double weight : point.weights)
+        if (!(weight >= 0)) refuse(name + " has the weight " + std::to_string(weight));
+    if (!(std::abs(sum - 1) <= 1e-6)) refuse(name + " has weights of " + std::to_string(sum) + " in sum");
+}
+
+}
+
+SurfacePoint checked_point(const TriangleFaces& faces, const geoidx_surface_point& point,
+                           const std::string& name) {
+    const size_t triangle_count = faces.face_of_triangle.size();
+    const std::string on = name + " is on triangle " + std::to_string(point.triangle);
+    if (point.triangle >= triangle_count) refuse(on + ", but the mesh has " + std::to_string(triangle_count));
+    const uint32_t face = faces.face_of_triangle[point.triangle];
+    if (face == NONE) refuse(on + ", which is degenerate");
+    const double sum = point.weights[0] + point.weights[1] + point.weights[2];
+    check_weights(point, sum, name);
+    std::array<uint32_t, 3> corners{0, 1, 2};
+    if (const auto found = faces.corners_of_duplicate.find(point.triangle);
+        found != faces.corners_of_duplicate.end())
+        corners = found->second;
+    SurfacePoint result{face, {}};
+    for (size_t k = 0; k < 3; ++k) result.weights[corners[k]] = point.weights[k] / sum;
+    return result;
+}
+
+geoidx_surface_point callers_point(const Surface& surface, const SurfacePoint& point) {
+    geoidx_surface_point result{};
+    result.triangle = surface.triangle_of_face[point.face];
+    for (size_t k = 0; k < 3; ++k) result.weights[k] = point.weights[k];
+    return result;
+}
+
+std::vector<geoidx_path_point> callers_path(const Surface& surface, std::span<const SurfacePoint> points) {
+    std::vector<geoidx_path_point> result;
+    for (const SurfacePoint& point : points) {
+        const Eigen::Vector3d at = position_of(surface, point);
+        result.push_back({callers_point(surface, point), {at.x(), at.y(), at.z()}});
+    }
+    return result;
+}
+
+}

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "src/base/numbers.h"
+
+namespace geodesic {
+
+// A point of a face as queries take it: where it lies in the plane of the face, and the numbers of the
+// corners. Edge k is opposite to corner k, and leads from corner k + 1 to corner k + 2.
+struct FacePoint {
+    std::array<uint32_t, 3> corners;
+    uint32_t vertex; // the corner that the point is at, or NONE
+    bool unfolds;    // whether a way may cross the edges anywhere; if not, it leads over a corner
+    std::array<double, 3> to_corner;
+    std::array<double, 3> edge_length;
+    std::array<double, 3> foot, height; // in the plane of edge k: how far along it, and how far off
+};
+
+// A point with these weights on a face with these lengths of edges.
+FacePoint face_point(const std::array<uint32_t, 3>& corners, const std::array<double, 3>& edge_length,
+                     const std::array<double, 3>& weights, bool unfolds);
+
+// The distance of a vertex from the point, by the distances of the vertex from the three corners: straight
+// over one of the edges, where the vertex is placed on the far side of it, or over a corner.
+double distance_over(const FacePoint& point, const std::array<double, 3>& from_corners);
+
+}

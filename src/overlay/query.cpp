@@ -1,0 +1,85 @@
+#include "src/overlay/query.h"
+
+#include <algorithm>
+
+namespace geodesic {
+
+namespace {
+
+// A leaf that has both points, or the vertices that they are at, in its tables; NONE if there is none.
+uint32_t common_leaf(const Numbering& numbering, const FacePoint& first, const FacePoint& second) {
+    const auto has = [&](uint32_t leaf, const FacePoint& point) {
+        if (point.vertex != NONE) return is_in_leaf(numbering, leaf, point.vertex);
+        return std::ranges::all_of(point.corners,
+                                   [&](uint32_t corner) { return is_in_leaf(numbering, leaf, corner); });
+    };
+    for (const FacePoint* point : {&first, &second}) {
+        if (point->vertex != NONE) continue;
+        const uint32_t leaf = leaf_of_face(numbering, point->corners);
+        if (has(leaf, first) && has(leaf, second)) return leaf;
+    }
+    return NONE;
+}
+
+// Over both faces: from each corner of the second one to the first point, then to the second point.
+float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, const FacePoint& first,
+                       const FacePoint& second) {
+    if (first.vertex != NONE) return distance_in_leaf(index, leaf, second, first.vertex);
+    if (second.vertex != NONE) return distance_in_leaf(index, leaf, first, second.vertex);
+    std::array<double, 3> from_corners;
+    for (size_t k = 0; k < 3; ++k)
+        from_corners[k] = double{distance_in_leaf(index, leaf, first, second.corners[k])};
+    return static_cast<float>(distance_over(second, from_corners));
+}
+
+}
+
+PathEnd OverlayQuery::end_of(const FacePoint& point, Array<uint16_t>& row) const {
+    if (point.vertex != NONE) return {point.vertex};
+    const uint32_t leaf = leaf_of_face(index_.numbering, point.corners);
+    fill_row(index_, leaf, point, row);
+    return {NONE, leaf, row.data()};
+}
+
+float OverlayQuery::point_sssd(const FacePoint& first, const FacePoint& second) {
+    if (first.vertex != NONE && second.vertex != NONE)
+        return first.vertex == second.vertex
+                   ? 0
+                   : sssd(std::min(first.vertex, second.vertex), std::max(first.vertex, second.vertex));
+    if (const uint32_t leaf = common_leaf(index_.numbering, first, second); leaf != NONE)
+        return distance_in_leaf(index_, leaf, first, second);
+    OverlaySssd& pair = pairs();
+    const PathEnd from = end_of(first, rows_[0]), to = end_of(second, rows_[1]);
+    return pair.distance_of_points(from, to);
+}
+
+// A point at a vertex is that vertex, unless it begins later.
+void OverlayQuery::add_point(const FacePoint& point, float offset) {
+    if (point.vertex != NONE && offset == 0) {
+        keys_.push_back(point.vertex);
+        return;
+    }
+    keys_.push_back(index_.numbering.vertex_count() + static_cast<uint32_t>(points_.size()));
+    PointWays& ways = points_.emplace_back(points_.get_allocator().resource());
+    fill_ways(index_, leaf_of_face(index_.numbering, point.corners), point, offset, ways);
+}
+
+void OverlayQuery::point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
+                              std::span<float> distance) {
+    points_.clear();
+    keys_.clear();
+    for (size_t i = 0; i < points.size(); ++i) add_point(points[i], offsets.empty() ? 0 : offsets[i]);
+    if (keys_.size() == 1)
+        field_.sweep(Sources{keys_, points_}, INFINITE, distance);
+    else
+        nearest_.sweep({keys_, points_}, INFINITE, distance);
+}
+
+void OverlayQuery::prepare_end(size_t end, const FacePoint& point) {
+    points_.clear();
+    keys_.clear();
+    add_point(point, 0);
+    ends_[end].prepare({keys_, points_}, field_);
+}
+
+}

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+#include "src/path/strip.h"
+
+namespace geodesic {
+
+// A part of a surface: the faces around some of its vertices.
+struct Corridor {
+    Mesh mesh;
+    std::vector<uint32_t> face_of_surface; // per face of the mesh
+};
+
+// The vertices that are joined to those of a strip by edges between vertices that belong to it, and all faces
+// around them. belongs(vertex, slack) is asked with the length of the longest edge at the vertex.
+Corridor corridor_around(const Surface& surface, const Strip& strip,
+                         const std::function<bool(uint32_t, double)>& belongs);
+
+// A shortest path in the corridor, straightened on the whole surface, and the strip that holds it. Distances
+// are those of window propagation.
+StripPath shortest_in_corridor(const Surface& surface, const Corridor& corridor, Strip& strip);
+
+}

@@ -1,0 +1,55 @@
+#include "src/path/nearby.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geodesic {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// How far along a line from `a` a point is, and how far off it.
+struct Place {
+    double foot, height;
+};
+
+Place place_at(const Vector3d& a, const Vector3d& direction, const Vector3d& point) {
+    const double foot = (point - a).dot(direction);
+    return {foot, (point - a - foot * direction).norm()};
+}
+
+double straight_across(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b, uint32_t edge) {
+    const Vector3d first = surface.positions[surface.faces[a.face][(edge + 1) % 3]],
+                   along = surface.positions[surface.faces[a.face][(edge + 2) % 3]] - first;
+    const double length = along.norm();
+    const Place from = place_at(first, along / length, position_of(surface, a)),
+                to = place_at(first, along / length, position_of(surface, b));
+    const double off = from.height + to.height;
+    if (!(off > 0)) return std::abs(from.foot - to.foot);
+    const double crossing = (from.foot * to.height + to.foot * from.height) / off;
+    return crossing >= 0 && crossing <= length ? std::hypot(from.foot - to.foot, off) : UNREACHABLE;
+}
+
+double straight_between(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    if (a.face == b.face) return (position_of(surface, a) - position_of(surface, b)).norm();
+    for (uint32_t k = 0; k < 3; ++k)
+        if (corner_of(surface, b.face, surface.faces[a.face][(k + 1) % 3]) != NONE &&
+            corner_of(surface, b.face, surface.faces[a.face][(k + 2) % 3]) != NONE)
+            return straight_across(surface, a, b, k);
+    return UNREACHABLE;
+}
+
+}
+
+double straight_nearby(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    double least = UNREACHABLE;
+    for_each_alias(surface, a, [&](const SurfacePoint& from) {
+        for_each_alias(surface, b, [&](const SurfacePoint& to) {
+            least = std::min(least, straight_between(surface, from, to));
+        });
+    });
+    return least;
+}
+
+}

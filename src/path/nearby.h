@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "src/index/face_point.h"
+#include "src/path/surface.h"
+
+namespace geodesic {
+
+// The length of the straight line between two points of one face, or between two points of faces that share
+// an edge that it crosses when both are unfolded; infinite if there is none. A point on an edge or at a
+// vertex is a point of all faces there.
+double straight_nearby(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
+
+// Calls use(point) for the point as one of each face that it lies in.
+template <class Use>
+void for_each_alias(const Surface& surface, const SurfacePoint& point, const Use& use) {
+    use(point);
+    for (size_t k = 0; k < 3; ++k) {
+        const auto& corners = surface.faces[point.face];
+        if (point.weights[k] == 1) {
+            for (const uint32_t face : surface.vertex_faces[corners[k]]) {
+                if (face == point.face) continue;
+                SurfacePoint alias{face, {}};
+                alias.weights[corner_of(surface, face, corners[k])] = 1;
+                use(alias);
+            }
+            return;
+        }
+    }
+    for (uint32_t k = 0; k < 3; ++k) {
+        if (point.weights[k] != 0) continue;
+        const uint32_t i = (k + 1) % 3, j = (k + 2) % 3;
+        const uint32_t a = surface.faces[point.face][i], b = surface.faces[point.face][j];
+        for_each_face_beyond(surface, point.face, a, b, [&](uint32_t face) {
+            SurfacePoint alias{face, {}};
+            alias.weights[corner_of(surface, face, a)] = point.weights[i];
+            alias.weights[corner_of(surface, face, b)] = point.weights[j];
+            use(alias);
+        });
+        return;
+    }
+}
+
+}

@@ -1,0 +1,135 @@
+#include "src/path/path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "format/error.h"
+#include "geoidx.h"
+#include "src/path/corridor.h"
+#include "src/path/nearby.h"
+#include "src/path/search.h"
+#include "src/path/straighten.h"
+
+namespace geodesic {
+
+namespace {
+
+[[noreturn]] void no_path() {
+    throw Error(GEOIDX_ERROR_NO_PATH, "the two points are in different components of the surface");
+}
+
+bool is_at(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    return position_of(surface, a) == position_of(surface, b);
+}
+
+// Adds a point, but replaces one at the same place: the next piece lies in the face of the later one.
+void add_point(const Surface& surface, const SurfacePoint& point, std::vector<SurfacePoint>& points) {
+    if (!points.empty() && is_at(surface, points.back(), point)) points.pop_back();
+    points.push_back(point);
+}
+
+SurfacePoint point_at(const Surface& surface, uint32_t face, const Portal& portal, double share) {
+    SurfacePoint point{face, {}};
+    point.weights[corner_of(surface, face, portal.a)] += 1 - share;
+    point.weights[corner_of(surface, face, portal.b)] += share;
+    return point;
+}
+
+SurfacePath path_of_points(const Surface& surface, std::vector<SurfacePoint>&& points,
+                           const SurfacePoint& target) {
+    if (points.size() < 2) points.push_back(target);
+    double length = 0;
+    for (size_t i = 1; i < points.size(); ++i)
+        length += (position_of(surface, points[i]) - position_of(surface, points[i - 1])).norm();
+    return {std::move(points), length};
+}
+
+SurfacePath path_of_strip(const Surface& surface, const Strip& strip, const StripPath& path) {
+    std::vector<SurfacePoint> points{strip.source};
+    for (size_t i = 0; i < strip.portals.size(); ++i)
+        add_point(surface, point_at(surface, strip.faces[i + 1], strip.portals[i], path.shares[i]), points);
+    add_point(surface, strip.target, points);
+    return path_of_points(surface, std::move(points), strip.target);
+}
+
+// Each vertex as a point of a face that it shares with the next one.
+SurfacePath path_of_vertices(const Surface& surface, const SurfacePoint& source,
+                             const std::vector<uint32_t>& vertices, const SurfacePoint& target) {
+    std::vector<SurfacePoint> points{source};
+    for (size_t i = 0; i < vertices.size(); ++i) {
+        uint32_t face = target.face;
+        if (i + 1 < vertices.size())
+            face = *std::ranges::find_if(surface.vertex_faces[vertices[i]], [&](uint32_t f) {
+                return corner_of(surface, f, vertices[i + 1]) != NONE;
+            });
+        add_point(surface, point_at(surface, face, {vertices[i], vertices[i]}, 0), points);
+    }
+    add_point(surface, target, points);
+    return path_of_points(surface, std::move(points), target);
+}
+
+class PathFinder {
+public:
+    PathFinder(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
+               const SurfacePoint& target)
+        : index_(index), query_(query), surface_(surface), points_(index, query, surface), source_(source),
+          target_(target) {}
+
+    SurfacePath find(PathQuality quality);
+
+private:
+    double distance(size_t end, uint32_t vertex) {
+        const uint32_t number = points_.number_of(vertex);
+        return number == NONE ? UNREACHABLE : double{query_.end_distance(end, number)};
+    }
+    bool belongs(uint32_t vertex, double slack, double length);
+
+    const Index& index_;
+    Query& query_;
+    const Surface& surface_;
+    PointQueries points_;
+    const SurfacePoint source_, target_;
+};
+
+// Vertices over which the index knows a way that is no longer than the path but for the errors that were
+// measured of it, and for the width of a face.
+bool PathFinder::belongs(uint32_t vertex, double slack, double length) {
+    constexpr double LEAST_ERROR = 1e-3;
+    const double error = std::max(LEAST_ERROR, index_.description.error.p999);
+    return distance(0, vertex) + distance(1, vertex) <= (1 + error) * length + slack;
+}
+
+SurfacePath PathFinder::find(PathQuality quality) {
+    const FacePoint to = points_.face_point_of(target_), from = points_.face_point_of(source_);
+    if (is_at(surface_, source_, target_) && points_.sssd(source_, target_) == 0)
+        return path_of_points(surface_, {source_}, target_);
+    query_.prepare_end(1, to);
+    const TargetDistances distances{[this](uint32_t vertex) { return distance(1, vertex); }, {}};
+    if (!points_.unfolds()) {
+        const auto vertices = search_edges(surface_, source_, target_, distances);
+        if (!vertices) no_path();
+        return path_of_vertices(surface_, source_, *vertices, target_);
+    }
+    auto strip = search_strip(surface_, source_, target_, distances);
+    if (!strip) no_path();
+    StripPath path = straighten(surface_, *strip);
+    if (quality == PathQuality::EXACT && strip->faces.size() > 1) {
+        query_.prepare_end(0, from);
+        const Corridor corridor = corridor_around(surface_, *strip, [&](uint32_t vertex, double slack) {
+            return belongs(vertex, slack, path.length);
+        });
+        Strip shortest = *strip;
+        const StripPath found = shortest_in_corridor(surface_, corridor, shortest);
+        if (found.length <= path.length) return path_of_strip(surface_, shortest, found);
+    }
+    return path_of_strip(surface_, *strip, path);
+}
+
+}
+
+SurfacePath find_path(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
+                      const SurfacePoint& target, PathQuality quality) {
+    return PathFinder(index, query, surface, source, target).find(quality);
+}
+
+}

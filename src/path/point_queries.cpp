@@ -1,0 +1,94 @@
+#include "src/path/point_queries.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "format/error.h"
+#include "geoidx.h"
+#include "src/path/nearby.h"
+
+namespace geodesic {
+
+PointQueries::PointQueries(const Index& index, Query& query, const Surface& surface)
+    : index_(index), query_(query), surface_(surface) {
+    const Description& about = index.description;
+    if (about.mesh_fingerprint != surface.fingerprint || about.id_count != surface.vertex_of_id.size() ||
+        about.triangle_count != surface.face_of_triangle.size())
+        throw Error(GEOIDX_ERROR_MESH_MISMATCH, "the surface is of another mesh than the index");
+    const bool is_known = about.metric == GEOIDX_METRIC_EXACT || about.metric == GEOIDX_METRIC_EDGES;
+    if (!is_known || about.metric_fingerprint != 0)
+        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
+                    "the metric of the index does not tell what a way within a triangle costs");
+}
+
+bool PointQueries::unfolds() const { return index_.description.metric == GEOIDX_METRIC_EXACT; }
+
+FacePoint PointQueries::face_point_of(const SurfacePoint& point) const {
+    const auto& corners = surface_.faces[point.face];
+    std::array<uint32_t, 3> numbers;
+    std::array<double, 3> lengths;
+    for (size_t k = 0; k < 3; ++k) {
+        numbers[k] = number_of(corners[k]);
+        lengths[k] =
+            (surface_.positions[corners[(k + 1) % 3]] - surface_.positions[corners[(k + 2) % 3]]).norm();
+    }
+    if (std::ranges::find(numbers, NONE) != numbers.end())
+        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
+                    "the surface has a triangle that the index does not: they differ in weld_tolerance");
+    return face_point(numbers, lengths, point.weights, unfolds());
+}
+
+// The straight line counts even where the index, to its accuracy, says that there is a shorter way. Much
+// shorter ways are there: around a needle that stands between two faces.
+float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target) {
+    constexpr double MUCH_SHORTER = 0.95;
+    const FacePoint from = face_point_of(source), to = face_point_of(target);
+    if (from.vertex != NONE && to.vertex != NONE) return query_.point_sssd(from, to);
+    if (source.face == target.face && source.weights == target.weights) return 0;
+    const double straight = unfolds() ? straight_nearby(surface_, source, target) : UNREACHABLE;
+    if (straight < UNREACHABLE && source.face == target.face) return static_cast<float>(straight);
+    const float distance = query_.point_sssd(from, to);
+    return double{distance} < MUCH_SHORTER * straight ? distance : static_cast<float>(straight);
+}
+
+// To the corners of the face, and to the vertices beyond its edges: sums over tables are of rounded
+// distances, which count where these are short.
+void PointQueries::add_known_ways(const SurfacePoint& source, float offset,
+                                  std::vector<Query::KnownWay>& known) const {
+    for_each_alias(surface_, source, [&](const SurfacePoint& alias) {
+        const auto& corners = surface_.faces[alias.face];
+        const auto add = [&](uint32_t vertex, uint32_t face) {
+            SurfacePoint at{face, {}};
+            at.weights[corner_of(surface_, face, vertex)] = 1;
+            const double way = straight_nearby(surface_, alias, at);
+            if (way < UNREACHABLE && number_of(vertex) != NONE)
+                known.push_back({number_of(vertex), offset + static_cast<float>(way)});
+        };
+        for (uint32_t k = 0; k < 3; ++k) {
+            add(corners[k], alias.face);
+            if (!unfolds()) continue;
+            const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
+            for_each_face_beyond(surface_, alias.face, a, b, [&](uint32_t face) {
+                for (const uint32_t vertex : surface_.faces[face])
+                    if (vertex != a && vertex != b) add(vertex, face);
+            });
+        }
+    });
+}
+
+void PointQueries::msad(std::span<const SurfacePoint> sources, std::span<const float> offsets,
+                        std::span<float> distances) {
+    std::vector<FacePoint> points;
+    std::vector<Query::KnownWay> known;
+    for (size_t i = 0; i < sources.size(); ++i) {
+        points.push_back(face_point_of(sources[i]));
+        const float offset = offsets.empty() ? 0 : offsets[i];
+        if (points.back().vertex == NONE)
+            add_known_ways(sources[i], offset, known);
+        else
+            known.push_back({points.back().vertex, offset});
+    }
+    query_.point_msad(points, offsets, known, distances);
+}
+
+}

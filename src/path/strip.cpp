@@ -1,0 +1,49 @@
+#include "src/path/strip.h"
+
+namespace geodesic {
+
+using Eigen::Vector3d;
+
+Vector3d position_at(const Surface& surface, const Portal& portal, double share) {
+    return (1 - share) * surface.positions[portal.a] + share * surface.positions[portal.b];
+}
+
+uint32_t vertex_at(const Portal& portal, double share) {
+    return share == 0 ? portal.a : share == 1 ? portal.b : NONE;
+}
+
+Vector3d position_before(const Surface& surface, const Strip& strip, const StripPath& path, size_t i) {
+    return i == 0 ? position_of(surface, strip.source)
+                  : position_at(surface, strip.portals[i - 1], path.shares[i - 1]);
+}
+
+Vector3d position_after(const Surface& surface, const Strip& strip, const StripPath& path, size_t i) {
+    return i + 1 == strip.portals.size() ? position_of(surface, strip.target)
+                                         : position_at(surface, strip.portals[i + 1], path.shares[i + 1]);
+}
+
+double length_of(const Surface& surface, const Strip& strip, const std::vector<double>& shares) {
+    Vector3d last = position_of(surface, strip.source);
+    double length = 0;
+    for (size_t i = 0; i < shares.size(); ++i) {
+        const Vector3d next = position_at(surface, strip.portals[i], shares[i]);
+        length += (next - last).norm();
+        last = next;
+    }
+    return length + (position_of(surface, strip.target) - last).norm();
+}
+
+void drop_returns(Strip& strip) {
+    for (size_t i = 0; i + 1 < strip.portals.size();) {
+        if (strip.faces[i] != strip.faces[i + 2] || !strip.portals[i].joins(strip.portals[i + 1])) {
+            ++i;
+            continue;
+        }
+        const auto at = static_cast<std::ptrdiff_t>(i);
+        strip.faces.erase(strip.faces.begin() + at + 1, strip.faces.begin() + at + 3);
+        strip.portals.erase(strip.portals.begin() + at, strip.portals.begin() + at + 2);
+        if (i > 0) --i;
+    }
+}
+
+}

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/path/surface.h"
+
+namespace geodesic {
+
+// Where a path passes from a face into the next one: the edge between two vertices, or a vertex, given twice.
+struct Portal {
+    uint32_t a, b;
+
+    bool contains(uint32_t vertex) const { return vertex == a || vertex == b; }
+    bool is_vertex() const { return a == b; }
+    bool joins(const Portal& other) const { return contains(other.a) && contains(other.b); }
+};
+
+// The faces that a path passes, portal i from face i into face i + 1, and its ends, which are points of the
+// first and of the last face.
+struct Strip {
+    SurfacePoint source, target;
+    std::vector<uint32_t> faces;
+    std::vector<Portal> portals;
+};
+
+// A path in a strip: shares[i] tells where it passes portal i, from 0 at `a` to 1 at `b`. It bends only where
+// a share is 0 or 1.
+struct StripPath {
+    std::vector<double> shares;
+    double length = 0;
+};
+
+Eigen::Vector3d position_at(const Surface& surface, const Portal& portal, double share);
+
+// The vertex where a path passes a portal, or NONE if it passes between two.
+uint32_t vertex_at(const Portal& portal, double share);
+
+// The position of the path before portal i (the source if i is 0), and after it.
+Eigen::Vector3d position_before(const Surface& surface, const Strip& strip, const StripPath& path, size_t i);
+Eigen::Vector3d position_after(const Surface& surface, const Strip& strip, const StripPath& path, size_t i);
+
+// The sum of the lengths of the pieces, by positions in space.
+double length_of(const Surface& surface, const Strip& strip, const std::vector<double>& shares);
+
+// Takes out faces that are left through the edge that they were entered by.
+void drop_returns(Strip& strip);
+
+}

@@ -1,0 +1,33 @@
+#include "src/path/surface.h"
+
+#include <algorithm>
+
+namespace geodesic {
+
+Surface::Surface(Intake&& intake)
+    : positions(std::move(intake.mesh.positions)), faces(std::move(intake.mesh.faces)),
+      vertex_faces(std::move(intake.mesh.vertex_faces)), vertex_of_id(std::move(intake.vertex_of_id)),
+      id_of_vertex(std::move(intake.id_of_vertex)), face_of_triangle(std::move(intake.face_of_triangle)),
+      triangle_of_face(faces.size(), NONE), corners_of_duplicate(std::move(intake.corners_of_duplicate)),
+      fingerprint(intake.fingerprint), bounding_box_diagonal(intake.bounding_box_diagonal) {
+    for (uint32_t t = 0; t < face_of_triangle.size(); ++t)
+        if (face_of_triangle[t] != NONE && !corners_of_duplicate.contains(t))
+            triangle_of_face[face_of_triangle[t]] = t;
+    positions.shrink_to_fit();
+    faces.shrink_to_fit();
+    face_of_triangle.shrink_to_fit();
+}
+
+Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point) {
+    const auto& [a, b, c] = surface.faces[point.face];
+    return point.weights[0] * surface.positions[a] + point.weights[1] * surface.positions[b] +
+           point.weights[2] * surface.positions[c];
+}
+
+uint32_t corner_of(const Surface& surface, uint32_t face, uint32_t vertex) {
+    for (uint32_t k = 0; k < 3; ++k)
+        if (surface.faces[face][k] == vertex) return k;
+    return NONE;
+}
+
+}

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "src/mesh/intake.h"
+#include "src/metric/metric.h"
+
+namespace geodesic {
+
+// A clean mesh as paths need it: positions, faces, and the faces around each vertex. Faces that share an edge
+// are found around one of its ends, however many there are.
+struct Surface {
+    explicit Surface(Intake&& intake);
+
+    std::vector<Eigen::Vector3d> positions;
+    std::vector<std::array<uint32_t, 3>> faces;
+    ListOfLists<uint32_t> vertex_faces;
+    std::vector<uint32_t> vertex_of_id;     // per caller's id; NONE where no triangle uses it
+    std::vector<uint32_t> id_of_vertex;     // the first of the caller's ids
+    std::vector<uint32_t> face_of_triangle; // per caller's triangle; NONE where it is degenerate
+    std::vector<uint32_t> triangle_of_face; // the first of the caller's, with the same order of corners
+    std::unordered_map<uint32_t, std::array<uint32_t, 3>> corners_of_duplicate; // as in Intake
+    uint64_t fingerprint = 0;
+    double bounding_box_diagonal = 0;
+
+    uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size()); }
+    uint32_t face_count() const { return static_cast<uint32_t>(faces.size()); }
+};
+
+Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point);
+
+// The corner of a face that a vertex is, or NONE.
+uint32_t corner_of(const Surface& surface, uint32_t face, uint32_t vertex);
+
+// Calls use(face) for every other face at the edge between two vertices of a face.
+template <class Use>
+void for_each_face_beyond(const Surface& surface, uint32_t face, uint32_t a, uint32_t b, const Use& use) {
+    for (const uint32_t other : surface.vertex_faces[a])
+        if (other != face && corner_of(surface, other, b) != NONE) use(other);
+}
+
+}

@@ -1,0 +1,124 @@
+// The nearest point of the surface, compared with all faces one by one.
+#include <array>
+#include <cmath>
+#include <random>
+
+#include <doctest/doctest.h>
+
+#include "tests/capi/refusals.h"
+#include "tests/support/handles.h"
+#include "tests/support/meshes.h"
+
+using namespace geodesic::test;
+using Eigen::Vector3d;
+
+namespace {
+
+SurfaceHandle surface_of(const Soup& soup, double weld_tolerance = 0) {
+    const geoidx_mesh view = view_of(soup);
+    geoidx_surface_options options;
+    geoidx_surface_options_init(&options);
+    options.weld_tolerance = weld_tolerance;
+    geoidx_surface* surface = nullptr;
+    REQUIRE(geoidx_surface_create(&view, &options, &surface) == GEOIDX_OK);
+    return SurfaceHandle(surface);
+}
+
+// By halving the triangle's parameters to the least of a convex function: another way than the library's.
+double distance_to_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
+    const auto least_over = [](const auto& value) {
+        double low = 0, high = 1;
+        for (int i = 0; i < 60; ++i) {
+            const double first = low + (high - low) / 3, second = high - (high - low) / 3;
+            (value(first) < value(second) ? high : low) = value(first) < value(second) ? second : first;
+        }
+        return value((low + high) / 2);
+    };
+    return least_over([&](double s) {
+        const Vector3d from = a + s * (b - a), to = a + s * (c - a);
+        return least_over([&](double t) { return (from + t * (to - from) - p).norm(); });
+    });
+}
+
+// Some triangles without area, some twice, and unused vertices.
+Soup dirty(Soup soup) {
+    const uint32_t far = soup.vertex_count();
+    soup.positions.push_back({90, 90, 90});
+    soup.positions.push_back(soup.positions[soup.triangles[0][0]]);
+    soup.triangles.insert(soup.triangles.begin(), {far, far, 1});
+    soup.triangles.push_back({soup.triangles[4][1], soup.triangles[4][0], soup.triangles[4][2]});
+    soup.triangles.push_back({far + 1, soup.triangles[1][0], soup.triangles[1][1]});
+    return soup;
+}
+
+}
+
+TEST_CASE("closest point: as near as the nearest of all triangles") {
+    std::mt19937_64 random(7);
+    for (const Soup& soup :
+         {bumpy_sphere(2, 4), dirty(bumpy_sphere(1, 3)), joined(comb(1), cube(2)), grid(1, 1, 1, 1)}) {
+        const SurfaceHandle surface = surface_of(soup);
+        for (int i = 0; i < 60; ++i) {
+            const Vector3d p{uniform(random, -1.5, 1.5), uniform(random, -1.5, 1.5),
+                             uniform(random, -1.5, 1.5)};
+            double expected = INFINITE;
+            for (const auto& [a, b, c] : soup.triangles)
+                if (a != b && b != c && c != a && soup.positions[a] != soup.positions[b] &&
+                    soup.positions[a] != soup.positions[c])
+                    expected = std::min(expected, distance_to_triangle(soup.positions[a], soup.positions[b],
+                                                                       soup.positions[c], p));
+            geoidx_surface_point point{};
+            double distance = 0;
+            REQUIRE(geoidx_closest_point(surface.get(), p.data(), &point, &distance) == GEOIDX_OK);
+            CHECK(distance == doctest::Approx(expected).epsilon(1e-6).scale(1e-3));
+            REQUIRE(point.triangle < soup.triangles.size());
+            Vector3d found = Vector3d::Zero();
+            for (size_t k = 0; k < 3; ++k) {
+                CHECK(point.weights[k] >= 0);
+                found += point.weights[k] * soup.positions[soup.triangles[point.triangle][k]];
+            }
+            CHECK((found - p).norm() == doctest::Approx(distance).epsilon(1e-12).scale(1e-6));
+        }
+    }
+}
+
+TEST_CASE("closest point: a corner of the surface, and the surface's own points") {
+    const Soup soup = cube(3);
+    const SurfaceHandle surface = surface_of(soup);
+    geoidx_surface_point point{};
+    double distance = 0;
+    const std::array<double, 3> outside{-1, -1, -1}, on{0.25, 0.7, 1};
+    REQUIRE(geoidx_closest_point(surface.get(), outside.data(), &point, &distance) == GEOIDX_OK);
+    CHECK(distance == doctest::Approx(std::sqrt(3.0)).epsilon(1e-14));
+    REQUIRE(geoidx_closest_point(surface.get(), on.data(), &point, nullptr) == GEOIDX_OK);
+    REQUIRE(geoidx_closest_point(surface.get(), on.data(), &point, &distance) == GEOIDX_OK);
+    CHECK(distance < 1e-15);
+}
+
+TEST_CASE("surface: bad input is refused by name") {
+    const Soup soup = cube(1);
+    const geoidx_mesh view = view_of(soup);
+    geoidx_surface* none = nullptr;
+    check_refused(geoidx_surface_create(nullptr, nullptr, &none), GEOIDX_ERROR_INVALID_ARGUMENT,
+                  "mesh is NULL");
+    check_refused(geoidx_surface_create(&view, nullptr, nullptr), GEOIDX_ERROR_INVALID_ARGUMENT,
+                  "out is NULL");
+    geoidx_surface_options options;
+    geoidx_surface_options_init(&options);
+    options.weld_tolerance = -1;
+    check_refused(geoidx_surface_create(&view, &options, &none), GEOIDX_ERROR_INVALID_ARGUMENT,
+                  "weld_tolerance");
+    CHECK(none == nullptr);
+    const SurfaceHandle surface = surface_of(soup);
+    const std::array<double, 3> at{0, NOT_A_NUMBER, 0}, fine{0, 0, 0};
+    geoidx_surface_point point{};
+    check_refused(geoidx_closest_point(surface.get(), at.data(), &point, nullptr),
+                  GEOIDX_ERROR_INVALID_ARGUMENT, "not finite");
+    check_refused(geoidx_closest_point(nullptr, fine.data(), &point, nullptr), GEOIDX_ERROR_INVALID_ARGUMENT,
+                  "surface is NULL");
+    check_refused(geoidx_closest_point(surface.get(), nullptr, &point, nullptr),
+                  GEOIDX_ERROR_INVALID_ARGUMENT, "position is NULL");
+    check_refused(geoidx_closest_point(surface.get(), fine.data(), nullptr, nullptr),
+                  GEOIDX_ERROR_INVALID_ARGUMENT, "point is NULL");
+    geoidx_surface_close(nullptr);
+}

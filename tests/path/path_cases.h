@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "tests/support/handles.h"
+#include "tests/support/meshes.h"
+
+// An index, a surface, a solver and a query of one mesh.
+namespace geodesic::test {
+
+inline geoidx_build_options path_options(uint32_t engine = GEOIDX_ENGINE_OVERLAY,
+                                         uint32_t metric = GEOIDX_METRIC_EXACT) {
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    options.engine = engine;
+    options.metric = metric;
+    return options;
+}
+
+struct PathCase {
+    explicit PathCase(Soup given, const geoidx_build_options& options = path_options())
+        : soup(std::move(given)) {
+        const geoidx_mesh view = view_of(soup);
+        geoidx* new_index = nullptr;
+        geoidx_query* new_query = nullptr;
+        geoidx_surface* new_surface = nullptr;
+        geoidx_solver* new_solver = nullptr;
+        REQUIRE(geoidx_build(&view, &options, &new_index) == GEOIDX_OK);
+        index.reset(new_index);
+        REQUIRE(geoidx_query_create(new_index, &new_query) == GEOIDX_OK);
+        query.reset(new_query);
+        REQUIRE(geoidx_surface_create(&view, nullptr, &new_surface) == GEOIDX_OK);
+        surface.reset(new_surface);
+        REQUIRE(geoidx_solver_create(&view, &options, &new_solver) == GEOIDX_OK);
+        solver.reset(new_solver);
+    }
+
+    Eigen::Vector3d position(const geoidx_surface_point& point) const {
+        Eigen::Vector3d at = Eigen::Vector3d::Zero();
+        for (size_t k = 0; k < 3; ++k)
+            at += point.weights[k] * soup.positions[soup.triangles[point.triangle][k]];
+        return at;
+    }
+    double exact(const geoidx_surface_point& a, const geoidx_surface_point& b) const {
+        double distance = 0;
+        REQUIRE(geoidx_solver_point_distances(solver.get(), &a, 1, &b, 1, &distance) == GEOIDX_OK);
+        return distance;
+    }
+    float sssd(const geoidx_surface_point& a, const geoidx_surface_point& b) const {
+        float distance = 0;
+        REQUIRE(geoidx_query_point_sssd(query.get(), surface.get(), &a, &b, &distance) == GEOIDX_OK);
+        return distance;
+    }
+
+    Soup soup;
+    IndexHandle index;
+    SurfaceHandle surface;
+    SolverHandle solver;
+    QueryHandle query;
+};
+
+// Inside of a triangle, on an edge or at a corner by turns.
+inline geoidx_surface_point random_point(const Soup& soup, std::mt19937_64& random, size_t turn) {
+    geoidx_surface_point point{};
+    point.triangle = static_cast<uint32_t>(random() % soup.triangles.size());
+    for (double& weight : point.weights) weight = uniform(random, 0.02, 1);
+    if (turn % 4 == 2) point.weights[random() % 3] = 0;
+    if (turn % 4 == 3) {
+        for (double& weight : point.weights) weight = 0;
+        point.weights[random() % 3] = 1;
+    }
+    const double sum = point.weights[0] + point.weights[1] + point.weights[2];
+    for (double& weight : point.weights) weight /= sum;
+    return point;
+}
+
+// A torus is a handle, an annulus a hole; three faces at an edge, sheets that share a vertex, thin strips,
+// needles, few large triangles, several components, a surface of one side.
+inline std::vector<Soup> path_soups() {
+    std::vector<Soup> soups{torus(14, 9, 1, 0.4),
+                            annulus(14, 3),
+                            comb(1),
+                            pinched_sheets(2),
+                            prism(5, 9, 6),
+                            bumpy_sphere(2, 5),
+                            cube(1),
+                            l_shape(4),
+                            moebius(20, 3),
+                            jittered_grid(8, 5),
+                            grid(6, 6, 1, 1),
+                            joined(sphere(2), torus(9, 7, 1, 0.3)),
+                            with_mixed_winding(bumpy_sphere(2, 9), 4)};
+    soups.push_back(cone(saddle_rays(10, 0.9), 4));
+    return soups;
+}
+
+}

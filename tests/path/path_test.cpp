@@ -1,0 +1,200 @@
+// Paths between points, compared with the exact metric.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/QR>
+
+#include "tests/capi/refusals.h"
+#include "tests/path/path_cases.h"
+#include "tests/support/stress_meshes.h"
+
+using namespace geodesic::test;
+using Eigen::Vector3d;
+
+namespace {
+
+std::vector<geoidx_path_point> points_of(const PathCase& on) {
+    uint64_t count = 0;
+    REQUIRE(geoidx_query_path_points(on.query.get(), nullptr, 0, &count) == GEOIDX_OK);
+    std::vector<geoidx_path_point> points(count);
+    REQUIRE(geoidx_query_path_points(on.query.get(), points.data(), count, &count) == GEOIDX_OK);
+    return points;
+}
+
+// How far a position is from the plane of a triangle's inside, by weights of its own.
+double distance_from_triangle(const Soup& soup, uint32_t triangle, const Vector3d& at) {
+    const auto& [a, b, c] = soup.triangles[triangle];
+    Eigen::Matrix<double, 3, 2> sides;
+    sides << soup.positions[b] - soup.positions[a], soup.positions[c] - soup.positions[a];
+    Eigen::Vector2d w = sides.colPivHouseholderQr().solve(at - soup.positions[a]);
+    w = w.cwiseMax(0);
+    if (w.sum() > 1) w /= w.sum();
+    return (soup.positions[a] + sides * w - at).norm();
+}
+
+// That it leads over triangles from one point to the other and is as long as it says.
+void check_path(const PathCase& on, const geoidx_surface_point& from, const geoidx_surface_point& to,
+                double length) {
+    const auto points = points_of(on);
+    REQUIRE(points.size() >= 2);
+    const auto at = [&](size_t i) {
+        return Vector3d(points[i].position[0], points[i].position[1], points[i].position[2]);
+    };
+    constexpr double CLOSE = 1e-9;
+    CHECK((at(0) - on.position(from)).norm() < CLOSE);
+    CHECK((at(points.size() - 1) - on.position(to)).norm() < CLOSE);
+    double sum = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+        REQUIRE(points[i].point.triangle < on.soup.triangles.size());
+        double weights = 0;
+        for (const double weight : points[i].point.weights) {
+            CHECK(weight >= 0);
+            weights += weight;
+        }
+        CHECK(weights == doctest::Approx(1).epsilon(1e-12));
+        CHECK((on.position(points[i].point) - at(i)).norm() < CLOSE);
+        if (i + 1 == points.size()) break;
+        CHECK(distance_from_triangle(on.soup, points[i].point.triangle, at(i + 1)) < 1e-8);
+        sum += (at(i + 1) - at(i)).norm();
+    }
+    CHECK(sum == doctest::Approx(length).epsilon(1e-12));
+}
+
+double path_length(const PathCase& on, const geoidx_surface_point& from, const geoidx_surface_point& to,
+                   uint32_t quality) {
+    double length = -1;
+    require_success(geoidx_query_path(on.query.get(), on.surface.get(), &from, &to, quality, &length));
+    check_path(on, from, to, length);
+    return length;
+}
+
+geoidx_surface_point corner(uint32_t triangle, size_t k) {
+    geoidx_surface_point point{};
+    point.triangle = triangle;
+    point.weights[k] = 1;
+    return point;
+}
+
+void check_paths(const PathCase& on, size_t count) {
+    std::mt19937_64 random(3);
+    size_t paths = 0, shortest = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const auto from = random_point(on.soup, random, i), to = random_point(on.soup, random, i / 4);
+        const double exact = on.exact(from, to);
+        if (exact == INFINITE) {
+            double length = 0;
+            check_refused(geoidx_query_path(on.query.get(), on.surface.get(), &from, &to,
+                                            GEOIDX_PATH_STRAIGHT, &length),
+                          GEOIDX_ERROR_NO_PATH, "component");
+            uint64_t left = 1;
+            CHECK(geoidx_query_path_points(on.query.get(), nullptr, 0, &left) == GEOIDX_OK);
+            CHECK(left == 0);
+            continue;
+        }
+        ++paths;
+        CAPTURE(i);
+        CAPTURE(exact);
+        const double straight = path_length(on, from, to, GEOIDX_PATH_STRAIGHT);
+        CHECK(straight >= exact * (1 - 1e-9) - 1e-9);
+        if (straight <= exact * (1 + 1e-6) + 1e-9) ++shortest;
+        const double best = path_length(on, from, to, GEOIDX_PATH_EXACT);
+        CHECK(std::abs(best - exact) <= exact * 1e-7 + 1e-9);
+    }
+    CHECK(shortest * 2 >= paths);
+}
+
+}
+
+TEST_CASE("path: on triangles, never shorter than the exact distance, and exact when asked") {
+    size_t number = 0;
+    for (const Soup& soup : path_soups()) {
+        ++number;
+        CAPTURE(number);
+        check_paths(PathCase(soup), 40);
+    }
+}
+
+TEST_CASE("path: by the graph engine, too") {
+    check_paths(PathCase(joined(torus(12, 8, 1, 0.4), comb(1)), path_options(GEOIDX_ENGINE_GRAPH)), 24);
+}
+
+TEST_CASE("path: on stress meshes") {
+    std::mt19937_64 random(11);
+    for (const auto& families : {stress_families(), unorientable_families()})
+        for (const StressFamily& family : families) {
+            CAPTURE(std::string(family.name));
+            check_paths(PathCase(family.draw(random)), 12);
+        }
+}
+
+TEST_CASE("path: along edges where that is the metric") {
+    const PathCase on(jittered_grid(9, 2), path_options(GEOIDX_ENGINE_OVERLAY, GEOIDX_METRIC_EDGES));
+    for (uint32_t t = 0; t < on.soup.triangles.size(); t += 7) {
+        const auto from = corner(3, 0), to = corner(t, 1);
+        const uint32_t source = on.soup.triangles[3][0], target = on.soup.triangles[t][1];
+        double exact = 0;
+        REQUIRE(geoidx_solver_distances(on.solver.get(), &source, 1, &target, 1, &exact) == GEOIDX_OK);
+        const double length = path_length(on, from, to, GEOIDX_PATH_STRAIGHT);
+        CHECK(length >= exact - 1e-9);
+        CHECK(length <= exact * 1.01 + 1e-9);
+        for (const geoidx_path_point& point : points_of(on))
+            CHECK(*std::ranges::max_element(point.point.weights) == 1);
+    }
+}
+
+TEST_CASE("path: from a point to itself, and within one triangle") {
+    const PathCase on(torus(10, 8, 1, 0.4));
+    std::mt19937_64 random(5);
+    for (size_t i = 0; i < 8; ++i) {
+        const auto from = random_point(on.soup, random, i);
+        for (const uint32_t quality : {GEOIDX_PATH_STRAIGHT, GEOIDX_PATH_EXACT}) {
+            CHECK(path_length(on, from, from, quality) == 0);
+            auto to = random_point(on.soup, random, 0);
+            to.triangle = from.triangle;
+            CHECK(path_length(on, from, to, quality) ==
+                  doctest::Approx((on.position(from) - on.position(to)).norm()).epsilon(1e-12));
+        }
+    }
+}
+
+TEST_CASE("path: bad input is refused by name") {
+    const PathCase on(torus(10, 8, 1, 0.4)), other(torus(10, 8, 1, 0.5));
+    const auto fine = corner(0, 0);
+    auto bad = fine;
+    double length = 0;
+    const auto path = [&](const geoidx_surface* surface, const geoidx_surface_point* from,
+                          const geoidx_surface_point* to, uint32_t quality, double* out) {
+        return geoidx_query_path(on.query.get(), surface, from, to, quality, out);
+    };
+    const geoidx_surface* surface = on.surface.get();
+    check_refused(geoidx_query_path(nullptr, surface, &fine, &fine, 0, &length),
+                  GEOIDX_ERROR_INVALID_ARGUMENT, "query is NULL");
+    check_refused(path(nullptr, &fine, &fine, 0, &length), GEOIDX_ERROR_INVALID_ARGUMENT, "surface is NULL");
+    check_refused(path(surface, nullptr, &fine, 0, &length), GEOIDX_ERROR_INVALID_ARGUMENT, "source is NULL");
+    check_refused(path(surface, &fine, nullptr, 0, &length), GEOIDX_ERROR_INVALID_ARGUMENT, "target is NULL");
+    check_refused(path(surface, &fine, &fine, 0, nullptr), GEOIDX_ERROR_INVALID_ARGUMENT, "length is NULL");
+    check_refused(path(surface, &fine, &fine, 2, &length), GEOIDX_ERROR_INVALID_ARGUMENT, "quality");
+    check_refused(path(other.surface.get(), &fine, &fine, 0, &length), GEOIDX_ERROR_MESH_MISMATCH,
+                  "another mesh");
+    bad.weights[1] = -0.5;
+    check_refused(path(surface, &fine, &bad, 0, &length), GEOIDX_ERROR_INVALID_ARGUMENT,
+                  "target has the weight");
+    bad.weights[1] = 0.5;
+    check_refused(path(surface, &bad, &fine, 0, &length), GEOIDX_ERROR_INVALID_ARGUMENT, "in sum");
+    bad = corner(static_cast<uint32_t>(on.soup.triangles.size()), 0);
+    check_refused(path(surface, &bad, &fine, 0, &length), GEOIDX_ERROR_INVALID_ARGUMENT, "triangle");
+
+    const auto far = corner(70, 1);
+    REQUIRE(path(surface, &fine, &far, 0, &length) == GEOIDX_OK);
+    uint64_t count = 0;
+    std::array<geoidx_path_point, 1> one{};
+    check_refused(geoidx_query_path_points(on.query.get(), one.data(), 1, &count),
+                  GEOIDX_ERROR_INVALID_ARGUMENT, "capacity");
+    CHECK(count > 1);
+    check_refused(geoidx_query_path_points(on.query.get(), nullptr, 1, &count), GEOIDX_ERROR_INVALID_ARGUMENT,
+                  "points is NULL");
+    check_refused(geoidx_query_path_points(on.query.get(), one.data(), 1, nullptr),
+                  GEOIDX_ERROR_INVALID_ARGUMENT, "count is NULL");
+}

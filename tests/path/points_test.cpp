@@ -1,0 +1,193 @@
+// Distances of points of the surface by an index, compared with the exact metric.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/capi/refusals.h"
+#include "tests/path/path_cases.h"
+
+using namespace geodesic::test;
+
+namespace {
+
+struct MeanError {
+    double sum = 0;
+    size_t count = 0;
+
+    void add(double distance, double exact) {
+        if (exact == 0) return;
+        sum += std::abs(distance / exact - 1);
+        ++count;
+    }
+    double mean() const { return sum / static_cast<double>(count); }
+};
+
+uint32_t id_at(const Soup& soup, const geoidx_surface_point& point) {
+    return soup.triangles[point.triangle]
+                         [static_cast<size_t>(std::ranges::max_element(point.weights) - point.weights)];
+}
+
+double longest_edge(const PathCase& on, const geoidx_surface_point& point) {
+    const auto& t = on.soup.triangles[point.triangle];
+    double longest = 0;
+    for (size_t k = 0; k < 3; ++k)
+        longest = std::max(longest, (on.soup.positions[t[k]] - on.soup.positions[t[(k + 1) % 3]]).norm());
+    return longest;
+}
+
+std::vector<float> field(const PathCase& on, std::span<const geoidx_surface_point> sources,
+                         const float* offsets = nullptr) {
+    std::vector<float> distances(on.soup.vertex_count());
+    require_success(geoidx_query_point_msad(on.query.get(), on.surface.get(), sources.data(),
+                                            static_cast<uint32_t>(sources.size()), offsets, distances.data(),
+                                            on.soup.vertex_count()));
+    return distances;
+}
+
+std::vector<double> exact_field(const PathCase& on, const geoidx_surface_point& source) {
+    std::vector<double> distances;
+    std::vector<geoidx_surface_point> corners(on.soup.vertex_count());
+    for (uint32_t t = 0; t < on.soup.triangles.size(); ++t)
+        for (size_t k = 0; k < 3; ++k) {
+            auto& corner = corners[on.soup.triangles[t][k]];
+            corner = {};
+            corner.triangle = t;
+            corner.weights[k] = 1;
+        }
+    distances.resize(corners.size());
+    REQUIRE(geoidx_solver_point_distances(on.solver.get(), &source, 1, corners.data(), on.soup.vertex_count(),
+                                          distances.data()) == GEOIDX_OK);
+    return distances;
+}
+
+}
+
+TEST_CASE("points: pairs are about as accurate as those of vertices, and symmetric") {
+    for (const uint32_t engine : {GEOIDX_ENGINE_OVERLAY, GEOIDX_ENGINE_GRAPH})
+        for (const Soup& soup : {bumpy_sphere(4, 3), torus(40, 22, 1, 0.4), jittered_grid(30, 4)}) {
+            const PathCase on(soup, path_options(engine));
+            std::mt19937_64 random(1);
+            MeanError points, vertices;
+            for (size_t i = 0; i < 400; ++i) {
+                const auto a = random_point(on.soup, random, 0), b = random_point(on.soup, random, 0);
+                points.add(on.sssd(a, b), on.exact(a, b));
+                CHECK(on.sssd(a, b) == on.sssd(b, a));
+                const auto c = random_point(on.soup, random, 3), d = random_point(on.soup, random, 3);
+                vertices.add(on.sssd(c, d), on.exact(c, d));
+            }
+            CHECK(points.mean() <= 2 * vertices.mean() + 6e-3);
+        }
+}
+
+// Around a point whose distances from the corners come from different sides, the straight way is off by a
+// share of the triangle.
+TEST_CASE("points: any pair of hard meshes, and those without a path") {
+    size_t number = 0;
+    for (const Soup& soup : path_soups()) {
+        ++number;
+        CAPTURE(number);
+        const PathCase on(soup);
+        std::mt19937_64 random(2);
+        for (size_t i = 0; i < 60; ++i) {
+            const auto a = random_point(on.soup, random, i), b = random_point(on.soup, random, i / 4);
+            CAPTURE(i);
+            const double exact = on.exact(a, b), distance = on.sssd(a, b);
+            if (exact == INFINITE)
+                CHECK(distance == INFINITE);
+            else
+                CHECK(std::abs(distance - exact) <=
+                      0.05 * exact + 0.2 * (longest_edge(on, a) + longest_edge(on, b)));
+        }
+    }
+}
+
+TEST_CASE("points: straight within a triangle and over an edge of two") {
+    const PathCase on(bumpy_sphere(3, 8));
+    std::mt19937_64 random(4);
+    for (uint32_t t = 0; t < on.soup.triangles.size(); t += 5) {
+        auto a = random_point(on.soup, random, 0), b = random_point(on.soup, random, 0);
+        a.triangle = b.triangle = t;
+        CHECK(on.sssd(a, b) == doctest::Approx((on.position(a) - on.position(b)).norm()).epsilon(1e-6));
+        CHECK(on.sssd(a, a) == 0);
+        const auto middle = [](uint32_t triangle) {
+            return geoidx_surface_point{triangle, 0, {1. / 3, 1. / 3, 1. / 3}};
+        };
+        for (uint32_t other = 0; other < on.soup.triangles.size(); ++other) {
+            size_t shared = 0;
+            for (const uint32_t v : on.soup.triangles[t])
+                shared += static_cast<size_t>(std::ranges::count(on.soup.triangles[other], v));
+            if (shared != 2) continue;
+            const double exact = on.exact(middle(t), middle(other));
+            CHECK(on.sssd(middle(t), middle(other)) == doctest::Approx(exact).epsilon(2e-3));
+        }
+    }
+}
+
+TEST_CASE("points: at vertices they are these vertices") {
+    const PathCase on(torus(16, 10, 1, 0.4));
+    std::mt19937_64 random(6);
+    for (size_t i = 0; i < 50; ++i) {
+        const auto a = random_point(on.soup, random, 3), b = random_point(on.soup, random, 3);
+        float expected = 0;
+        REQUIRE(geoidx_query_sssd(on.query.get(), id_at(on.soup, a), id_at(on.soup, b), &expected) ==
+                GEOIDX_OK);
+        CHECK(on.sssd(a, b) == expected);
+        const uint32_t id = id_at(on.soup, a);
+        std::vector<float> whole(on.soup.vertex_count());
+        REQUIRE(geoidx_query_msad(on.query.get(), &id, 1, whole.data(), on.soup.vertex_count()) == GEOIDX_OK);
+        CHECK(field(on, {&a, 1}) == whole);
+    }
+}
+
+TEST_CASE("points: fields from one and from several, with offsets") {
+    for (const uint32_t engine : {GEOIDX_ENGINE_OVERLAY, GEOIDX_ENGINE_GRAPH})
+        for (const Soup& soup : {bumpy_sphere(4, 3), joined(comb(1), torus(40, 22, 1, 0.4))}) {
+            const PathCase on(soup, path_options(engine));
+            std::mt19937_64 random(9);
+            const geoidx_surface_point sources[] = {
+                random_point(soup, random, 0), random_point(soup, random, 3), random_point(soup, random, 2)};
+            const float offsets[] = {0.1f, 0, 0.25f};
+            std::vector<double> nearest(soup.vertex_count(), INFINITE);
+            for (size_t s = 0; s < 3; ++s) {
+                const auto exact = exact_field(on, sources[s]);
+                const auto one = field(on, {&sources[s], 1});
+                MeanError error;
+                for (uint32_t v = 0; v < soup.vertex_count(); ++v) {
+                    nearest[v] = std::min(nearest[v], exact[v] + double{offsets[s]});
+                    CHECK((exact[v] == INFINITE) == (double{one[v]} == INFINITE));
+                    if (exact[v] < INFINITE) error.add(one[v], exact[v]);
+                }
+                CHECK(error.mean() < 2.5e-2);
+            }
+            const auto all = field(on, sources, offsets);
+            MeanError error;
+            for (uint32_t v = 0; v < soup.vertex_count(); ++v) {
+                CHECK((nearest[v] == INFINITE) == (double{all[v]} == INFINITE));
+                if (nearest[v] < INFINITE) error.add(all[v], nearest[v]);
+            }
+            CHECK(error.mean() < 2.5e-2);
+        }
+}
+
+TEST_CASE("points: bad input is refused by name") {
+    const PathCase on(torus(10, 8, 1, 0.4)), other(torus(10, 8, 1, 0.5));
+    geoidx_surface_point fine{0, 0, {1, 0, 0}}, bad{0, 0, {2, -1, 0}};
+    float distance = 0;
+    const float negative = -1;
+    std::vector<float> distances(on.soup.vertex_count());
+    const auto msad = [&](const geoidx_surface_point* sources, uint32_t count, const float* offsets,
+                          uint32_t room) {
+        return geoidx_query_point_msad(on.query.get(), on.surface.get(), sources, count, offsets,
+                                       distances.data(), room);
+    };
+    check_refused(geoidx_query_point_sssd(on.query.get(), on.surface.get(), &fine, &bad, &distance),
+                  GEOIDX_ERROR_INVALID_ARGUMENT, "target has the weight");
+    check_refused(geoidx_query_point_sssd(on.query.get(), other.surface.get(), &fine, &fine, &distance),
+                  GEOIDX_ERROR_MESH_MISMATCH, "another mesh");
+    check_refused(geoidx_query_point_sssd(on.query.get(), nullptr, &fine, &fine, &distance),
+                  GEOIDX_ERROR_INVALID_ARGUMENT, "surface is NULL");
+    check_refused(msad(&bad, 1, nullptr, on.soup.vertex_count()), GEOIDX_ERROR_INVALID_ARGUMENT, "source 0");
+    check_refused(msad(&fine, 0, nullptr, on.soup.vertex_count()), GEOIDX_ERROR_INVALID_ARGUMENT,
+                  "no source");
+    check_refused(msad(&fine, 1, &negative, on.soup.vertex_count()), GEOIDX_ERROR_INVALID_ARGUMENT, "offset");
+    check_refused(msad(&fine, 1, nullptr, 3), GEOIDX_ERROR_INVALID_ARGUMENT, "distance_count");
+}
