@@ -13,6 +13,7 @@ void add_several(CLI::App& app);
 void add_tails(CLI::App& app);
 void add_open(CLI::App& app);
 void add_pairs(CLI::App& app);
+void add_paths(CLI::App& app);
 void add_files(CLI::App& app);
 void add_farthest(CLI::App& app);
 

@@ -17,11 +17,15 @@ struct IndexCloser {
 struct SolverCloser {
     void operator()(geoidx_solver* solver) const { geoidx_solver_close(solver); }
 };
+struct SurfaceCloser {
+    void operator()(geoidx_surface* surface) const { geoidx_surface_close(surface); }
+};
 struct QueryCloser {
     void operator()(geoidx_query* query) const { geoidx_query_close(query); }
 };
 using Index = std::unique_ptr<geoidx, IndexCloser>;
 using Query = std::unique_ptr<geoidx_query, QueryCloser>;
+using Surface = std::unique_ptr<geoidx_surface, SurfaceCloser>;
 using Solver = std::unique_ptr<geoidx_solver, SolverCloser>;
 
 // Throws Failure("what: why") with the library's own words where the status is an error.
