@@ -67,6 +67,7 @@ void add_commands(CLI::App& app) {
     add_info(app);
     add_verify(app);
     add_sssd(app);
+    add_path(app);
     add_msad(app);
     add_exact(app);
     add_bench(app);

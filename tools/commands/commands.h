@@ -10,6 +10,7 @@ void add_convert(CLI::App& app);
 void add_info(CLI::App& app);
 void add_verify(CLI::App& app);
 void add_sssd(CLI::App& app);
+void add_path(CLI::App& app);
 void add_msad(CLI::App& app);
 void add_exact(CLI::App& app);
 void add_bench(CLI::App& app);

@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include "tools/commands/arguments.h"
+#include "tools/commands/commands.h"
+#include "tools/failure.h"
+#include "tools/json.h"
+#include "tools/library.h"
+#include "tools/mesh_io/mesh_io.h"
+#include "tools/output_file.h"
+
+namespace geodesic::tools {
+
+namespace {
+
+struct PathArguments {
+    std::string index, mesh;
+    std::vector<std::string> ids;
+    std::string quality = "straight";
+    std::string output;
+    double weld_tolerance = 0;
+    bool json = false;
+};
+
+// A path from one vertex to another: its length, and its points in order.
+struct Way {
+    double length = 0;
+    std::vector<geoidx_path_point> points;
+};
+
+Surface surface_of(const TriangleMesh& mesh, const PathArguments& arguments) {
+    geoidx_surface_options options;
+    geoidx_surface_options_init(&options);
+    options.weld_tolerance = arguments.weld_tolerance;
+    const geoidx_mesh view = view_of(mesh);
+    geoidx_surface* surface = nullptr;
+    require_ok(geoidx_surface_create(&view, &options, &surface), arguments.mesh);
+    return Surface(surface);
+}
+
+// A vertex as the corner of a triangle that is not degenerate.
+geoidx_surface_point point_at(const TriangleMesh& mesh, uint32_t id, const PathArguments& arguments) {
+    if (id >= mesh.vertex_count())
+        throw Failure(arguments.mesh + ": vertex " + std::to_string(id) + " is out of range: the mesh has " +
+                      std::to_string(mesh.vertex_count()) + " vertices");
+    for (size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const uint32_t* const ids = mesh.triangles.data() + 3 * t;
+        const auto* const found = std::find(ids, ids + 3, id);
+        if (found == ids + 3 || ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0]) continue;
+        geoidx_surface_point point{};
+        point.triangle = static_cast<uint32_t>(t);
+        point.weights[found - ids] = 1;
+        return point;
+    }
+    throw Failure(arguments.mesh + ": no triangle uses vertex " + std::to_string(id));
+}
+
+Way way_between(const geoidx& index, const TriangleMesh& mesh, const PathArguments& arguments, uint32_t a,
+                uint32_t b) {
+    const Surface surface = surface_of(mesh, arguments);
+    geoidx_query* opened = nullptr;
+    require_ok(geoidx_query_create(&index, &opened), arguments.index);
+    const Query query(opened);
+    const geoidx_surface_point source = point_at(mesh, a, arguments), target = point_at(mesh, b, arguments);
+    const uint32_t quality = arguments.quality == "exact" ? GEOIDX_PATH_EXACT : GEOIDX_PATH_STRAIGHT;
+    Way way;
+    require_ok(geoidx_query_path(opened, surface.get(), &source, &target, quality, &way.length),
+               arguments.index);
+    uint64_t count = 0;
+    require_ok(geoidx_query_path_points(opened, nullptr, 0, &count), arguments.index);
+    way.points.resize(count);
+    require_ok(geoidx_query_path_points(opened, way.points.data(), count, &count), arguments.index);
+    return way;
+}
+
+template <class... Values>
+std::string text_of(const char* format, Values... values) {
+    std::array<char, 160> text;
+    const int size = std::snprintf(text.data(), text.size(), format, values...);
+    return {text.data(), static_cast<size_t>(size)};
+}
+
+// One line of the points, in the order of the path; indices of OBJ begin at 1.
+std::string obj_of(const Way& way) {
+    std::string text;
+    for (const auto& [point, at] : way.points) text += text_of("v %.17g %.17g %.17g\n", at[0], at[1], at[2]);
+    text += "l";
+    for (size_t i = 1; i <= way.points.size(); ++i) text += " " + std::to_string(i);
+    return text + "\n";
+}
+
+std::string ply_of(const Way& way) {
+    std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(way.points.size()) +
+                       "\nproperty double x\nproperty double y\nproperty double z\nelement edge " +
+                       std::to_string(way.points.size() - 1) +
+                       "\nproperty int vertex1\nproperty int vertex2\nend_header\n";
+    for (const auto& [point, at] : way.points) text += text_of("%.17g %.17g %.17g\n", at[0], at[1], at[2]);
+    for (size_t i = 1; i < way.points.size(); ++i)
+        text += std::to_string(i - 1) + " " + std::to_string(i) + "\n";
+    return text;
+}
+
+std::string csv_of(const Way& way) {
+    std::string text = "triangle,weight0,weight1,weight2,x,y,z\n";
+    for (const auto& [point, at] : way.points)
+        text += std::to_string(point.triangle) +
+                text_of(",%.17g,%.17g,%.17g", point.weights[0], point.weights[1], point.weights[2]) +
+                text_of(",%.17g,%.17g,%.17g\n", at[0], at[1], at[2]);
+    return text;
+}
+
+using Writer = std::string (*)(const Way&);
+
+Writer writer_of(const std::string& output) {
+    constexpr std::pair<const char*, Writer> WRITERS[] = {
+        {".obj", obj_of}, {".ply", ply_of}, {".csv", csv_of}};
+    for (const auto& [ending, writer] : WRITERS)
+        if (output.ends_with(ending)) return writer;
+    throw CLI::ValidationError("--output must end with .obj, .ply or .csv: " + output);
+}
+
+void path(const PathArguments& arguments) {
+    const std::vector<uint32_t> ids = vertex_ids(arguments.ids);
+    const Writer writer = arguments.output.empty() ? nullptr : writer_of(arguments.output);
+    if (writer) require_writable(arguments.output, std::array{arguments.index, arguments.mesh});
+    const TriangleMesh mesh = read_mesh(arguments.mesh);
+    const Index index = open_index(arguments.index, &mesh);
+    const Way way = way_between(*index, mesh, arguments, ids[0], ids[1]);
+    if (writer) {
+        const std::string text = writer(way);
+        write_file(arguments.output, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+    }
+    if (arguments.json) {
+        JsonObject()
+            .text("index", arguments.index)
+            .count("source", ids[0])
+            .count("target", ids[1])
+            .number("length", way.length)
+            .count("points", way.points.size())
+            .print();
+        return;
+    }
+    std::printf("%.9g\n", way.length);
+    if (writer) return;
+    for (const auto& [point, at] : way.points) std::printf("%.9g %.9g %.9g\n", at[0], at[1], at[2]);
+}
+
+}
+
+void add_path(CLI::App& app) {
+    auto arguments = std::make_shared<PathArguments>();
+    CLI::App* command =
+        app.add_subcommand("path", "print the path between two vertices: its length, then its points");
+    command->add_option("FILE", arguments->index, "index file")->required();
+    command->add_option("MESH", arguments->mesh, "the mesh that the index was built from")->required();
+    command->add_option("A B", arguments->ids, "vertex ids")->required()->expected(2);
+    command
+        ->add_option("--quality", arguments->quality,
+                     "straight: locally shortest, from the index; exact: a shortest path")
+        ->check(CLI::IsMember({"straight", "exact"}))
+        ->capture_default_str();
+    command->add_option("-o,--output", arguments->output,
+                        "write the points to a file, .obj, .ply or .csv, and print the length only");
+    command->add_option("--weld-tolerance", arguments->weld_tolerance, "that the index was built with");
+    command->add_flag("--json", arguments->json, "print a JSON object");
+    command->callback([arguments] { path(*arguments); });
+}
+
+}
