@@ -8,12 +8,14 @@
 #error "geoidx.hpp needs C++20: compile with -std=c++20 (MSVC: /std:c++20), or include geoidx.h"
 #endif
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -212,6 +214,40 @@ private:
     std::unique_ptr<geoidx, close> handle_;
 };
 
+// A mesh with its adjacency, shared by threads, for points of the surface.
+class surface {
+public:
+    explicit surface(const geoidx_mesh& mesh, double weld_tolerance = 0) {
+        geoidx_surface_options options;
+        geoidx_surface_options_init(&options);
+        options.weld_tolerance = weld_tolerance;
+        geoidx_surface* made = nullptr;
+        check(geoidx_surface_create(&mesh, &options, &made));
+        handle_.reset(made);
+    }
+
+    // The nearest point of the surface, and how far it is.
+    std::pair<geoidx_surface_point, double> closest_point(const std::array<double, 3>& position) const {
+        std::pair<geoidx_surface_point, double> closest{};
+        check(geoidx_closest_point(get(), position.data(), &closest.first, &closest.second));
+        return closest;
+    }
+
+    const geoidx_surface* get() const noexcept { return handle_.get(); }
+
+private:
+    struct close {
+        void operator()(geoidx_surface* handle) const noexcept { geoidx_surface_close(handle); }
+    };
+    std::unique_ptr<geoidx_surface, close> handle_;
+};
+
+// A path over the surface, from its first point to its last one.
+struct path {
+    double length = 0;
+    std::vector<geoidx_path_point> points;
+};
+
 // One thread's scratch for queries on one index, which must outlive it.
 class query {
 public:
@@ -251,6 +287,37 @@ public:
         if (targets.size() != distances.size())
             throw std::invalid_argument("there must be a distance for each target");
         check(geoidx_query_prepared(get(), targets.data(), targets.size(), distances.data()));
+    }
+
+    float sssd(const surface& on, const geoidx_surface_point& source, const geoidx_surface_point& target) {
+        float distance = 0;
+        check(geoidx_query_point_sssd(get(), on.get(), &source, &target, &distance));
+        return distance;
+    }
+    // `offsets` are as many as the sources, or none.
+    void msad(const surface& on, std::span<const geoidx_surface_point> sources, std::span<float> distances,
+              std::span<const float> offsets = {}) {
+        if (!offsets.empty() && offsets.size() != sources.size())
+            throw std::invalid_argument("there must be an offset for each source");
+        check(geoidx_query_point_msad(get(), on.get(), sources.data(), detail::count_of(sources),
+                                      offsets.empty() ? nullptr : offsets.data(), distances.data(),
+                                      detail::count_of(distances)));
+    }
+
+    // Nothing if the points lie in different components.
+    std::optional<path> find_path(const surface& on, const geoidx_surface_point& source,
+                                  const geoidx_surface_point& target,
+                                  std::uint32_t quality = GEOIDX_PATH_STRAIGHT) {
+        path found;
+        const geoidx_status status =
+            geoidx_query_path(get(), on.get(), &source, &target, quality, &found.length);
+        if (status == GEOIDX_ERROR_NO_PATH) return std::nullopt;
+        check(status);
+        std::uint64_t count = 0;
+        check(geoidx_query_path_points(get(), nullptr, 0, &count));
+        found.points.resize(count);
+        check(geoidx_query_path_points(get(), found.points.data(), count, &count));
+        return found;
     }
 
     geoidx_query* get() const noexcept { return handle_.get(); }

@@ -25,6 +25,22 @@ bool answers_right(const gdx::index& index) {
            is_root_of_two(double{index.msad(std::span(&source, 1))[target]});
 }
 
+bool walks_right(const gdx::index& index, const geoidx_mesh& mesh) {
+    const gdx::surface surface(mesh);
+    gdx::query query = index.make_query();
+    const auto [from, height] = surface.closest_point({0.25, 0.5, 3});
+    const geoidx_surface_point corner = surface.closest_point({1, 0, 0}).first;
+    const double straight = std::hypot(0.75, 0.5);
+    const auto path = query.find_path(surface, from, corner, GEOIDX_PATH_EXACT);
+    std::vector<float> field(4);
+    const float offset = 2;
+    query.msad(surface, {&from, 1}, field, {&offset, 1});
+    return height == 3 && path && std::abs(path->length - straight) < 1e-9 && path->points.size() >= 2 &&
+           std::abs(path->points.front().position[1] - 0.5) < 1e-12 &&
+           std::abs(double{query.sssd(surface, from, corner)} - straight) < 1e-5 &&
+           std::abs(double{field[1]} - straight - 2) < 1e-5;
+}
+
 template <class Function>
 geoidx_status status_of(const Function& function) {
     try {
@@ -72,6 +88,7 @@ int main() {
         return 6;
     if (!throws_what_progress_throws(mesh)) return 7;
 
+    if (!walks_right(moved, mesh)) return 10;
     if (!comes_back_without_positions(moved, mesh)) return 9;
 
     std::vector<double> distances(4);

@@ -8,7 +8,7 @@ namespace Geoidx
     /// needs its own: a call during another one throws <see cref="InvalidOperationException"/>. It keeps the native
     /// index until it is disposed, also when the <see cref="GeodesicIndex"/> is disposed before.
     /// </summary>
-    public sealed class GeodesicQuery : IDisposable
+    public sealed partial class GeodesicQuery : IDisposable
     {
         private readonly QueryHandle handle;
         private readonly SingleUse use = new SingleUse();

@@ -29,6 +29,13 @@ def ask(vertices: NDArray[np.float32], faces: NDArray[np.int64]) -> None:
             distance = query.prepared(2)
             distances = query.prepared(faces)
             distances = query.prepared(2, out=np.empty((), np.float32))
+            surface = geoidx.Surface(vertices, faces, weld_tolerance=0.5)
+            foot, height = surface.closest_point([1, 2, 3.5])
+            way: geoidx.Path | None = query.path(surface, foot, foot, quality="exact")
+            if way is not None:
+                distances = query.point_msad(surface, way.points, offsets=[height])
+            chosen: NDArray[np.uint32] = query.farthest_points(3, sources=[0])
+            distances = query.prepared(chosen)
         diagonal: float = index.info.bounding_box_diagonal
         counts: tuple[int, ...] = index.info.patch_count
         index.save("index.geoidx", codec=geoidx.Codec.LOSSLESS)

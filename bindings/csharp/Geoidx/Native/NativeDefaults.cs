@@ -24,6 +24,13 @@ namespace Geoidx
             return options;
         }
 
+        internal static NativeSurfaceOptions SurfaceOptions()
+        {
+            NativeSurfaceOptions options = default;
+            NativeMethods.geoidx_surface_options_init_sized(&options, (uint)sizeof(NativeSurfaceOptions));
+            return options;
+        }
+
         internal static NativeSaveOptions SaveOptions()
         {
             NativeSaveOptions options = default;

@@ -153,26 +153,26 @@ namespace Geoidx
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_closest_point(
-            IntPtr surface, double* position, SurfacePoint* point, double* distance);
+            SurfaceHandle surface, double* position, SurfacePoint* point, double* distance);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_query_point_sssd(
-            QueryHandle query, IntPtr surface, SurfacePoint* source, SurfacePoint* target,
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* source, SurfacePoint* target,
             out float distance);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_query_point_msad(
-            QueryHandle query, IntPtr surface, SurfacePoint* sources, uint source_count,
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* sources, uint source_count,
             float* offsets, float* distances, uint distance_count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_query_path(
-            QueryHandle query, IntPtr surface, SurfacePoint* source, SurfacePoint* target,
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* source, SurfacePoint* target,
             PathQuality quality, out double length);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_query_path_points(
-            QueryHandle query, NativePathPoint* points, ulong capacity, out ulong count);
+            QueryHandle query, PathPoint* points, ulong capacity, out ulong count);
     }
 }
 #endif

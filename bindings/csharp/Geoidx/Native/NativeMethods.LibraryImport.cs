@@ -151,26 +151,26 @@ namespace Geoidx
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_closest_point(
-            IntPtr surface, double* position, SurfacePoint* point, double* distance);
+            SurfaceHandle surface, double* position, SurfacePoint* point, double* distance);
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_query_point_sssd(
-            QueryHandle query, IntPtr surface, SurfacePoint* source, SurfacePoint* target,
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* source, SurfacePoint* target,
             out float distance);
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_query_point_msad(
-            QueryHandle query, IntPtr surface, SurfacePoint* sources, uint source_count,
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* sources, uint source_count,
             float* offsets, float* distances, uint distance_count);
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_query_path(
-            QueryHandle query, IntPtr surface, SurfacePoint* source, SurfacePoint* target,
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* source, SurfacePoint* target,
             PathQuality quality, out double length);
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_query_path_points(
-            QueryHandle query, NativePathPoint* points, ulong capacity, out ulong count);
+            QueryHandle query, PathPoint* points, ulong capacity, out ulong count);
     }
 }
 #endif

@@ -86,25 +86,12 @@ namespace Geoidx
         NoPositions = 1,
     }
 
-    internal enum PathQuality
-    {
-        Straight = 0,
-        Exact = 1,
-    }
-
     [StructLayout(LayoutKind.Sequential)]
     internal struct NativeSurfaceOptions
     {
         internal uint struct_size;
         internal uint reserved;
         internal double weld_tolerance;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct NativePathPoint
-    {
-        internal SurfacePoint point;
-        internal fixed double position[3];
     }
 
     [StructLayout(LayoutKind.Sequential)]

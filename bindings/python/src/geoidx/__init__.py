@@ -22,6 +22,7 @@ from ._errors import (
     LimitError,
     MeshMismatchError,
     MissingFileError,
+    NoPathError,
     NotAnIndexError,
     OutOfMemoryError,
     Status,
@@ -35,7 +36,8 @@ from ._native import HEADER_VERSION, AllocateFn, Allocator, ReleaseFn, library, 
 from ._options import Codec, Engine
 from ._query import Query
 from ._sections import Coding, Section
-from ._solver import SURFACE_POINT, Solver, surface_points
+from ._solver import Solver
+from ._surface import SURFACE_POINT, Path, Surface, surface_points
 from ._verify import Issue, IssueNumber, verify
 
 __version__ = version_text(HEADER_VERSION)
@@ -73,14 +75,17 @@ __all__ = [
     "MetricKind",
     "MetricLike",
     "MissingFileError",
+    "NoPathError",
     "NotAnIndexError",
     "OutOfMemoryError",
+    "Path",
     "Progress",
     "Query",
     "ReleaseFn",
     "Section",
     "Solver",
     "Status",
+    "Surface",
     "TruncatedError",
     "UnsupportedVersionError",
     "Weighted",

@@ -168,6 +168,12 @@ class CallbackError(Error, RuntimeError):
     status = Status.CALLBACK
 
 
+class NoPathError(Error):
+    """No path on the surface joins the two points."""
+
+    status = Status.NO_PATH
+
+
 class InternalError(Error, RuntimeError):
     """A defect of the library."""
 
@@ -189,6 +195,7 @@ _ERRORS: dict[int, type[Error]] = {
         CancelledError,
         BadMeshError,
         CallbackError,
+        NoPathError,
         InternalError,
     )
 }

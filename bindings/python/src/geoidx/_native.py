@@ -229,10 +229,10 @@ FUNCTIONS = {
     "geoidx_surface_options_init_sized": (None, [POINTER(SurfaceOptions), c_uint32]),
     "geoidx_surface_create": (c_int32, [POINTER(Mesh), POINTER(SurfaceOptions), _HANDLE_OUT]),
     "geoidx_surface_close": (None, [c_void_p]),
-    "geoidx_closest_point": (c_int32, [c_void_p, c_void_p, POINTER(SurfacePoint), c_void_p]),
+    "geoidx_closest_point": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
     "geoidx_query_point_sssd": (
         c_int32,
-        [c_void_p, c_void_p, POINTER(SurfacePoint), POINTER(SurfacePoint), c_void_p],
+        [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p],
     ),
     "geoidx_query_point_msad": (
         c_int32,
@@ -240,7 +240,7 @@ FUNCTIONS = {
     ),
     "geoidx_query_path": (
         c_int32,
-        [c_void_p, c_void_p, POINTER(SurfacePoint), POINTER(SurfacePoint), c_uint32, c_void_p],
+        [c_void_p, c_void_p, c_void_p, c_void_p, c_uint32, c_void_p],
     ),
     "geoidx_query_path_points": (c_int32, [c_void_p, c_void_p, c_uint64, POINTER(c_uint64)]),
     "geoidx_solver_create": (c_int32, [POINTER(Mesh), POINTER(BuildOptions), _HANDLE_OUT]),

@@ -3,18 +3,33 @@
 from __future__ import annotations
 
 import math
-from ctypes import byref, c_uint32, c_void_p
-from typing import NoReturn, SupportsIndex, overload
+from ctypes import byref, c_double, c_float, c_uint32, c_uint64, c_void_p
+from typing import Any, NoReturn, SupportsIndex, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _fields
-from ._arrays import Ids, Vertex, Vertices, address, id_list, ids, output, real_number, vertex, whole_number
-from ._errors import check
+from ._arrays import (
+    Ids,
+    Vertex,
+    Vertices,
+    address,
+    as_array,
+    id_list,
+    ids,
+    output,
+    real_number,
+    vertex,
+    whole_number,
+)
+from ._errors import InvalidArgumentError, Status, check
 from ._fields import Distances
 from ._handle import Closable, Handle, OneThread
-from ._native import library
+from ._native import PathPoint, library
+from ._surface import Path, Surface, SurfacePoints, one_point, point_list
+
+PATH_QUALITIES = ("straight", "exact")
 
 
 class Query(Closable):
@@ -114,3 +129,76 @@ class Query(Closable):
                 )
             )
         return distances if target_ids.ndim or out is not None else float(distances)
+
+    def point_sssd(self, surface: Surface, source: SurfacePoints, target: SurfacePoints) -> float:
+        """The distance between two points of the surface."""
+        ends = one_point(source, "source"), one_point(target, "target")
+        distance = c_float()
+        with self._one_thread:
+            check(
+                library.geoidx_query_point_sssd(
+                    self._handle, surface.handle, address(ends[0]), address(ends[1]), byref(distance)
+                )
+            )
+        return distance.value
+
+    def point_msad(
+        self,
+        surface: Surface,
+        sources: SurfacePoints,
+        *,
+        offsets: ArrayLike | None = None,
+        out: Distances | None = None,
+    ) -> Distances:
+        """(n,) distances of every vertex: the least of offset + distance of each of (k,) points of the surface.
+
+        offsets: (k,), not negative: distances that sources begin with; 0, unless given.
+        """
+        points = point_list(sources, "sources")
+        begin = None
+        if offsets is not None:
+            begin = np.ascontiguousarray(np.atleast_1d(as_array(offsets, "offsets")), np.float32)
+            if begin.shape != points.shape:
+                raise InvalidArgumentError(f"offsets has the shape {begin.shape}, not {points.shape}")
+        distances = output(out, (self._vertex_count,), np.float32)
+        with self._one_thread:
+            check(
+                library.geoidx_query_point_msad(
+                    self._handle,
+                    surface.handle,
+                    address(points),
+                    whole_number(points.size, "the number of sources"),
+                    None if begin is None else address(begin),
+                    address(distances),
+                    self._vertex_count,
+                )
+            )
+        return distances
+
+    def path(
+        self, surface: Surface, source: SurfacePoints, target: SurfacePoints, *, quality: str = "straight"
+    ) -> Path | None:
+        """The path between two points of the surface; None if they lie in different components.
+
+        quality: "straight", locally shortest, or "exact".
+        """
+        if quality not in PATH_QUALITIES:
+            raise ValueError(f"quality is {quality!r}, not one of {', '.join(PATH_QUALITIES)}")
+        ends = one_point(source, "source"), one_point(target, "target")
+        length, count = c_double(), c_uint64()
+        with self._one_thread:
+            status = library.geoidx_query_path(
+                self._handle,
+                surface.handle,
+                address(ends[0]),
+                address(ends[1]),
+                PATH_QUALITIES.index(quality),
+                byref(length),
+            )
+            if status == Status.NO_PATH:
+                return None
+            check(status)
+            check(library.geoidx_query_path_points(self._handle, None, 0, byref(count)))
+            points: NDArray[Any] = np.zeros(count.value, np.dtype(PathPoint))
+            check(library.geoidx_query_path_points(self._handle, address(points), count, byref(count)))
+        return Path(length.value, points["point"].copy(), points["position"].copy())

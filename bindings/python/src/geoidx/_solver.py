@@ -8,42 +8,14 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _native
-from ._arrays import Doubles, address, as_array, broadcast, doubles, id_list, ids, output, whole_number
-from ._errors import InvalidArgumentError, check
+from ._arrays import Doubles, address, id_list, ids, output, whole_number
+from ._errors import check
 from ._handle import Closable, Handle, OneThread
 from ._mesh import MeshView
 from ._metrics import MetricLike
 from ._native import library
 from ._options import BuildOptions
-
-SURFACE_POINT = np.dtype(_native.SurfacePoint)
-"""A point of the surface: `triangle`, and the `weights` of its three corners."""
-
-SurfacePoints = NDArray[np.void]
-
-
-def surface_points(triangles: ArrayLike, weights: ArrayLike) -> SurfacePoints:
-    """(k,) points of the surface, of the dtype SURFACE_POINT.
-
-    triangles: (k,) or one position in the array of faces.
-    weights: (k, 3) or (3,), of the triangle's corners: not negative, 1 in sum.
-    """
-    corners = np.atleast_2d(as_array(weights, "weights"))
-    points: NDArray[Any] = np.zeros(len(corners), SURFACE_POINT)
-    points["triangle"] = broadcast(id_list(triangles, "triangles"), points["triangle"])[0]
-    points["weights"] = doubles(corners, "weights", len(points), 3)
-    return points
-
-
-def _point_list(values: SurfacePoints, name: str) -> NDArray[Any]:
-    points: NDArray[Any] = np.atleast_1d(as_array(values, name))
-    if points.dtype != SURFACE_POINT:
-        raise TypeError(f"{name} cannot be of {points.dtype}: see surface_points")
-    if points.ndim != 1:
-        raise InvalidArgumentError(f"{name} has the shape {points.shape}, not (n)")
-    return np.require(points, requirements=["C", "ALIGNED"])
-
+from ._surface import SurfacePoints, point_list
 
 class Solver(Closable):
     """A mesh and a metric, ready to compute distances under the metric itself, in float64.
@@ -103,8 +75,8 @@ class Solver(Closable):
 
         For the metrics Exact and Weighted; InvalidArgumentError for others, and for points of degenerate triangles.
         """
-        source_points = _point_list(sources, "sources")
-        target_points = _point_list(targets, "targets")
+        source_points = point_list(sources, "sources")
+        target_points = point_list(targets, "targets")
         distances = output(out, target_points.shape, np.float64)
         call = library.geoidx_solver_point_distances
         self._solve(call, source_points, address(target_points), distances)

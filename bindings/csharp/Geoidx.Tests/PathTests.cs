@@ -1,0 +1,90 @@
+using System;
+using Xunit;
+
+namespace Geoidx.Tests
+{
+    /// <summary>Points of the surface and paths, on planes.</summary>
+    public class PathTests
+    {
+        private const int Side = 12;
+
+        [Fact]
+        public void TheClosestPointIsStraightBelow()
+        {
+            using var surface = new GeodesicSurface(Shapes.Plane(Side));
+            SurfacePoint point = surface.ClosestPoint(2.25, 3.5, 7, out double distance);
+            Assert.Equal(7, distance, 12);
+            Assert.Equal(1, point.Weight0 + point.Weight1 + point.Weight2, 12);
+            Assert.Throws<GeodesicArgumentException>(() => surface.ClosestPoint(double.NaN, 0, 0));
+        }
+
+        [Theory]
+        [InlineData(PathQuality.Straight)]
+        [InlineData(PathQuality.Exact)]
+        public void APathOnThePlaneIsTheStraightLine(PathQuality quality)
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(Side));
+            using var surface = new GeodesicSurface(Shapes.Plane(Side));
+            using GeodesicQuery query = index.CreateQuery();
+            SurfacePoint from = surface.ClosestPoint(0.3, 0.4, 0), to = surface.ClosestPoint(9.3, 7.9, 0);
+            double straight = Math.Sqrt(9 * 9 + 7.5 * 7.5);
+            Assert.True(query.TryFindPath(surface, from, to, out double length, quality));
+            Assert.Equal(straight, length, 9);
+            Assert.InRange(query.Distance(surface, from, to), straight * 0.98, straight * 1.02);
+            var points = new PathPoint[query.PathPointCount];
+            Assert.Equal(points.Length, query.PathPoints(points));
+            double sum = 0;
+            for (int i = 1; i < points.Length; i++)
+                sum += Math.Sqrt(
+                    Math.Pow(points[i].X - points[i - 1].X, 2) + Math.Pow(points[i].Y - points[i - 1].Y, 2) +
+                    Math.Pow(points[i].Z - points[i - 1].Z, 2));
+            Assert.Equal(length, sum, 9);
+            Assert.Equal(0.3, points[0].X, 9);
+            Assert.Equal(7.9, points[points.Length - 1].Y, 9);
+            Assert.Throws<GeodesicArgumentException>(() => query.PathPoints(new PathPoint[1]));
+        }
+
+        [Fact]
+        public void FieldsBeginAtPointsWithOffsets()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(Side));
+            using var surface = new GeodesicSurface(Shapes.Plane(Side));
+            using GeodesicQuery query = index.CreateQuery();
+            var sources = new[] { surface.ClosestPoint(5, 5, 0) };
+            float[] fromVertex = index.FromSources(5 * Side + 5), field = new float[Side * Side];
+            query.FromPoints(surface, sources, new[] { 3f }, field);
+            for (int v = 0; v < field.Length; v++) Assert.InRange(field[v] - fromVertex[v], 2.9, 3.1);
+            Assert.Throws<GeodesicArgumentException>(() => query.FromPoints(surface, sources, new float[2], field));
+        }
+
+        [Fact]
+        public void WhatIsWrongIsRefused()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(Side));
+            using var other = new GeodesicSurface(Shapes.Plane(Side + 1));
+            using var surface = new GeodesicSurface(Shapes.Plane(Side));
+            using GeodesicQuery query = index.CreateQuery();
+            var point = new SurfacePoint(0, 1, 0, 0);
+            Assert.Throws<GeodesicMeshMismatchException>(() => query.Distance(other, point, point));
+            Assert.Throws<GeodesicArgumentException>(
+                () => query.TryFindPath(surface, point, new SurfacePoint(-1, 1, 0, 0), out _));
+            Assert.Throws<ArgumentNullException>(() => query.Distance(null!, point, point));
+            Assert.Equal(0, query.PathPointCount);
+            surface.Dispose();
+            Assert.Throws<ObjectDisposedException>(() => query.Distance(surface, point, point));
+        }
+
+        [Fact]
+        public void BetweenComponentsThereIsNoPath()
+        {
+            GeodesicMesh two = GeodesicMesh.From(
+                new double[] { 0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0 }, new[] { 0, 1, 2, 3, 4, 5 });
+            using GeodesicIndex index = GeodesicIndex.Build(two);
+            using var surface = new GeodesicSurface(two);
+            using GeodesicQuery query = index.CreateQuery();
+            SurfacePoint a = new SurfacePoint(0, 1, 0, 0), b = new SurfacePoint(1, 1, 0, 0);
+            Assert.False(query.TryFindPath(surface, a, b, out _));
+            Assert.True(float.IsPositiveInfinity(query.Distance(surface, a, b)));
+        }
+    }
+}

@@ -1,0 +1,102 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace Geoidx
+{
+    /// <content>Points of the surface, and paths between them.</content>
+    public sealed partial class GeodesicQuery
+    {
+        /// <summary>The distance between two points of the surface, in the mesh's unit.</summary>
+        /// <param name="surface">Of the index's mesh.</param>
+        /// <param name="source">The one point.</param>
+        /// <param name="target">The other.</param>
+        /// <exception cref="GeodesicArgumentException">
+        /// A point is not on the surface, or the index has another metric than lengths.
+        /// </exception>
+        /// <exception cref="GeodesicMeshMismatchException">The surface is that of another mesh.</exception>
+        public unsafe float Distance(GeodesicSurface surface, SurfacePoint source, SurfacePoint target)
+        {
+            using SingleUse.Scope scope = use.Begin();
+            NativeMethods.geoidx_query_point_sssd(handle, HandleOf(surface), &source, &target, out float distance)
+                .ThrowIfError();
+            return distance;
+        }
+
+        /// <summary>The distance of every vertex to the nearest of some points of the surface.</summary>
+        /// <param name="surface">Of the index's mesh.</param>
+        /// <param name="sources">One or more points.</param>
+        /// <param name="offsets">A distance for each source to begin with, or empty.</param>
+        /// <param name="distances">One for each vertex, in the mesh's unit.</param>
+        /// <exception cref="GeodesicArgumentException">
+        /// A point is not on the surface, or a number of offsets or distances is wrong.
+        /// </exception>
+        /// <exception cref="GeodesicMeshMismatchException">The surface is that of another mesh.</exception>
+        public unsafe void FromPoints(
+            GeodesicSurface surface, ReadOnlySpan<SurfacePoint> sources, ReadOnlySpan<float> offsets,
+            Span<float> distances)
+        {
+            if (!offsets.IsEmpty && offsets.Length != sources.Length)
+                throw new GeodesicArgumentException(
+                    $"offsets.Length is {offsets.Length}, but there are {sources.Length} sources");
+            using SingleUse.Scope scope = use.Begin();
+            fixed (SurfacePoint* first = &MemoryMarshal.GetReference(sources))
+            fixed (float* begin = &MemoryMarshal.GetReference(offsets))
+            fixed (float* results = &MemoryMarshal.GetReference(distances))
+                NativeMethods.geoidx_query_point_msad(
+                    handle, HandleOf(surface), first, (uint)sources.Length, offsets.IsEmpty ? null : begin, results,
+                    (uint)distances.Length).ThrowIfError();
+        }
+
+        /// <summary>
+        /// Finds a path between two points of the surface and keeps it for <see cref="PathPoints"/>, until the next one.
+        /// </summary>
+        /// <param name="surface">Of the index's mesh.</param>
+        /// <param name="source">Where it begins.</param>
+        /// <param name="target">Where it ends.</param>
+        /// <param name="length">Its length, in the mesh's unit.</param>
+        /// <param name="quality">How short it is to be.</param>
+        /// <returns>Whether there is one: not between points of different components.</returns>
+        /// <exception cref="GeodesicArgumentException">
+        /// A point is not on the surface, or the index has another metric than lengths.
+        /// </exception>
+        /// <exception cref="GeodesicMeshMismatchException">The surface is that of another mesh.</exception>
+        public unsafe bool TryFindPath(
+            GeodesicSurface surface, SurfacePoint source, SurfacePoint target, out double length,
+            PathQuality quality = PathQuality.Straight)
+        {
+            using SingleUse.Scope scope = use.Begin();
+            GeodesicStatus status = NativeMethods.geoidx_query_path(
+                handle, HandleOf(surface), &source, &target, quality, out length);
+            if (status == GeodesicStatus.NoPath) return false;
+            status.ThrowIfError();
+            return true;
+        }
+
+        /// <summary>How many points the latest path has; 0 if there is none.</summary>
+        public unsafe int PathPointCount
+        {
+            get
+            {
+                using SingleUse.Scope scope = use.Begin();
+                NativeMethods.geoidx_query_path_points(handle, null, 0, out ulong count).ThrowIfError();
+                return checked((int)count);
+            }
+        }
+
+        /// <summary>Copies the points of the latest path, from its source to its target.</summary>
+        /// <param name="points">Has room for <see cref="PathPointCount"/> of them.</param>
+        /// <returns>How many there are.</returns>
+        /// <exception cref="GeodesicArgumentException">There are more points than there is room for.</exception>
+        public unsafe int PathPoints(Span<PathPoint> points)
+        {
+            using SingleUse.Scope scope = use.Begin();
+            ulong count;
+            fixed (PathPoint* first = &MemoryMarshal.GetReference(points))
+                NativeMethods.geoidx_query_path_points(handle, first, (ulong)points.Length, out count).ThrowIfError();
+            return (int)count;
+        }
+
+        private static SurfaceHandle HandleOf(GeodesicSurface surface) =>
+            (surface ?? throw new ArgumentNullException(nameof(surface))).Handle;
+    }
+}

@@ -1,0 +1,95 @@
+"""Points of the surface, and the mesh that they lie on."""
+
+from __future__ import annotations
+
+from ctypes import byref, c_double, c_void_p, sizeof
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._arrays import Doubles, address, as_array, broadcast, doubles, id_list
+from ._errors import InvalidArgumentError, check
+from ._handle import Closable, Handle
+from ._mesh import MeshView
+from ._native import library
+
+SURFACE_POINT = np.dtype(_native.SurfacePoint)
+"""A point of the surface: `triangle`, and the `weights` of its three corners."""
+
+SurfacePoints = NDArray[np.void]
+
+
+def surface_points(triangles: ArrayLike, weights: ArrayLike) -> SurfacePoints:
+    """(k,) points of the surface, of the dtype SURFACE_POINT.
+
+    triangles: (k,) or one position in the array of faces.
+    weights: (k, 3) or (3,), of the triangle's corners: not negative, 1 in sum.
+    """
+    corners = np.atleast_2d(as_array(weights, "weights"))
+    points: NDArray[Any] = np.zeros(len(corners), SURFACE_POINT)
+    points["triangle"] = broadcast(id_list(triangles, "triangles"), points["triangle"])[0]
+    points["weights"] = doubles(corners, "weights", len(points), 3)
+    return points
+
+
+def point_list(values: SurfacePoints, name: str) -> NDArray[Any]:
+    points: NDArray[Any] = np.atleast_1d(as_array(values, name))
+    if points.dtype != SURFACE_POINT:
+        raise TypeError(f"{name} cannot be of {points.dtype}: see surface_points")
+    if points.ndim != 1:
+        raise InvalidArgumentError(f"{name} has the shape {points.shape}, not (n)")
+    return np.require(points, requirements=["C", "ALIGNED"])
+
+
+def one_point(value: SurfacePoints, name: str) -> NDArray[Any]:
+    points = point_list(value, name)
+    if points.size != 1:
+        raise InvalidArgumentError(f"{name} is {points.size} points, not one")
+    return points
+
+
+@dataclass(frozen=True)
+class Path:
+    """A path over the surface: its length, and its points from the source to the target."""
+
+    length: float
+    points: SurfacePoints
+    """(k,) `surface_points`; each piece lies on the triangle of its first point."""
+    positions: Doubles
+    """(k, 3), in space."""
+
+
+class Surface(Closable):
+    """A mesh with its adjacency, for points of the surface: immutable, shared by threads.
+
+    vertices, faces, weld_tolerance: as of `Index.build`.
+    """
+
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike, *, weld_tolerance: float = 0.0) -> None:
+        mesh = MeshView(vertices, faces)
+        options = _native.SurfaceOptions()
+        library.geoidx_surface_options_init_sized(byref(options), sizeof(options))
+        options.weld_tolerance = weld_tolerance
+        out = c_void_p()
+        status = library.geoidx_surface_create(byref(mesh.struct), byref(options), byref(out))
+        super().__init__(Handle(out, library.geoidx_surface_close))
+        check(status)
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a surface cannot be copied or pickled")
+
+    @property
+    def handle(self) -> Handle:
+        """For the library's functions."""
+        return self._handle
+
+    def closest_point(self, position: ArrayLike) -> tuple[SurfacePoints, float]:
+        """The point of the surface that is nearest to (x, y, z), as (1,) `surface_points`, and how far it is."""
+        place = doubles(np.atleast_2d(as_array(position, "position")), "position", 1, 3)
+        point: NDArray[Any] = np.zeros(1, SURFACE_POINT)
+        distance = c_double()
+        check(library.geoidx_closest_point(self._handle, address(place), address(point), byref(distance)))
+        return point, distance.value
