@@ -15,7 +15,9 @@ struct FacePoint {
     bool unfolds;    // whether a way may cross the edges anywhere; if not, it leads over a corner
     std::array<double, 3> to_corner;
     std::array<double, 3> edge_length;
-    std::array<double, 3> foot, height; // in the plane of edge k: how far along it, and how far off
+    std::array<double, 3> weights;
+    std::array<double, 3> foot, height;           // in the plane of edge k: how far along it, and how far off
+    std::array<double, 3> apex_foot, apex_height; // the same of corner k
 };
 
 // A point with these weights on a face with these lengths of edges.

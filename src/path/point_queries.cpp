@@ -38,8 +38,9 @@ FacePoint PointQueries::face_point_of(const SurfacePoint& point) const {
     return face_point(numbers, lengths, point.weights, unfolds());
 }
 
-// The straight line counts even where the index, to its accuracy, says that there is a shorter way. Much
-// shorter ways are there: around a needle that stands between two faces.
+// No way is shorter than the straight line in space. That over the faces counts even where the index, to its
+// accuracy, says that there is a shorter way. Much shorter ways are there: around a needle that stands
+// between two faces.
 float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target) {
     constexpr double MUCH_SHORTER = 0.95;
     const FacePoint from = face_point_of(source), to = face_point_of(target);
@@ -47,7 +48,8 @@ float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target)
     if (source.face == target.face && source.weights == target.weights) return 0;
     const double straight = unfolds() ? straight_nearby(surface_, source, target) : UNREACHABLE;
     if (straight < UNREACHABLE && source.face == target.face) return static_cast<float>(straight);
-    const float distance = query_.point_sssd(from, to);
+    const double chord = (position_of(surface_, source) - position_of(surface_, target)).norm();
+    const float distance = std::max(query_.point_sssd(from, to), static_cast<float>(chord));
     return double{distance} < MUCH_SHORTER * straight ? distance : static_cast<float>(straight);
 }
 
