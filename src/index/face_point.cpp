@@ -31,7 +31,7 @@ double straight_to(const Placed& placed, double length, double foot, double heig
     const double off = height + placed.height;
     const double crossing = foot * placed.height + placed.foot * height;
     if (!(crossing > 0 && crossing < length * off)) return NO_WAY;
-    return std::hypot(foot - placed.foot, off);
+    return hypotenuse(foot - placed.foot, off);
 }
 
 // The way over edge k. Where the straight way to the third corner is shorter than that corner is far, no
@@ -62,7 +62,7 @@ FacePoint face_point(const std::array<uint32_t, 3>& corners, const std::array<do
         point.apex_height[k] = apex.height;
         point.foot[k] = weights[second] * edge_length[k] + weights[k] * apex.foot;
         point.height[k] = weights[k] * apex.height;
-        point.to_corner[first] = std::hypot(point.foot[k], point.height[k]);
+        point.to_corner[first] = hypotenuse(point.foot[k], point.height[k]);
         if (weights[k] == 1) point.vertex = corners[k];
     }
     return point;

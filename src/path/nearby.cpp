@@ -28,7 +28,7 @@ double straight_across(const Surface& surface, const SurfacePoint& a, const Surf
     const double off = from.height + to.height;
     if (!(off > 0)) return std::abs(from.foot - to.foot);
     const double crossing = (from.foot * to.height + to.foot * from.height) / off;
-    return crossing >= 0 && crossing <= length ? std::hypot(from.foot - to.foot, off) : UNREACHABLE;
+    return crossing >= 0 && crossing <= length ? hypotenuse(from.foot - to.foot, off) : UNREACHABLE;
 }
 
 double straight_between(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {

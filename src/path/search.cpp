@@ -24,7 +24,7 @@ struct Crossing {
 void cross_piece(double begin, double end, double from_begin, double from_end, double foot, double height,
                  double& least, double& at, double& rest) {
     const auto offer = [&](double x, double way_on) {
-        const double length = std::hypot(x - foot, height) + way_on;
+        const double length = hypotenuse(x - foot, height) + way_on;
         if (!(length < least)) return;
         least = length;
         at = x;
@@ -39,7 +39,7 @@ void cross_piece(double begin, double end, double from_begin, double from_end, d
     const double off = std::sqrt(square), both = off + height;
     if (!(both > 0)) return;
     const double x = foot - begin + (target - foot + begin) * (height / both);
-    if (x > 0 && x < length) offer(begin + x, std::hypot(x - target, off));
+    if (x > 0 && x < length) offer(begin + x, hypotenuse(x - target, off));
 }
 
 // What a search has open, by what is expected in all.

@@ -22,13 +22,13 @@ std::string dotted(uint32_t version) {
 TEST_CASE("version and status strings") {
     CHECK(dotted(geoidx_version()) == GEOIDX_VERSION_OF_PROJECT);
     std::set<std::string> phrases;
-    for (geoidx_status status = GEOIDX_ERROR_INTERNAL; status <= GEOIDX_OK; ++status) {
+    for (geoidx_status status = GEOIDX_ERROR_NO_PATH; status <= GEOIDX_OK; ++status) {
         REQUIRE(geoidx_status_string(status) != nullptr);
         CHECK(std::strlen(geoidx_status_string(status)) > 0);
         phrases.insert(geoidx_status_string(status));
     }
-    CHECK(phrases.size() == 15);
-    const std::string unknown = geoidx_status_string(GEOIDX_ERROR_INTERNAL - 1);
+    CHECK(phrases.size() == 16);
+    const std::string unknown = geoidx_status_string(GEOIDX_ERROR_NO_PATH - 1);
     CHECK(!phrases.contains(unknown));
     for (geoidx_status status : {1, INT32_MIN, INT32_MAX}) CHECK(geoidx_status_string(status) == unknown);
 }
@@ -48,7 +48,8 @@ TEST_CASE("the numbers of statuses and enumerations stay as released") {
                                                  GEOIDX_ERROR_CANCELLED,
                                                  GEOIDX_ERROR_BAD_MESH,
                                                  GEOIDX_ERROR_CALLBACK,
-                                                 GEOIDX_ERROR_INTERNAL};
+                                                 GEOIDX_ERROR_INTERNAL,
+                                                 GEOIDX_ERROR_NO_PATH};
     for (size_t i = 0; i < statuses.size(); ++i) CHECK(statuses[i] == -static_cast<geoidx_status>(i));
     CHECK(GEOIDX_METRIC_EXACT == 0);
     CHECK(GEOIDX_METRIC_EDGES == 1);
@@ -57,6 +58,8 @@ TEST_CASE("the numbers of statuses and enumerations stay as released") {
     CHECK(GEOIDX_METRIC_UNFOLDABLE == 1);
     CHECK(GEOIDX_ENGINE_GRAPH == 0);
     CHECK(GEOIDX_ENGINE_OVERLAY == 1);
+    CHECK(GEOIDX_PATH_STRAIGHT == 0);
+    CHECK(GEOIDX_PATH_EXACT == 1);
     CHECK(GEOIDX_POSITION_FLOAT == 0);
     CHECK(GEOIDX_POSITION_DOUBLE == 1);
 }
@@ -82,6 +85,8 @@ TEST_CASE("init functions write no more than the caller's struct") {
     check(geoidx_mesh_init_sized, geoidx_mesh{});
     check(geoidx_build_options_init_sized, geoidx_build_options{});
     check(geoidx_open_options_init_sized, geoidx_open_options{});
+    check(geoidx_save_options_init_sized, geoidx_save_options{});
+    check(geoidx_surface_options_init_sized, geoidx_surface_options{});
 }
 
 TEST_CASE("init functions set struct_size and defaults, and bear NULL") {
