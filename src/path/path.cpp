@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "format/error.h"
 #include "geoidx.h"
 #include "src/path/corridor.h"
 #include "src/path/nearby.h"
 #include "src/path/search.h"
+#include "src/path/sides.h"
 #include "src/path/straighten.h"
 
 namespace geodesic {
@@ -26,13 +28,6 @@ bool is_at(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b)
 void add_point(const Surface& surface, const SurfacePoint& point, std::vector<SurfacePoint>& points) {
     if (!points.empty() && is_at(surface, points.back(), point)) points.pop_back();
     points.push_back(point);
-}
-
-SurfacePoint point_at(const Surface& surface, uint32_t face, const Portal& portal, double share) {
-    SurfacePoint point{face, {}};
-    point.weights[corner_of(surface, face, portal.a)] += 1 - share;
-    point.weights[corner_of(surface, face, portal.b)] += share;
-    return point;
 }
 
 SurfacePath path_of_points(const Surface& surface, std::vector<SurfacePoint>&& points,
@@ -82,6 +77,13 @@ private:
         const uint32_t number = points_.number_of(vertex);
         return number == NONE ? UNREACHABLE : double{query_.end_distance(end, number)};
     }
+    struct Straight {
+        Strip strip;
+        StripPath path;
+    };
+
+    std::optional<Straight> led_by(size_t end);
+    Straight straight();
     bool belongs(uint32_t vertex, double slack, double length);
 
     const Index& index_;
@@ -99,6 +101,30 @@ bool PathFinder::belongs(uint32_t vertex, double slack, double length) {
     return distance(0, vertex) + distance(1, vertex) <= (1 + error) * length + slack;
 }
 
+// Led by the distances from one end, from the other one on.
+std::optional<PathFinder::Straight> PathFinder::led_by(size_t end) {
+    const TargetDistances distances{[this, end](uint32_t vertex) { return distance(end, vertex); }, {}};
+    auto strip = end == 1 ? search_strip(surface_, source_, target_, distances)
+                          : search_strip(surface_, target_, source_, distances);
+    if (!strip) return std::nullopt;
+    if (end == 0) turn_back(*strip);
+    StripPath path = straighten(surface_, *strip);
+    return Straight{std::move(*strip), std::move(path)};
+}
+
+// The errors of the two fields may lead to different ways around a bump.
+PathFinder::Straight PathFinder::straight() {
+    constexpr double SAME = 1e-9; // lengths of one way, as a share
+    auto one = led_by(1);
+    if (!one) no_path();
+    auto other = led_by(0);
+    if (!other || std::abs(one->path.length - other->path.length) <= SAME * one->path.length)
+        other = std::nullopt;
+    for (auto* found : {&one, &other})
+        if (*found) try_other_sides(surface_, (*found)->strip, (*found)->path);
+    return std::move(other && other->path.length < one->path.length ? *other : *one);
+}
+
 SurfacePath PathFinder::find(PathQuality quality) {
     const FacePoint to = points_.face_point_of(target_), from = points_.face_point_of(source_);
     if (is_at(surface_, source_, target_) && points_.sssd(source_, target_) == 0)
@@ -110,19 +136,17 @@ SurfacePath PathFinder::find(PathQuality quality) {
         if (!vertices) no_path();
         return path_of_vertices(surface_, source_, *vertices, target_);
     }
-    auto strip = search_strip(surface_, source_, target_, distances);
-    if (!strip) no_path();
-    StripPath path = straighten(surface_, *strip);
-    if (quality == PathQuality::EXACT && strip->faces.size() > 1) {
-        query_.prepare_end(0, from);
-        const Corridor corridor = corridor_around(surface_, *strip, [&](uint32_t vertex, double slack) {
+    query_.prepare_end(0, from);
+    auto [strip, path] = straight();
+    if (quality == PathQuality::EXACT && strip.faces.size() > 1) {
+        const Corridor corridor = corridor_around(surface_, strip, [&](uint32_t vertex, double slack) {
             return belongs(vertex, slack, path.length);
         });
-        Strip shortest = *strip;
+        Strip shortest = strip;
         const StripPath found = shortest_in_corridor(surface_, corridor, shortest);
         if (found.length <= path.length) return path_of_strip(surface_, shortest, found);
     }
-    return path_of_strip(surface_, *strip, path);
+    return path_of_strip(surface_, strip, path);
 }
 
 }

@@ -1,11 +1,20 @@
 #include "src/path/strip.h"
 
+#include <algorithm>
+
 namespace geodesic {
 
 using Eigen::Vector3d;
 
 Vector3d position_at(const Surface& surface, const Portal& portal, double share) {
     return (1 - share) * surface.positions[portal.a] + share * surface.positions[portal.b];
+}
+
+SurfacePoint point_at(const Surface& surface, uint32_t face, const Portal& portal, double share) {
+    SurfacePoint point{face, {}};
+    point.weights[corner_of(surface, face, portal.a)] += 1 - share;
+    point.weights[corner_of(surface, face, portal.b)] += share;
+    return point;
 }
 
 uint32_t vertex_at(const Portal& portal, double share) {
@@ -31,6 +40,12 @@ double length_of(const Surface& surface, const Strip& strip, const std::vector<d
         last = next;
     }
     return length + (position_of(surface, strip.target) - last).norm();
+}
+
+void turn_back(Strip& strip) {
+    std::swap(strip.source, strip.target);
+    std::ranges::reverse(strip.faces);
+    std::ranges::reverse(strip.portals);
 }
 
 void drop_returns(Strip& strip) {

@@ -33,6 +33,9 @@ struct StripPath {
 
 Eigen::Vector3d position_at(const Surface& surface, const Portal& portal, double share);
 
+// The same as a point of a face at the portal.
+SurfacePoint point_at(const Surface& surface, uint32_t face, const Portal& portal, double share);
+
 // The vertex where a path passes a portal, or NONE if it passes between two.
 uint32_t vertex_at(const Portal& portal, double share);
 
@@ -42,6 +45,9 @@ Eigen::Vector3d position_after(const Surface& surface, const Strip& strip, const
 
 // The sum of the lengths of the pieces, by positions in space.
 double length_of(const Surface& surface, const Strip& strip, const std::vector<double>& shares);
+
+// From its target to its source.
+void turn_back(Strip& strip);
 
 // Takes out faces that are left through the edge that they were entered by.
 void drop_returns(Strip& strip);

@@ -1,0 +1,245 @@
+#include "src/path/sides.h"
+
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+
+#include <Eigen/Geometry>
+
+#include "src/path/straighten.h"
+
+namespace geodesic {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// The points of a path are numbered: its source, where it passes each portal of its strip, its target. Face i
+// lies between points i and i + 1. A range of points stands for the faces between its ends.
+struct Range {
+    size_t first, last;
+};
+
+std::ptrdiff_t offset(size_t i) { return static_cast<std::ptrdiff_t>(i); }
+
+// The strip between two points of its path.
+Strip part_of(const Surface& surface, const Strip& strip, const StripPath& path, Range range) {
+    const auto [first, last] = range;
+    Strip part{strip.source, strip.target, {}, {}};
+    part.faces.assign(strip.faces.begin() + offset(first), strip.faces.begin() + offset(last));
+    part.portals.assign(strip.portals.begin() + offset(first), strip.portals.begin() + offset(last) - 1);
+    const auto portal_point = [&](size_t face, size_t portal) {
+        return point_at(surface, strip.faces[face], strip.portals[portal], path.shares[portal]);
+    };
+    if (first > 0) part.source = portal_point(first, first - 1);
+    if (last <= strip.portals.size()) part.target = portal_point(last - 1, last - 1);
+    return part;
+}
+
+// The strip with another one in the place of its faces between two points.
+Strip with_part(const Strip& strip, Range range, const Strip& part) {
+    Strip whole{strip.source, strip.target, {}, {}};
+    const auto join = [&](auto& all, const auto& old, const auto& own, size_t end) {
+        all.assign(old.begin(), old.begin() + offset(range.first));
+        all.insert(all.end(), own.begin(), own.end());
+        all.insert(all.end(), old.begin() + offset(end), old.end());
+    };
+    join(whole.faces, strip.faces, part.faces, range.last);
+    join(whole.portals, strip.portals, part.portals, range.last - 1);
+    drop_returns(whole);
+    return whole;
+}
+
+class OtherSides {
+public:
+    OtherSides(const Surface& surface, Strip& strip, StripPath& path)
+        : surface_(surface), strip_(strip), path_(path) {
+        measure();
+    }
+
+    void run();
+
+private:
+    struct Point {
+        Vector3d at;
+        uint32_t vertex = NONE; // that the path passes there
+        double along = 0;       // length of the path up to there
+    };
+    // A vertex beside the path: where along it, and how far off.
+    struct Beside {
+        double foot, height;
+    };
+
+    void measure();
+    Pass pass_of(size_t portal, uint32_t vertex) const;
+    bool is_begin(size_t portal, uint32_t vertex) const {
+        return !strip_.portals[portal].is_vertex() &&
+               (portal == 0 || !strip_.portals[portal - 1].contains(vertex));
+    }
+    double angle_around(uint32_t vertex);
+    double length(Range range) const { return points_[range.last].along - points_[range.first].along; }
+    double angle_at(const Beside& beside, Range range) const;
+    std::optional<Beside> beside(const Pass& pass) const;
+    Range piece_around(const Pass& pass) const;
+    Range with_next_pieces(Range range) const;
+    std::optional<Turn::Fan> other_side(const Pass& pass);
+    bool take(const Pass& pass, const Turn::Fan& fan, Range range);
+    std::optional<size_t> try_at(const Pass& pass);
+    bool sweep();
+
+    const Surface& surface_;
+    Strip& strip_;
+    StripPath& path_;
+    std::vector<Point> points_;
+    std::unordered_map<uint32_t, double> angles_; // all around vertices
+    std::unordered_set<uint64_t> failed_;         // vertices and the lengths of the parts that were tried
+    size_t tries_ = 0;
+};
+
+void OtherSides::measure() {
+    points_.clear();
+    points_.push_back({position_of(surface_, strip_.source)});
+    for (size_t i = 0; i < strip_.portals.size(); ++i)
+        points_.push_back({position_at(surface_, strip_.portals[i], path_.shares[i]),
+                           vertex_at(strip_.portals[i], path_.shares[i])});
+    points_.push_back({position_of(surface_, strip_.target)});
+    for (size_t i = 1; i < points_.size(); ++i)
+        points_[i].along = points_[i - 1].along + (points_[i].at - points_[i - 1].at).norm();
+}
+
+Pass OtherSides::pass_of(size_t portal, uint32_t vertex) const {
+    size_t last = portal;
+    while (last + 1 < strip_.portals.size() && strip_.portals[last + 1].contains(vertex)) ++last;
+    return {portal, last, vertex};
+}
+
+double OtherSides::angle_around(uint32_t vertex) {
+    const auto [found, is_new] = angles_.try_emplace(vertex, 0);
+    if (!is_new) return found->second;
+    const Vector3d at = surface_.positions[vertex];
+    for (const uint32_t face : surface_.vertex_faces[vertex]) {
+        const uint32_t k = corner_of(surface_, face, vertex);
+        const Vector3d a = surface_.positions[surface_.faces[face][(k + 1) % 3]] - at,
+                       b = surface_.positions[surface_.faces[face][(k + 2) % 3]] - at;
+        found->second += std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+    return found->second;
+}
+
+// The angle at which the straight path between two points is seen.
+double OtherSides::angle_at(const Beside& beside, Range range) const {
+    return std::atan2(beside.foot - points_[range.first].along, beside.height) +
+           std::atan2(points_[range.last].along - beside.foot, beside.height);
+}
+
+// Measured from the longest piece within the faces at the vertex; nothing where the path bends there.
+std::optional<OtherSides::Beside> OtherSides::beside(const Pass& pass) const {
+    size_t longest = pass.first;
+    for (size_t i = pass.first; i <= pass.last + 1; ++i) {
+        if (i > pass.first && points_[i].vertex != NONE) return std::nullopt;
+        if (length({i, i + 1}) > length({longest, longest + 1})) longest = i;
+    }
+    const double piece = length({longest, longest + 1});
+    if (!(piece > 0)) return std::nullopt;
+    const Vector3d direction = (points_[longest + 1].at - points_[longest].at) / piece;
+    const Vector3d off = surface_.positions[pass.vertex] - points_[longest].at;
+    const double foot = off.dot(direction);
+    return Beside{points_[longest].along + foot, (off - foot * direction).norm()};
+}
+
+// Between the bends before and after it.
+Range OtherSides::piece_around(const Pass& pass) const {
+    Range piece{pass.first, pass.last + 2};
+    while (piece.first > 0 && points_[piece.first].vertex == NONE) --piece.first;
+    while (piece.last + 1 < points_.size() && points_[piece.last].vertex == NONE) ++piece.last;
+    return piece;
+}
+
+Range OtherSides::with_next_pieces(Range range) const {
+    auto& [first, last] = range;
+    for (const uint32_t v = points_[first].vertex; first > 0 && points_[first].vertex == v;) --first;
+    while (first > 0 && points_[first].vertex == NONE) --first;
+    const size_t end = points_.size() - 1;
+    for (const uint32_t v = points_[last].vertex; last < end && points_[last].vertex == v;) ++last;
+    while (last < end && points_[last].vertex == NONE) ++last;
+    return range;
+}
+
+// The fan there, if between the bends of the path the angle on that side is less, or hardly more: beside a
+// cone in a plane the way on the side of the smaller angle is the shorter one, but there are more vertices.
+std::optional<Turn::Fan> OtherSides::other_side(const Pass& pass) {
+    constexpr double MORE = 0.05;
+    const auto place = beside(pass);
+    if (!place || strip_.faces[pass.first] == strip_.faces[pass.last + 1]) return std::nullopt;
+    const double here = angle_at(*place, piece_around(pass)),
+                 near = angle_at(*place, {pass.first, pass.last + 2});
+    if (!(angle_around(pass.vertex) < 2 * here + MORE)) return std::nullopt;
+    const Vector3d at = surface_.positions[pass.vertex], from = points_[pass.first].at - at,
+                   to = points_[pass.last + 2].at - at;
+    if (from.isZero(0) || to.isZero(0)) return std::nullopt;
+    Turn turn(surface_, pass.vertex);
+    for (size_t i = pass.first; i <= pass.last; ++i) {
+        const Portal& portal = strip_.portals[i];
+        turn.forbid(portal.a == pass.vertex ? portal.b : portal.a);
+    }
+    return turn.below(2 * here - near + MORE, strip_.faces[pass.first], from, strip_.faces[pass.last + 1],
+                      to);
+}
+
+bool OtherSides::take(const Pass& pass, const Turn::Fan& fan, Range range) {
+    constexpr double SHORTER = 1e-12; // as a share: less is rounding
+    Strip other = with_fan(part_of(surface_, strip_, path_, range),
+                           {pass.first - range.first, pass.last - range.first, pass.vertex}, fan);
+    if (!(straighten(surface_, other).length < length(range) * (1 - SHORTER))) return false;
+    Strip whole = with_part(strip_, range, other);
+    StripPath shorter = straighten(surface_, whole);
+    if (!(shorter.length < path_.length * (1 - SHORTER))) return false;
+    strip_ = std::move(whole);
+    path_ = std::move(shorter);
+    measure();
+    return true;
+}
+
+// Between the bends, and one farther, since a bend may go. Gives the first portal of the part if it helped.
+std::optional<size_t> OtherSides::try_at(const Pass& pass) {
+    const auto fan = other_side(pass);
+    if (!fan) return std::nullopt;
+    const Range range = with_next_pieces(piece_around(pass));
+    const uint64_t key = std::bit_cast<uint64_t>(length(range)) ^ (uint64_t{pass.vertex} << 32);
+    if (failed_.contains(key)) return std::nullopt;
+    ++tries_;
+    if (take(pass, *fan, range)) return range.first;
+    failed_.insert(key);
+    return std::nullopt;
+}
+
+// Once along the strip; after a change on from where that begins.
+bool OtherSides::sweep() {
+    constexpr size_t MOST_TRIES = 1000;
+    bool has_helped = false;
+    for (size_t i = 0; i < strip_.portals.size();) {
+        std::optional<size_t> changed;
+        const auto [a, b] = strip_.portals[i];
+        for (const uint32_t vertex : {a, b})
+            if (!changed && tries_ < MOST_TRIES && is_begin(i, vertex)) changed = try_at(pass_of(i, vertex));
+        has_helped |= changed.has_value();
+        i = changed.value_or(i + 1);
+    }
+    return has_helped;
+}
+
+void OtherSides::run() {
+    constexpr int MOST_SWEEPS = 4;
+    for (int i = 0; i < MOST_SWEEPS && sweep(); ++i) {
+    }
+}
+
+}
+
+void try_other_sides(const Surface& surface, Strip& strip, StripPath& path) {
+    OtherSides(surface, strip, path).run();
+}
+
+}

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "src/path/surface.h"
+
+namespace geodesic {
+
+// The shortest way around a vertex between two directions in faces there, over the edges at the vertex, of
+// which any number of faces may join.
+class Turn {
+public:
+    Turn(const Surface& surface, uint32_t vertex) : surface_(surface), vertex_(vertex) {
+        for (const uint32_t face : surface.vertex_faces[vertex]) add_face(face);
+    }
+
+    // No way passes the edge to this vertex.
+    void forbid(uint32_t other_end) { spokes_[spoke_of(other_end)].is_forbidden = true; }
+
+    // The faces between the two, without them, and the other ends of the edges passed.
+    struct Fan {
+        std::vector<uint32_t> faces, spokes;
+        double angle = 0;
+    };
+    // Nothing if the angle is not below the limit.
+    std::optional<Fan> below(double limit, uint32_t from_face, const Eigen::Vector3d& from, uint32_t to_face,
+                             const Eigen::Vector3d& to);
+
+private:
+    struct Spoke {
+        uint32_t vertex;
+        double angle = UNREACHABLE; // from the first direction
+        uint32_t before = NONE, face = NONE;
+        bool is_done = false, is_forbidden = false;
+    };
+    struct Sector {
+        uint32_t face;
+        std::array<uint32_t, 2> spokes;
+        double angle;
+    };
+
+    Eigen::Vector3d direction(uint32_t vertex) const {
+        return surface_.positions[vertex] - surface_.positions[vertex_];
+    }
+    void add_face(uint32_t face);
+    uint32_t spoke_of(uint32_t vertex);
+    const Sector& sector_of(uint32_t face) const { return *std::ranges::find(sectors_, face, &Sector::face); }
+    void spread(double limit);
+    Fan fan_to(uint32_t spoke) const;
+
+    const Surface& surface_;
+    const uint32_t vertex_;
+    std::vector<Spoke> spokes_;
+    std::vector<Sector> sectors_;
+};
+
+}
