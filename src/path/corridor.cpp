@@ -1,11 +1,14 @@
 #include "src/path/corridor.h"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "src/metric/window_propagation.h"
 #include "src/path/nearby.h"
 #include "src/path/search.h"
+#include "src/path/sides.h"
 #include "src/path/straighten.h"
 
 namespace geodesic {
@@ -49,14 +52,15 @@ public:
           solver_(ExactMetric(corridor.mesh).make_solver()), source_(local(strip.source)),
           target_(local(strip.target)) {}
 
-    StripPath find(Strip& strip);
+    void make_shortest(Strip& strip, StripPath& path);
 
 private:
-    static constexpr uint32_t MOST_POINTS = 31;
-
     SurfacePoint local(const SurfacePoint& point) const;
-    void solve(uint32_t points_per_edge);
+    std::vector<uint32_t> edges_near(const Strip& strip) const;
+    void solve(const std::vector<uint32_t>& edges, uint32_t points_per_edge);
     Strip search();
+    bool is_shortest(const StripPath& path) const;
+    void search_again(Strip& strip, StripPath& path);
     std::span<const double> inside(uint32_t a, uint32_t b) const;
 
     const Surface& whole_;
@@ -65,7 +69,8 @@ private:
     std::unique_ptr<FieldSolver> solver_;
     const SurfacePoint source_, target_;
     uint32_t points_per_edge_ = 0;
-    std::vector<double> on_edges_; // points_per_edge_ of each edge, from its first vertex on
+    std::vector<double> on_edges_; // points_per_edge_ of an edge, from its first vertex on
+    std::unordered_map<uint32_t, size_t> first_point_; // there, of the edges that have any
 };
 
 SurfacePoint CorridorPath::local(const SurfacePoint& point) const {
@@ -73,12 +78,32 @@ SurfacePoint CorridorPath::local(const SurfacePoint& point) const {
     return {static_cast<uint32_t>(found - corridor_.face_of_surface.begin()), point.weights};
 }
 
-// Distances from the path's target: to its source, to the vertices that are nearer than that, and with points
-// to all that the corridor has.
-void CorridorPath::solve(uint32_t points_per_edge) {
+// Those of the faces around the vertices of a strip.
+std::vector<uint32_t> CorridorPath::edges_near(const Strip& strip) const {
+    std::unordered_set<uint32_t> vertices;
+    for (const uint32_t face : strip.faces)
+        vertices.insert(whole_.faces[face].begin(), whole_.faces[face].end());
+    const Mesh& mesh = corridor_.mesh;
+    std::vector<uint32_t> edges;
+    for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
+        const auto& whole = whole_.faces[corridor_.face_of_surface[f]];
+        if (std::ranges::none_of(whole, [&](uint32_t v) { return vertices.contains(v); })) continue;
+        for (size_t k = 0; k < 3; ++k)
+            edges.push_back(find_edge(mesh, mesh.faces[f][k], mesh.faces[f][(k + 1) % 3]));
+    }
+    std::ranges::sort(edges);
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+// Distances from the path's target: to its source, to the vertices that are nearer than that, and to points
+// of edges.
+void CorridorPath::solve(const std::vector<uint32_t>& edges, uint32_t points_per_edge) {
     const Mesh& mesh = corridor_.mesh;
     std::vector<SurfacePoint> points{source_};
-    for (uint32_t e = 0; e < mesh.edge_count(); ++e)
+    first_point_.clear();
+    for (const uint32_t e : edges) {
+        first_point_[e] = points.size() - 1;
         for (uint32_t i = 1; i <= points_per_edge; ++i) {
             const uint32_t face = mesh.edge_faces[e][0];
             SurfacePoint& point = points.emplace_back(SurfacePoint{face, {}});
@@ -86,6 +111,7 @@ void CorridorPath::solve(uint32_t points_per_edge) {
             point.weights[corner_of(part_, face, mesh.edges[e][0])] = 1 - share;
             point.weights[corner_of(part_, face, mesh.edges[e][1])] = share;
         }
+    }
     solver_->solve({{}, {}, {&target_, 1}, points});
     points_per_edge_ = points_per_edge;
     on_edges_.clear();
@@ -93,8 +119,9 @@ void CorridorPath::solve(uint32_t points_per_edge) {
 }
 
 std::span<const double> CorridorPath::inside(uint32_t a, uint32_t b) const {
-    return std::span(on_edges_).subspan(size_t{find_edge(corridor_.mesh, a, b)} * points_per_edge_,
-                                        points_per_edge_);
+    const auto found = first_point_.find(find_edge(corridor_.mesh, a, b));
+    if (found == first_point_.end()) return {};
+    return std::span(on_edges_).subspan(found->second, points_per_edge_);
 }
 
 // The strip's faces and vertices become those of the whole surface.
@@ -114,24 +141,38 @@ Strip CorridorPath::search() {
     return strip;
 }
 
+bool CorridorPath::is_shortest(const StripPath& path) const {
+    constexpr double SAME = 1e-9;
+    return path.length <= solver_->point_distance(0) * (1 + SAME);
+}
+
+// Takes the way that the distances show if it is shorter.
+void CorridorPath::search_again(Strip& strip, StripPath& path) {
+    Strip found = search();
+    StripPath shorter = straighten(whole_, found);
+    try_other_sides(whole_, found, shorter);
+    if (!(shorter.length < path.length)) return;
+    strip = std::move(found);
+    path = std::move(shorter);
+}
+
 // The distances of its vertices place the target as seen over an edge, unless paths of different ways meet
-// inside of it: then the search may take another way than the shortest. The sum of the pieces tells, and more
-// points on the edges help.
-StripPath CorridorPath::find(Strip& strip) {
-    constexpr double ROUNDING = 1e-10;
-    StripPath best;
-    best.length = UNREACHABLE;
-    for (uint32_t points = 0; points <= MOST_POINTS; points = points == 0 ? 3 : 3 * points + 1) {
-        solve(points);
-        Strip found = search();
-        StripPath path = straighten(whole_, found);
-        if (path.length < best.length) {
-            best = std::move(path);
-            strip = std::move(found);
-        }
-        if (best.length <= solver_->point_distance(0) * (1 + ROUNDING)) break;
+// inside of it: then the search may take another way than the shortest. The distance of the source tells, and
+// points on the edges help: on those near the best way so far, or else on all.
+void CorridorPath::make_shortest(Strip& strip, StripPath& path) {
+    solve({}, 0);
+    if (is_shortest(path)) return;
+    search_again(strip, path);
+    for (const uint32_t points : {7, 31}) {
+        if (is_shortest(path)) return;
+        solve(edges_near(strip), points);
+        search_again(strip, path);
     }
-    return best;
+    if (is_shortest(path)) return;
+    std::vector<uint32_t> all(corridor_.mesh.edge_count());
+    std::iota(all.begin(), all.end(), 0);
+    solve(all, 7);
+    search_again(strip, path);
 }
 
 }
@@ -171,8 +212,9 @@ Corridor corridor_around(const Surface& surface, const Strip& strip,
     return corridor;
 }
 
-StripPath shortest_in_corridor(const Surface& surface, const Corridor& corridor, Strip& strip) {
-    return CorridorPath(surface, corridor, strip).find(strip);
+void make_shortest_in_corridor(const Surface& surface, const Corridor& corridor, Strip& strip,
+                               StripPath& path) {
+    CorridorPath(surface, corridor, strip).make_shortest(strip, path);
 }
 
 }

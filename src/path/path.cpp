@@ -142,9 +142,7 @@ SurfacePath PathFinder::find(PathQuality quality) {
         const Corridor corridor = corridor_around(surface_, strip, [&](uint32_t vertex, double slack) {
             return belongs(vertex, slack, path.length);
         });
-        Strip shortest = strip;
-        const StripPath found = shortest_in_corridor(surface_, corridor, shortest);
-        if (found.length <= path.length) return path_of_strip(surface_, shortest, found);
+        make_shortest_in_corridor(surface_, corridor, strip, path);
     }
     return path_of_strip(surface_, strip, path);
 }
