@@ -163,7 +163,7 @@ void CorridorPath::make_shortest(Strip& strip, StripPath& path) {
     solve({}, 0);
     if (is_shortest(path)) return;
     search_again(strip, path);
-    for (const uint32_t points : {7, 31}) {
+    for (const uint32_t points : {7u, 31u}) {
         if (is_shortest(path)) return;
         solve(edges_near(strip), points);
         search_again(strip, path);

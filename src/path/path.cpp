@@ -139,9 +139,10 @@ SurfacePath PathFinder::find(PathQuality quality) {
     query_.prepare_end(0, from);
     auto [strip, path] = straight();
     if (quality == PathQuality::EXACT && strip.faces.size() > 1) {
-        const Corridor corridor = corridor_around(surface_, strip, [&](uint32_t vertex, double slack) {
-            return belongs(vertex, slack, path.length);
-        });
+        const Corridor corridor =
+            corridor_around(surface_, strip, [&, length = path.length](uint32_t vertex, double slack) {
+                return belongs(vertex, slack, length);
+            });
         make_shortest_in_corridor(surface_, corridor, strip, path);
     }
     return path_of_strip(surface_, strip, path);
