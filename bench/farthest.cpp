@@ -23,9 +23,7 @@ struct FarthestArguments {
 // By one call, and as one would do it by hand: a whole field from each point.
 Row farthest_row(const std::string& path, uint32_t count) {
     const tools::Index index = tools::open_index(path, nullptr);
-    geoidx_query* created = nullptr;
-    tools::require_ok(geoidx_query_create(index.get(), &created), path);
-    const tools::Query query(created);
+    const tools::Query query = tools::make_query(*index, path);
     const uint64_t vertices = tools::info_of(*index, path).vertex_count;
     std::vector<uint32_t> points(count);
     std::vector<float> field(vertices);

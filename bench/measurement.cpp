@@ -13,11 +13,7 @@ constexpr size_t PREPARED_TARGETS = 50; // of each prepared source
 class Questions {
 public:
     Questions(const geoidx& index, const Model& model)
-        : name_(model.path), field_(model.mesh.vertex_count()) {
-        geoidx_query* query = nullptr;
-        tools::require_ok(geoidx_query_create(&index, &query), name_);
-        query_.reset(query);
-    }
+        : name_(model.path), field_(model.mesh.vertex_count()), query_(tools::make_query(index, name_)) {}
 
     float sssd(uint32_t source, uint32_t target) {
         float distance = 0;

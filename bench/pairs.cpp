@@ -42,15 +42,13 @@ Row pairs_row(const std::string& path, bool with_labels, uint32_t count) {
     geoidx* opened = nullptr;
     tools::require_ok(geoidx_open(path.c_str(), &options, &opened), path);
     const tools::Index index(opened);
-    geoidx_query* query = nullptr;
-    tools::require_ok(geoidx_query_create(index.get(), &query), path);
-    const std::unique_ptr<geoidx_query, void (*)(geoidx_query*)> closing(query, geoidx_query_close);
+    const tools::Query query = tools::make_query(*index, path);
     const auto microseconds = [&](const VertexPair& pair) {
         float distance = 0;
-        return 1e6 *
-               time_of([&] {
-                   tools::require_ok(geoidx_query_sssd(query, pair.first, pair.second, &distance), path);
-               }).wall;
+        return 1e6 * time_of([&] {
+                         tools::require_ok(geoidx_query_sssd(query.get(), pair.first, pair.second, &distance),
+                                           path);
+                     }).wall;
     };
     const auto pairs = random_pairs(tools::info_of(*index, path).vertex_count, count);
     const double first = microseconds(pairs.front());

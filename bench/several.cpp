@@ -160,9 +160,7 @@ void several(const SeveralArguments& arguments) {
     Report report("several", {{"index", "Index", arguments.index}, {"rounds", "rounds", uint64_t{ROUNDS}}},
                   arguments.report);
     const tools::Solver solver = tools::make_solver(model.mesh, model.path, options_for(1, {}));
-    geoidx_query* created = nullptr;
-    tools::require_ok(geoidx_query_create(index.get(), &created), arguments.index);
-    const tools::Query query(created);
+    const tools::Query query = tools::make_query(*index, arguments.index);
     const size_t count = model.mesh.vertex_count();
     Bench bench{model, *query, *solver, std::vector<float>(count), std::vector<double>(count)};
     Table table{"several_sources", "MSAD of several sources", {}};

@@ -233,9 +233,7 @@ void tails(const TailsArguments& arguments) {
                     std::to_string(FEWEST_EDGES) + " to " + std::to_string(MOST_EDGES)}},
                   arguments.report);
     const tools::Solver solver = tools::make_solver(model.mesh, model.path, options_for(1, {}));
-    geoidx_query* created = nullptr;
-    tools::require_ok(geoidx_query_create(index.get(), &created), arguments.index);
-    const tools::Query query(created);
+    const tools::Query query = tools::make_query(*index, arguments.index);
     Bench bench(model, *query, *solver);
     std::mt19937_64 random(SEED);
     const uint32_t sources = (arguments.pairs + TARGETS - 1) / TARGETS;

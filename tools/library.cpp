@@ -70,6 +70,22 @@ std::vector<unsigned char> saved_bytes(const geoidx& index, const geoidx_save_op
     return bytes;
 }
 
+Query make_query(const geoidx& index, const std::string& path) {
+    geoidx_query* query = nullptr;
+    require_ok(geoidx_query_create(&index, &query), path);
+    return Query(query);
+}
+
+Surface make_surface(const TriangleMesh& mesh, const std::string& path, double weld_tolerance) {
+    geoidx_surface_options options;
+    geoidx_surface_options_init(&options);
+    options.weld_tolerance = weld_tolerance;
+    const geoidx_mesh view = view_of(mesh);
+    geoidx_surface* surface = nullptr;
+    require_ok(geoidx_surface_create(&view, &options, &surface), path);
+    return Surface(surface);
+}
+
 Solver make_solver(const TriangleMesh& mesh, const std::string& path, const geoidx_build_options& options) {
     const geoidx_mesh view = view_of(mesh);
     geoidx_solver* solver = nullptr;

@@ -45,6 +45,10 @@ std::vector<geoidx_section> sections_of(const geoidx& index, const std::string& 
 std::vector<unsigned char> saved_bytes(const geoidx& index, const geoidx_save_options& options,
                                        const std::string& path);
 
+Query make_query(const geoidx& index, const std::string& path);
+
+Surface make_surface(const TriangleMesh& mesh, const std::string& path, double weld_tolerance = 0);
+
 Solver make_solver(const TriangleMesh& mesh, const std::string& path, const geoidx_build_options& options);
 
 const char* metric_name(uint32_t metric);

@@ -51,9 +51,7 @@ void print_json(const BenchArguments& arguments, double sssd, double msad, uint3
 void bench(const BenchArguments& arguments) {
     const Index index = open_index_with(arguments.mesh, arguments.index);
     const auto count = static_cast<uint32_t>(info_of(*index, arguments.index).vertex_count);
-    geoidx_query* raw = nullptr;
-    require_ok(geoidx_query_create(index.get(), &raw), arguments.index);
-    const Query query(raw);
+    const Query query = make_query(*index, arguments.index);
     std::mt19937_64 random(arguments.seed);
     std::vector<float> distances(count);
     std::vector<double> sssd, msad;

@@ -30,16 +30,6 @@ struct Way {
     std::vector<geoidx_path_point> points;
 };
 
-Surface surface_of(const TriangleMesh& mesh, const PathArguments& arguments) {
-    geoidx_surface_options options;
-    geoidx_surface_options_init(&options);
-    options.weld_tolerance = arguments.weld_tolerance;
-    const geoidx_mesh view = view_of(mesh);
-    geoidx_surface* surface = nullptr;
-    require_ok(geoidx_surface_create(&view, &options, &surface), arguments.mesh);
-    return Surface(surface);
-}
-
 // A vertex as the corner of a triangle that is not degenerate.
 geoidx_surface_point point_at(const TriangleMesh& mesh, uint32_t id, const PathArguments& arguments) {
     if (id >= mesh.vertex_count())
@@ -59,19 +49,17 @@ geoidx_surface_point point_at(const TriangleMesh& mesh, uint32_t id, const PathA
 
 Way way_between(const geoidx& index, const TriangleMesh& mesh, const PathArguments& arguments, uint32_t a,
                 uint32_t b) {
-    const Surface surface = surface_of(mesh, arguments);
-    geoidx_query* opened = nullptr;
-    require_ok(geoidx_query_create(&index, &opened), arguments.index);
-    const Query query(opened);
+    const Surface surface = make_surface(mesh, arguments.mesh, arguments.weld_tolerance);
+    const Query query = make_query(index, arguments.index);
     const geoidx_surface_point source = point_at(mesh, a, arguments), target = point_at(mesh, b, arguments);
     const uint32_t quality = arguments.quality == "exact" ? GEOIDX_PATH_EXACT : GEOIDX_PATH_STRAIGHT;
     Way way;
-    require_ok(geoidx_query_path(opened, surface.get(), &source, &target, quality, &way.length),
+    require_ok(geoidx_query_path(query.get(), surface.get(), &source, &target, quality, &way.length),
                arguments.index);
     uint64_t count = 0;
-    require_ok(geoidx_query_path_points(opened, nullptr, 0, &count), arguments.index);
+    require_ok(geoidx_query_path_points(query.get(), nullptr, 0, &count), arguments.index);
     way.points.resize(count);
-    require_ok(geoidx_query_path_points(opened, way.points.data(), count, &count), arguments.index);
+    require_ok(geoidx_query_path_points(query.get(), way.points.data(), count, &count), arguments.index);
     return way;
 }
 
