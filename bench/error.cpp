@@ -1,4 +1,3 @@
-#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -50,16 +49,6 @@ Table error_table(const IndexErrors& errors, double diagonal) {
     add("SSSD", errors.sssd);
     add("SSSD - MSAD", errors.difference);
     return table;
-}
-
-double average_edge(const tools::TriangleMesh& mesh) {
-    double sum = 0;
-    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const double* a = mesh.positions.data() + size_t{3} * mesh.triangles[i];
-        const double* b = mesh.positions.data() + size_t{3} * mesh.triangles[i % 3 == 2 ? i - 2 : i + 1];
-        sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-    }
-    return sum / static_cast<double>(mesh.triangles.size());
 }
 
 // Of MSAD: relative errors are largest a few edges from a source.

@@ -1,5 +1,6 @@
 #include "bench/model.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -44,6 +45,16 @@ void add_mesh_folder(CLI::App& command, std::string& folder) {
     folder = default_folder();
     command.add_option("--meshes", folder, "folder of meshes given by name (GEOIDX_MESHES)")
         ->capture_default_str();
+}
+
+double average_edge(const tools::TriangleMesh& mesh) {
+    double sum = 0;
+    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const double* a = mesh.positions.data() + size_t{3} * mesh.triangles[i];
+        const double* b = mesh.positions.data() + size_t{3} * mesh.triangles[i % 3 == 2 ? i - 2 : i + 1];
+        sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    }
+    return sum / static_cast<double>(mesh.triangles.size());
 }
 
 Model load_model(const std::string& mesh, const std::string& folder) {

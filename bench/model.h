@@ -17,6 +17,9 @@ struct Model {
     tools::TriangleMesh mesh;
 };
 
+// The mean length of the edges of triangles, those between two of them twice.
+double average_edge(const tools::TriangleMesh& mesh);
+
 // --meshes: the folder that names are looked up in; by default $GEOIDX_MESHES, else ../shared/meshes.
 void add_mesh_folder(CLI::App& command, std::string& folder);
 

@@ -5,6 +5,8 @@
 #include <random>
 
 #include "bench/commands.h"
+#include "bench/measurement.h"
+#include "bench/model.h"
 #include "bench/report.h"
 #include "bench/rows.h"
 #include "bench/statistics.h"
@@ -41,16 +43,9 @@ Subject subject_of(const PathsArguments& arguments) {
     Subject on;
     on.mesh = tools::read_mesh(arguments.mesh);
     on.index = tools::open_index(arguments.index, &on.mesh);
-    geoidx_query* query = nullptr;
-    tools::require_ok(geoidx_query_create(on.index.get(), &query), arguments.index);
-    on.query.reset(query);
-    const geoidx_mesh view = tools::view_of(on.mesh);
-    geoidx_surface* surface = nullptr;
-    tools::require_ok(geoidx_surface_create(&view, nullptr, &surface), arguments.mesh);
-    on.surface.reset(surface);
-    geoidx_build_options options;
-    geoidx_build_options_init(&options);
-    on.solver = tools::make_solver(on.mesh, arguments.mesh, options);
+    on.query = tools::make_query(*on.index, arguments.index);
+    on.surface = tools::make_surface(on.mesh, arguments.mesh);
+    on.solver = tools::make_solver(on.mesh, arguments.mesh, options_for(1, {}));
     return on;
 }
 
@@ -65,22 +60,6 @@ geoidx_surface_point random_point(const Subject& on, std::mt19937_64& random, bo
     for (double& weight : point.weights) sum += weight = static_cast<double>(random() % 1000 + 1);
     for (double& weight : point.weights) weight /= sum;
     return point;
-}
-
-// The mean length of edges, of some triangles.
-double edge_length(const Subject& on) {
-    double sum = 0;
-    const size_t triangles = std::min<size_t>(on.mesh.triangles.size() / 3, 20000);
-    for (size_t t = 0; t < triangles; ++t) {
-        const auto at = [&](size_t k, size_t axis) {
-            return on.mesh.positions[3 * size_t{on.mesh.triangles[3 * t + k]} + axis];
-        };
-        double square = 0;
-        for (size_t axis = 0; axis < 3; ++axis)
-            square += std::pow(double(at(0, axis)) - double(at(1, axis)), 2);
-        sum += std::sqrt(square);
-    }
-    return sum / static_cast<double>(triangles);
 }
 
 // Pairs with a path, no longer than `longest`.
@@ -106,9 +85,16 @@ std::vector<PointPair> random_pairs(const Subject& on, uint32_t count, bool at_v
     return pairs;
 }
 
-Row row_of(const char* pairs, const char* what, std::vector<double>& times,
-           const std::vector<double>& errors) {
+// What was asked, and how long it took.
+Row row_of_times(const char* pairs, const char* what, std::vector<double>& times) {
     std::sort(times.begin(), times.end());
+    return {{"pairs", "pairs", std::string(pairs)},
+            {"what", "what", std::string(what)},
+            {"median_us", "median us", median(times)},
+            {"p99_us", "p99 us", quantile(times, 0.99)}};
+}
+
+void add_errors(const std::vector<double>& errors, Row& row) {
     double sum = 0, largest = 0;
     uint64_t same = 0;
     for (const double error : errors) {
@@ -117,13 +103,9 @@ Row row_of(const char* pairs, const char* what, std::vector<double>& times,
         same += std::abs(error) <= 1e-6;
     }
     const auto count = static_cast<double>(errors.size());
-    return {{"pairs", "pairs", std::string(pairs)},
-            {"what", "what", std::string(what)},
-            {"median_us", "median us", median(times)},
-            {"p99_us", "p99 us", quantile(times, 0.99)},
-            {"mean_error", "mean error", sum / count},
-            {"max_error", "max error", largest},
-            {"within_1e-6", "share within 1e-6", static_cast<double>(same) / count}};
+    row.push_back({"mean_error", "mean error", sum / count});
+    row.push_back({"max_error", "max error", largest});
+    row.push_back({"within_1e-6", "share within 1e-6", static_cast<double>(same) / count});
 }
 
 // Asks each pair once before it is timed.
@@ -135,7 +117,9 @@ Row measure(const char* name, const char* what, const std::vector<PointPair>& pa
         times.push_back(1e6 * time_of([&] { answer = ask(pair); }).wall);
         errors.push_back(answer / pair.exact - 1);
     }
-    return row_of(name, what, times, errors);
+    Row row = row_of_times(name, what, times);
+    add_errors(errors, row);
+    return row;
 }
 
 double path_length(const Subject& on, const PointPair& pair, uint32_t quality) {
@@ -156,7 +140,7 @@ double distance(const Subject& on, const PointPair& pair) {
 
 Row field_row(const Subject& on, bool at_vertices) {
     std::mt19937_64 random(SEED);
-    std::vector<double> times, errors;
+    std::vector<double> times;
     std::vector<float> field(on.mesh.positions.size() / 3);
     for (uint32_t i = 0; i < 100; ++i) {
         const auto source = random_point(on, random, at_vertices);
@@ -166,11 +150,8 @@ Row field_row(const Subject& on, bool at_vertices) {
                                                         field.data(), static_cast<uint32_t>(field.size())),
                                                     "field");
                               }).wall);
-        errors.push_back(0);
     }
-    Row row = row_of("all", at_vertices ? "MSAD from a vertex" : "MSAD from a point", times, errors);
-    row.resize(4);
-    return row;
+    return row_of_times("all", at_vertices ? "MSAD from a vertex" : "MSAD from a point", times);
 }
 
 void paths(const PathsArguments& arguments) {
@@ -179,7 +160,7 @@ void paths(const PathsArguments& arguments) {
     const Subject on = subject_of(arguments);
     for (const bool is_near : {false, true}) {
         const char* name = is_near ? "within 30 edges" : "random";
-        const double longest = is_near ? 30 * edge_length(on) : INFINITY;
+        const double longest = is_near ? 30 * average_edge(on.mesh) : INFINITY;
         progress(name);
         const auto vertices = random_pairs(on, arguments.count, true, longest),
                    points = random_pairs(on, arguments.count, false, longest);
