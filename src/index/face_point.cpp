@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "src/base/plane.h"
+
 namespace geodesic {
 
 namespace {
@@ -19,7 +21,7 @@ struct Placed {
 // mend_square in src/overlay/unfolding.h).
 bool place(double length, double from_first, double from_second, Placed& placed) {
     if (!(length > 0)) return false;
-    placed.foot = (from_first - from_second) * (from_first + from_second) / (2 * length) + length / 2;
+    placed.foot = foot_of(length, from_first, from_second);
     const double square = (from_first - placed.foot) * (from_first + placed.foot);
     if (!(square >= length * length / -32)) return false;
     placed.height = std::sqrt(std::max(square, 0.0));

@@ -6,9 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "format/error.h"
+#include "src/mesh/angle.h"
 
 namespace geodesic {
 
@@ -90,7 +89,7 @@ public:
         }
         const Eigen::Vector3d a = mesh_.positions[f[(k + 1) % 3]] - mesh_.positions[f[k]];
         const Eigen::Vector3d b = mesh_.positions[f[(k + 2) % 3]] - mesh_.positions[f[k]];
-        return std::atan2(a.cross(b).norm(), a.dot(b));
+        return angle_between(a, b);
     }
 
     // Where the apex lies seen from an edge (see Side). `from_first`, `from_second`: the edges to it.

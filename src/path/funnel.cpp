@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/plane.h"
+
 namespace geodesic {
 
 namespace {
@@ -17,7 +19,7 @@ Vector2d place_ahead(const Vector2d& left, const Vector2d& right, double to_left
     const Vector2d across = left - right;
     const double length = across.norm();
     if (!(length > 0)) return right + Vector2d(to_right, 0);
-    const double foot = (to_right - to_left) * (to_right + to_left) / (2 * length) + length / 2;
+    const double foot = foot_of(length, to_right, to_left);
     const double height = std::sqrt(std::max(0.0, (to_right - foot) * (to_right + foot)));
     const Vector2d along = across / length, ahead(along.y(), -along.x());
     return right + foot * along + height * ahead;

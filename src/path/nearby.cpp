@@ -3,28 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/plane.h"
+
 namespace geodesic {
 
 namespace {
 
 using Eigen::Vector3d;
 
-// How far along a line from `a` a point is, and how far off it.
-struct Place {
-    double foot, height;
-};
-
-Place place_at(const Vector3d& a, const Vector3d& direction, const Vector3d& point) {
-    const double foot = (point - a).dot(direction);
-    return {foot, (point - a - foot * direction).norm()};
-}
-
 double straight_across(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b, uint32_t edge) {
     const Vector3d first = surface.positions[surface.faces[a.face][(edge + 1) % 3]],
                    along = surface.positions[surface.faces[a.face][(edge + 2) % 3]] - first;
     const double length = along.norm();
-    const Place from = place_at(first, along / length, position_of(surface, a)),
-                to = place_at(first, along / length, position_of(surface, b));
+    const Place from = place_beside(first, along / length, position_of(surface, a)),
+                to = place_beside(first, along / length, position_of(surface, b));
     const double off = from.height + to.height;
     if (!(off > 0)) return std::abs(from.foot - to.foot);
     const double crossing = (from.foot * to.height + to.foot * from.height) / off;
@@ -40,6 +32,11 @@ double straight_between(const Surface& surface, const SurfacePoint& a, const Sur
     return UNREACHABLE;
 }
 
+}
+
+Place place_beside(const Vector3d& begin, const Vector3d& direction, const Vector3d& point) {
+    const double foot = (point - begin).dot(direction);
+    return {foot, (point - begin - foot * direction).norm()};
 }
 
 double straight_nearby(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {

@@ -8,6 +8,15 @@
 
 namespace geodesic {
 
+// How far along a line a point is, and how far off it.
+struct Place {
+    double foot, height;
+};
+
+// Of a line that begins there, with a direction of length 1.
+Place place_beside(const Eigen::Vector3d& begin, const Eigen::Vector3d& direction,
+                   const Eigen::Vector3d& point);
+
 // The length of the straight line between two points of one face, or between two points of faces that share
 // an edge that it crosses when both are unfolded; infinite if there is none. A point on an edge or at a
 // vertex is a point of all faces there.

@@ -77,6 +77,9 @@ private:
         const uint32_t number = points_.number_of(vertex);
         return number == NONE ? UNREACHABLE : double{query_.end_distance(end, number)};
     }
+    TargetDistances distances_from(size_t end) {
+        return {[this, end](uint32_t vertex) { return distance(end, vertex); }, {}};
+    }
     struct Straight {
         Strip strip;
         StripPath path;
@@ -103,7 +106,7 @@ bool PathFinder::belongs(uint32_t vertex, double slack, double length) {
 
 // Led by the distances from one end, from the other one on.
 std::optional<PathFinder::Straight> PathFinder::led_by(size_t end) {
-    const TargetDistances distances{[this, end](uint32_t vertex) { return distance(end, vertex); }, {}};
+    const TargetDistances distances = distances_from(end);
     auto strip = end == 1 ? search_strip(surface_, source_, target_, distances)
                           : search_strip(surface_, target_, source_, distances);
     if (!strip) return std::nullopt;
@@ -130,8 +133,8 @@ SurfacePath PathFinder::find(PathQuality quality) {
     if (is_at(surface_, source_, target_) && points_.sssd(source_, target_) == 0)
         return path_of_points(surface_, {source_}, target_);
     query_.prepare_end(1, to);
-    const TargetDistances distances{[this](uint32_t vertex) { return distance(1, vertex); }, {}};
     if (!points_.unfolds()) {
+        const TargetDistances distances = distances_from(1);
         const auto vertices = search_edges(surface_, source_, target_, distances);
         if (!vertices) no_path();
         return path_of_vertices(surface_, source_, *vertices, target_);

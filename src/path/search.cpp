@@ -5,6 +5,7 @@
 #include <queue>
 #include <unordered_map>
 
+#include "src/base/plane.h"
 #include "src/path/nearby.h"
 
 namespace geodesic {
@@ -33,7 +34,7 @@ void cross_piece(double begin, double end, double from_begin, double from_end, d
     offer(begin, from_begin);
     offer(end, from_end);
     const double length = end - begin;
-    const double target = (from_begin - from_end) * (from_begin + from_end) / (2 * length) + length / 2;
+    const double target = foot_of(length, from_begin, from_end);
     const double square = (from_begin - target) * (from_begin + target);
     if (!(length > 0) || !(square >= 0) || !(square < UNREACHABLE)) return;
     const double off = std::sqrt(square), both = off + height;
@@ -112,8 +113,7 @@ double FaceSearch::rest_from(uint32_t vertex) {
 Crossing FaceSearch::cross_edge(uint32_t a, uint32_t b, const Vector3d& from) {
     const Vector3d along = surface_.positions[b] - surface_.positions[a];
     const double length = along.norm();
-    const Vector3d unit = along / length, off = from - surface_.positions[a];
-    const double foot = off.dot(unit), height = (off - foot * unit).norm();
+    const auto [foot, height] = place_beside(surface_.positions[a], along / length, from);
     const auto inside = distances_.inside_edge ? distances_.inside_edge(a, b) : std::span<const double>();
     double least = UNREACHABLE, at = 0, last = rest_from(a), rest = UNREACHABLE;
     const double piece = length / static_cast<double>(inside.size() + 1);

@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include <Eigen/Geometry>
-
+#include "src/mesh/angle.h"
+#include "src/path/nearby.h"
 #include "src/path/straighten.h"
 
 namespace geodesic {
@@ -38,20 +38,6 @@ Strip part_of(const Surface& surface, const Strip& strip, const StripPath& path,
     return part;
 }
 
-// The strip with another one in the place of its faces between two points.
-Strip with_part(const Strip& strip, Range range, const Strip& part) {
-    Strip whole{strip.source, strip.target, {}, {}};
-    const auto join = [&](auto& all, const auto& old, const auto& own, size_t end) {
-        all.assign(old.begin(), old.begin() + offset(range.first));
-        all.insert(all.end(), own.begin(), own.end());
-        all.insert(all.end(), old.begin() + offset(end), old.end());
-    };
-    join(whole.faces, strip.faces, part.faces, range.last);
-    join(whole.portals, strip.portals, part.portals, range.last - 1);
-    drop_returns(whole);
-    return whole;
-}
-
 class OtherSides {
 public:
     OtherSides(const Surface& surface, Strip& strip, StripPath& path)
@@ -67,11 +53,6 @@ private:
         uint32_t vertex = NONE; // that the path passes there
         double along = 0;       // length of the path up to there
     };
-    // A vertex beside the path: where along it, and how far off.
-    struct Beside {
-        double foot, height;
-    };
-
     void measure();
     Pass pass_of(size_t portal, uint32_t vertex) const;
     bool is_begin(size_t portal, uint32_t vertex) const {
@@ -80,8 +61,8 @@ private:
     }
     double angle_around(uint32_t vertex);
     double length(Range range) const { return points_[range.last].along - points_[range.first].along; }
-    double angle_at(const Beside& beside, Range range) const;
-    std::optional<Beside> beside(const Pass& pass) const;
+    double angle_at(const Place& beside, Range range) const;
+    std::optional<Place> beside(const Pass& pass) const;
     Range piece_around(const Pass& pass) const;
     Range with_next_pieces(Range range) const;
     std::optional<Turn::Fan> other_side(const Pass& pass);
@@ -123,19 +104,20 @@ double OtherSides::angle_around(uint32_t vertex) {
         const uint32_t k = corner_of(surface_, face, vertex);
         const Vector3d a = surface_.positions[surface_.faces[face][(k + 1) % 3]] - at,
                        b = surface_.positions[surface_.faces[face][(k + 2) % 3]] - at;
-        found->second += std::atan2(a.cross(b).norm(), a.dot(b));
+        found->second += angle_between(a, b);
     }
     return found->second;
 }
 
 // The angle at which the straight path between two points is seen.
-double OtherSides::angle_at(const Beside& beside, Range range) const {
+double OtherSides::angle_at(const Place& beside, Range range) const {
     return std::atan2(beside.foot - points_[range.first].along, beside.height) +
            std::atan2(points_[range.last].along - beside.foot, beside.height);
 }
 
-// Measured from the longest piece within the faces at the vertex; nothing where the path bends there.
-std::optional<OtherSides::Beside> OtherSides::beside(const Pass& pass) const {
+// Where along the path a vertex beside it is, measured from the longest piece within the faces at the vertex;
+// nothing where the path bends there.
+std::optional<Place> OtherSides::beside(const Pass& pass) const {
     size_t longest = pass.first;
     for (size_t i = pass.first; i <= pass.last + 1; ++i) {
         if (i > pass.first && points_[i].vertex != NONE) return std::nullopt;
@@ -144,9 +126,8 @@ std::optional<OtherSides::Beside> OtherSides::beside(const Pass& pass) const {
     const double piece = length({longest, longest + 1});
     if (!(piece > 0)) return std::nullopt;
     const Vector3d direction = (points_[longest + 1].at - points_[longest].at) / piece;
-    const Vector3d off = surface_.positions[pass.vertex] - points_[longest].at;
-    const double foot = off.dot(direction);
-    return Beside{points_[longest].along + foot, (off - foot * direction).norm()};
+    const Place place = place_beside(points_[longest].at, direction, surface_.positions[pass.vertex]);
+    return Place{points_[longest].along + place.foot, place.height};
 }
 
 // Between the bends before and after it.
@@ -193,7 +174,8 @@ bool OtherSides::take(const Pass& pass, const Turn::Fan& fan, Range range) {
     Strip other = with_fan(part_of(surface_, strip_, path_, range),
                            {pass.first - range.first, pass.last - range.first, pass.vertex}, fan);
     if (!(straighten(surface_, other).length < length(range) * (1 - SHORTER))) return false;
-    Strip whole = with_part(strip_, range, other);
+    Strip whole = with_part(strip_, {range.first, range.last}, other.faces, {range.first, range.last - 1},
+                            other.portals);
     StripPath shorter = straighten(surface_, whole);
     if (!(shorter.length < path_.length * (1 - SHORTER))) return false;
     strip_ = std::move(whole);

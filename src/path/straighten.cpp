@@ -44,18 +44,11 @@ std::optional<Strip> turned(const Surface& surface, const Strip& strip, const St
 }
 
 Strip with_fan(const Strip& strip, const Pass& pass, const Turn::Fan& fan) {
-    Strip result{strip.source, strip.target, {}, {}};
-    const auto first = static_cast<std::ptrdiff_t>(pass.first), last = static_cast<std::ptrdiff_t>(pass.last);
-    result.faces.assign(strip.faces.begin(), strip.faces.begin() + first + 1);
-    result.portals.assign(strip.portals.begin(), strip.portals.begin() + first);
-    result.faces.insert(result.faces.end(), fan.faces.begin(), fan.faces.end());
-    for (const uint32_t spoke : fan.spokes) result.portals.push_back({pass.vertex, spoke});
-    const bool is_one_face = fan.spokes.empty();
-    result.faces.insert(result.faces.end(), strip.faces.begin() + last + (is_one_face ? 2 : 1),
-                        strip.faces.end());
-    result.portals.insert(result.portals.end(), strip.portals.begin() + last + 1, strip.portals.end());
-    drop_returns(result);
-    return result;
+    std::vector<Portal> portals;
+    for (const uint32_t spoke : fan.spokes) portals.push_back({pass.vertex, spoke});
+    const bool is_one_face = portals.empty();
+    return with_part(strip, {pass.first + 1, pass.last + (is_one_face ? 2 : 1)}, fan.faces,
+                     {pass.first, pass.last + 1}, portals);
 }
 
 StripPath straighten(const Surface& surface, Strip& strip) {

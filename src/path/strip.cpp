@@ -42,6 +42,20 @@ double length_of(const Surface& surface, const Strip& strip, const std::vector<d
     return length + (position_of(surface, strip.target) - last).norm();
 }
 
+Strip with_part(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces, Replaced portals,
+                const std::vector<Portal>& new_portals) {
+    Strip whole{strip.source, strip.target, {}, {}};
+    const auto join = [](auto& all, const auto& old, Replaced part, const auto& own) {
+        all.assign(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(part.first));
+        all.insert(all.end(), own.begin(), own.end());
+        all.insert(all.end(), old.begin() + static_cast<std::ptrdiff_t>(part.last), old.end());
+    };
+    join(whole.faces, strip.faces, faces, new_faces);
+    join(whole.portals, strip.portals, portals, new_portals);
+    drop_returns(whole);
+    return whole;
+}
+
 void turn_back(Strip& strip) {
     std::swap(strip.source, strip.target);
     std::ranges::reverse(strip.faces);

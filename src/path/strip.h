@@ -46,6 +46,14 @@ Eigen::Vector3d position_after(const Surface& surface, const Strip& strip, const
 // The sum of the lengths of the pieces, by positions in space.
 double length_of(const Surface& surface, const Strip& strip, const std::vector<double>& shares);
 
+// A strip with other faces and portals in the place of some of its own, given as positions from the first one
+// up to, but without, the last one.
+struct Replaced {
+    size_t first, last;
+};
+Strip with_part(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces, Replaced portals,
+                const std::vector<Portal>& new_portals);
+
 // From its target to its source.
 void turn_back(Strip& strip);
 

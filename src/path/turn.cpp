@@ -1,19 +1,11 @@
 #include "src/path/turn.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include <Eigen/Geometry>
-
+#include "src/mesh/angle.h"
 namespace geodesic {
 
 using Eigen::Vector3d;
-
-namespace {
-
-double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
-}
 
 uint32_t Turn::spoke_of(uint32_t vertex) {
     const auto found = std::ranges::find(spokes_, vertex, &Spoke::vertex);
