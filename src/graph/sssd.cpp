@@ -20,11 +20,9 @@ uint32_t level_of(const GraphIndex& index, uint32_t patch) {
 
 float crossing_distance(const GraphIndex& index, uint32_t border_vertex, uint32_t internal_vertex) {
     const uint32_t leaf = index.numbering.leaf_of(internal_vertex);
-    for (const PatchPosition& at : index.numbering.borders_of(border_vertex))
-        if (at.patch == leaf)
-            return index.border_internal_row(
-                leaf, at.position)[internal_vertex - index.numbering.first_internal(leaf)];
-    return INFINITE;
+    const uint32_t position = index.numbering.border_position(leaf, border_vertex);
+    if (position == NONE) return INFINITE;
+    return index.border_internal_row(leaf, position)[internal_vertex - index.numbering.first_internal(leaf)];
 }
 
 // A lower bound that no table entry undercuts (paper 3.4), which makes the search A*.

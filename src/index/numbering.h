@@ -105,6 +105,13 @@ struct Numbering {
                 vertex_borders.data() + vertex_borders_begin[border_vertex + 1]};
     }
 
+    // The position of a border vertex in the border of a patch, or NONE if it is not on it.
+    uint32_t border_position(uint32_t patch, uint32_t border_vertex) const {
+        for (const PatchPosition& at : borders_of(border_vertex))
+            if (at.patch == patch) return at.position;
+        return NONE;
+    }
+
     // The number of the vertex at a position in a patch's overlay, and the position of a border vertex in its
     // owner's overlay.
     uint32_t overlay_number(uint32_t patch, uint32_t position) const {

@@ -6,14 +6,6 @@ namespace geodesic {
 
 namespace {
 
-// The position of a vertex in the border of a patch, or NONE.
-uint32_t border_position(const Numbering& numbering, uint32_t patch, uint32_t number) {
-    if (!numbering.is_border(number)) return NONE;
-    for (const PatchPosition& at : numbering.borders_of(number))
-        if (at.patch == patch) return at.position;
-    return NONE;
-}
-
 // A vertex with the place that the tables of a leaf have for it.
 struct LeafVertex {
     uint32_t border_position; // NONE if it is internal
@@ -21,7 +13,7 @@ struct LeafVertex {
 };
 
 LeafVertex leaf_vertex(const Numbering& numbering, uint32_t leaf, uint32_t number) {
-    if (numbering.is_border(number)) return {border_position(numbering, leaf, number), NONE};
+    if (numbering.is_border(number)) return {numbering.border_position(leaf, number), NONE};
     return {NONE, number - numbering.first_internal(leaf)};
 }
 
@@ -63,7 +55,7 @@ struct PointInLeaf {
 }
 
 bool is_in_leaf(const Numbering& numbering, uint32_t leaf, uint32_t number) {
-    if (numbering.is_border(number)) return border_position(numbering, leaf, number) != NONE;
+    if (numbering.is_border(number)) return numbering.border_position(leaf, number) != NONE;
     return numbering.leaf_of(number) == leaf;
 }
 

@@ -30,19 +30,30 @@ void begin_crossing(const OverlayIndex& index, uint32_t patch, BorderRange read,
     std::fill(inside.end(), places.end(), INFINITE);
 }
 
-// Goes from either end of what is reached of a patch's border range to another vertex of the border, which
-// the outer table has no row for: returns the length, and the end as a place of the range.
-std::pair<float, uint32_t> go_along(const OverlayIndex& index, uint32_t patch, BorderRange range,
-                                    std::span<const float> distances, uint32_t overlay_position) {
-    const uint32_t parent = index.numbering.parent[patch];
-    const uint32_t* positions = index.numbering.overlay_position.data() + index.numbering.border_begin[patch];
+// What is reached of a patch's border range: the first and the last place, counted from the beginning of the
+// range. There is none where the first lies behind the last.
+struct Reached {
+    uint32_t first, last;
+};
+
+Reached reached_of(std::span<const float> distances) {
     const auto is_reached = [](float distance) { return distance < INFINITE; };
     const auto first = std::ranges::find_if(distances, is_reached) - distances.begin();
-    const auto last =
-        distances.rend() - std::ranges::find_if(distances.rbegin(), distances.rend(), is_reached) - 1;
+    const auto behind =
+        distances.rend() - std::ranges::find_if(distances.rbegin(), distances.rend(), is_reached);
+    if (behind == 0) return {1, 0};
+    return {static_cast<uint32_t>(first), static_cast<uint32_t>(behind - 1)};
+}
+
+// Goes from either end of what is reached to another vertex of the border, which the outer table has no row
+// for: returns the length, and the end.
+std::pair<float, uint32_t> go_along(const OverlayIndex& index, uint32_t patch, BorderRange range,
+                                    const float* distances, Reached reached, uint32_t overlay_position) {
+    const uint32_t parent = index.numbering.parent[patch];
+    const uint32_t* positions = index.numbering.overlay_position.data() + index.numbering.border_begin[patch];
     std::pair<float, uint32_t> least{INFINITE, 0};
-    if (last < first) return least;
-    for (const auto end : {static_cast<uint32_t>(first), static_cast<uint32_t>(last)}) {
+    if (reached.last < reached.first) return least;
+    for (const uint32_t end : {reached.first, reached.last}) {
         const uint32_t from = positions[index.rings.position[range.first + end]];
         const float length =
             distances[end] + index.distance(index.overlay_code(parent, from, overlay_position), parent);
@@ -83,12 +94,14 @@ uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, con
             crossing.beside.push_back(i);
         }
     }
-    if (!has_common)
+    if (!has_common && !crossing.beside.empty()) {
+        const Reached reached = reached_of({distances, range.size()});
         for (const uint32_t i : crossing.beside) {
             const auto [length, at] =
-                go_along(index, patch, range, {distances, range.size()}, overlay_position(to.first + i));
+                go_along(index, patch, range, distances, reached, overlay_position(to.first + i));
             keep(i, length, at);
         }
+    }
     if (crossing.rows.empty()) return read.first;
     begin_crossing(index, patch, read, range, distances, crossing.field);
     if (crossing.field.finish()) {

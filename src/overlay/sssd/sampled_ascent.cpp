@@ -123,13 +123,12 @@ void SampledAscent::keep_common(uint32_t before) {
     const auto samples = samples_of(borders_.back());
     for (uint32_t i = 0; i < samples.size(); ++i) {
         const uint32_t vertex = index_.rings.vertex[index_.rings.begin[borders_.back().patch] + samples[i]];
-        for (const PatchPosition& at : index_.numbering.borders_of(vertex)) {
-            if (at.patch != before) continue;
-            const uint32_t place = own_place(index_.rings, index_.numbering, before, at.position);
-            const auto sample = std::ranges::lower_bound(samples_before, place - index_.rings.begin[before]);
-            winners_[border * stride_ + i] = static_cast<uint16_t>(sample - samples_before.begin());
-            distances_of(border)[i] = distances_of(border - 1)[sample - samples_before.begin()];
-        }
+        const uint32_t position = index_.numbering.border_position(before, vertex);
+        if (position == NONE) continue;
+        const uint32_t place = own_place(index_.rings, index_.numbering, before, position);
+        const auto sample = std::ranges::lower_bound(samples_before, place - index_.rings.begin[before]);
+        winners_[border * stride_ + i] = static_cast<uint16_t>(sample - samples_before.begin());
+        distances_of(border)[i] = distances_of(border - 1)[sample - samples_before.begin()];
     }
 }
 

@@ -196,11 +196,9 @@ float OverlaySssd::distance_inside(uint32_t patch, uint32_t low, uint32_t high) 
 // the second one, and infinity otherwise.
 float OverlaySssd::distance_to_border(uint32_t border_vertex, uint32_t vertex) const {
     const uint32_t patch = numbering_.innermost_patch(vertex);
-    for (const PatchPosition& at : numbering_.borders_of(border_vertex)) {
-        if (at.patch != patch) continue;
-        return inner_row_of(index_, vertex)(own_place(index_.rings, numbering_, patch, at.position));
-    }
-    return INFINITE;
+    const uint32_t position = numbering_.border_position(patch, border_vertex);
+    if (position == NONE) return INFINITE;
+    return inner_row_of(index_, vertex)(own_place(index_.rings, numbering_, patch, position));
 }
 
 // Measures the path over whole borders if that takes little time, and over the ranges near each candidate
