@@ -609,9 +609,10 @@ GEOIDX_API geoidx_status geoidx_query_farthest_points(geoidx_query* query, const
                                                       uint32_t source_count, uint32_t point_count,
                                                       uint32_t* points, float* distances, uint32_t* count);
 
-/* From then on geoidx_query_msad and geoidx_query_msad_within of this query use so many threads, which begin
- * and end within each call, for the same bits, or as many of them as the system can begin: 1 at first, 0
- * means one per processor, at most 1024. GEOIDX_ENGINE_GRAPH uses one. */
+/* From then on geoidx_query_msad, geoidx_query_msad_within, geoidx_query_point_msad and
+ * geoidx_query_farthest_points of this query use so many threads, which begin and end within each call, for
+ * the same bits, or as many of them as the system can begin: 1 at first, 0 means one per processor, at most
+ * 1024. GEOIDX_ENGINE_GRAPH uses one. */
 GEOIDX_API geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t threads);
 
 /* Keeps what depends on the source, for geoidx_query_prepared, until the next call; one that fails for lack
