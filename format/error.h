@@ -20,6 +20,11 @@ struct Error : std::runtime_error {
     bool is_undecodable = false; // that section's stored bytes are at fault, not what they hold
 };
 
+// An argument of a call is not what the header asks for.
+[[noreturn]] inline void refuse_argument(const std::string& detail) {
+    throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail);
+}
+
 // Returns what body() returns. An Error of it that names no section names this one.
 template <class Body>
 decltype(auto) about_section(std::uint32_t tag, const Body& body) {

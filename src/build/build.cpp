@@ -17,25 +17,25 @@ namespace {
 
 constexpr double FILLING_END = 0.95; // the share of the whole work; looking for large errors is the rest
 
-[[noreturn]] void invalid(const std::string& detail) { throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail); }
-
 void check_options(const geoidx_build_options& options) {
     if (!(options.delta >= 0 && options.delta <= 100))
-        invalid("delta is " + std::to_string(options.delta) + ", not in 0 .. 100 %");
+        refuse_argument("delta is " + std::to_string(options.delta) + ", not in 0 .. 100 %");
     if (!(options.rounding >= 0 && options.rounding <= 1))
-        invalid("rounding is " + std::to_string(options.rounding) + ", not in 0 .. 1");
+        refuse_argument("rounding is " + std::to_string(options.rounding) + ", not in 0 .. 1");
     if (!(options.target_error >= 0 && options.target_error <= 1))
-        invalid("target_error is " + std::to_string(options.target_error) + ", not in 0 .. 1");
+        refuse_argument("target_error is " + std::to_string(options.target_error) + ", not in 0 .. 1");
     if (options.level_count > GEOIDX_MAX_LEVELS)
-        invalid("level_count is " + std::to_string(options.level_count) + ", more than " +
-                std::to_string(GEOIDX_MAX_LEVELS));
+        refuse_argument("level_count is " + std::to_string(options.level_count) + ", more than " +
+                        std::to_string(GEOIDX_MAX_LEVELS));
     thread_count(options.threads);
     if (options.lloyd_iterations > 1000)
-        invalid("lloyd_iterations is " + std::to_string(options.lloyd_iterations) + ", more than 1000");
+        refuse_argument("lloyd_iterations is " + std::to_string(options.lloyd_iterations) +
+                        ", more than 1000");
     if (options.engine > GEOIDX_ENGINE_OVERLAY)
-        invalid("engine " + std::to_string(options.engine) + " is not a GEOIDX_ENGINE_*");
+        refuse_argument("engine " + std::to_string(options.engine) + " is not a GEOIDX_ENGINE_*");
     if (options.metric_flags & ~uint32_t{GEOIDX_METRIC_UNFOLDABLE})
-        invalid("metric_flags is " + std::to_string(options.metric_flags) + ", which has unknown flags");
+        refuse_argument("metric_flags is " + std::to_string(options.metric_flags) +
+                        ", which has unknown flags");
 }
 
 HierarchyOptions hierarchy_options(const Intake& intake, const geoidx_build_options& options) {

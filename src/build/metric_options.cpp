@@ -22,11 +22,10 @@ namespace {
 
 constexpr uint32_t MOST_POINTS_PER_EDGE = 1000;
 
-[[noreturn]] void invalid(const std::string& detail) { throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail); }
 [[noreturn]] void bad_mesh(const std::string& detail) { throw Error(GEOIDX_ERROR_BAD_MESH, detail); }
 
 uint32_t vertex_of_id(const Intake& intake, uint32_t id) {
-    if (id >= intake.vertex_of_id.size()) invalid("an edge cost names vertex " + std::to_string(id));
+    if (id >= intake.vertex_of_id.size()) refuse_argument("an edge cost names vertex " + std::to_string(id));
     return intake.vertex_of_id[id];
 }
 
@@ -39,17 +38,17 @@ std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options&
     std::vector<double> costs = edge_lengths(intake.mesh);
     if (options.edge_cost_count == 0) return costs;
     if (!options.edge_cost_vertices || !options.edge_costs)
-        invalid("edge_cost_count is set, but not its arrays");
+        refuse_argument("edge_cost_count is set, but not its arrays");
     std::vector<uint8_t> given(costs.size(), 0);
     for (uint32_t i = 0; i < options.edge_cost_count; ++i) {
         const uint32_t a = options.edge_cost_vertices[2 * size_t{i}];
         const uint32_t b = options.edge_cost_vertices[2 * size_t{i} + 1];
         const double cost = options.edge_costs[i];
         if (!(cost >= 0) || !std::isfinite(cost))
-            invalid(edge_name(a, b) + " has the cost " + std::to_string(cost));
+            refuse_argument(edge_name(a, b) + " has the cost " + std::to_string(cost));
         const uint32_t from = vertex_of_id(intake, a), to = vertex_of_id(intake, b);
         const uint32_t edge = from == NONE || to == NONE ? NONE : find_edge(intake.mesh, from, to);
-        if (edge == NONE) invalid(edge_name(a, b) + " is given a cost, but is no edge of the mesh");
+        if (edge == NONE) refuse_argument(edge_name(a, b) + " is given a cost, but is no edge of the mesh");
         costs[edge] = given[edge] ? std::min(costs[edge], cost) : cost;
         given[edge] = 1;
     }
@@ -59,15 +58,16 @@ std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options&
 // The cost of each face. If several triangles are one face, the cheapest counts. The costs of dropped
 // triangles are checked, too.
 std::vector<double> face_costs(const Intake& intake, const geoidx_build_options& options) {
-    if (!options.face_costs) invalid("metric is GEOIDX_METRIC_WEIGHTED, but face_costs is NULL");
+    if (!options.face_costs) refuse_argument("metric is GEOIDX_METRIC_WEIGHTED, but face_costs is NULL");
     if (options.face_cost_count != intake.face_of_triangle.size())
-        invalid("face_cost_count is " + std::to_string(options.face_cost_count) + ", but the mesh has " +
-                std::to_string(intake.face_of_triangle.size()) + " triangles");
+        refuse_argument("face_cost_count is " + std::to_string(options.face_cost_count) +
+                        ", but the mesh has " + std::to_string(intake.face_of_triangle.size()) +
+                        " triangles");
     std::vector<double> costs(intake.mesh.face_count(), UNREACHABLE);
     for (uint64_t t = 0; t < options.face_cost_count; ++t) {
         const double cost = options.face_costs[t];
         if (!(cost > 0) || !std::isfinite(cost))
-            invalid("triangle " + std::to_string(t) + " has the cost " + std::to_string(cost));
+            refuse_argument("triangle " + std::to_string(t) + " has the cost " + std::to_string(cost));
         const uint32_t face = intake.face_of_triangle[t];
         if (face != NONE) costs[face] = std::min(costs[face], cost);
     }
@@ -91,10 +91,10 @@ void check_sides(uint64_t triangle, std::span<const double, 3> sides) {
 std::vector<double> own_lengths(const geoidx_mesh& mesh, const Intake& intake,
                                 const geoidx_build_options& options) {
     if (options.edge_length_count == 0) return {};
-    if (!options.edge_lengths) invalid("edge_length_count is set, but edge_lengths is NULL");
+    if (!options.edge_lengths) refuse_argument("edge_length_count is set, but edge_lengths is NULL");
     if (options.edge_length_count != 3 * mesh.triangle_count)
-        invalid("edge_length_count is " + std::to_string(options.edge_length_count) +
-                ", not three for each of " + std::to_string(mesh.triangle_count) + " triangles");
+        refuse_argument("edge_length_count is " + std::to_string(options.edge_length_count) +
+                        ", not three for each of " + std::to_string(mesh.triangle_count) + " triangles");
     constexpr double AGREEMENT = 1e-9;
     std::vector<double> lengths(intake.mesh.edge_count(), 0);
     for (uint64_t t = 0; t < mesh.triangle_count; ++t) {
@@ -139,17 +139,17 @@ std::unique_ptr<Metric> make_metric(const geoidx_mesh& mesh, const Intake& intak
         return std::make_unique<EdgeGraphMetric>(intake.mesh, edge_costs(intake, options));
     case GEOIDX_METRIC_CALLBACK:
         if (!options.metric_callback)
-            invalid("metric is GEOIDX_METRIC_CALLBACK, but metric_callback is NULL");
+            refuse_argument("metric is GEOIDX_METRIC_CALLBACK, but metric_callback is NULL");
         return std::make_unique<CallbackMetric>(options.metric_callback, options.metric_user,
                                                 intake.id_of_vertex);
     case GEOIDX_METRIC_WEIGHTED:
         if (options.points_per_edge > MOST_POINTS_PER_EDGE)
-            invalid("points_per_edge is " + std::to_string(options.points_per_edge) + ", more than " +
-                    std::to_string(MOST_POINTS_PER_EDGE));
+            refuse_argument("points_per_edge is " + std::to_string(options.points_per_edge) + ", more than " +
+                            std::to_string(MOST_POINTS_PER_EDGE));
         return std::make_unique<WeightedMetric>(intake.mesh, face_costs(intake, options),
                                                 options.points_per_edge, own_lengths(mesh, intake, options));
     default:
-        invalid("metric " + std::to_string(options.metric) + " is not a GEOIDX_METRIC_*");
+        refuse_argument("metric " + std::to_string(options.metric) + " is not a GEOIDX_METRIC_*");
     }
 }
 

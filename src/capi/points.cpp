@@ -9,12 +9,11 @@ namespace geodesic {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& detail) { throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail); }
-
 void check_weights(const geoidx_surface_point& point, double sum, const std::string& name) {
     for (double weight : point.weights)
-        if (!(weight >= 0)) refuse(name + " has the weight " + std::to_string(weight));
-    if (!(std::abs(sum - 1) <= 1e-6)) refuse(name + " has weights of " + std::to_string(sum) + " in sum");
+        if (!(weight >= 0)) refuse_argument(name + " has the weight " + std::to_string(weight));
+    if (!(std::abs(sum - 1) <= 1e-6))
+        refuse_argument(name + " has weights of " + std::to_string(sum) + " in sum");
 }
 
 }
@@ -23,9 +22,10 @@ SurfacePoint checked_point(const TriangleFaces& faces, const geoidx_surface_poin
                            const std::string& name) {
     const size_t triangle_count = faces.face_of_triangle.size();
     const std::string on = name + " is on triangle " + std::to_string(point.triangle);
-    if (point.triangle >= triangle_count) refuse(on + ", but the mesh has " + std::to_string(triangle_count));
+    if (point.triangle >= triangle_count)
+        refuse_argument(on + ", but the mesh has " + std::to_string(triangle_count));
     const uint32_t face = faces.face_of_triangle[point.triangle];
-    if (face == NONE) refuse(on + ", which is degenerate");
+    if (face == NONE) refuse_argument(on + ", which is degenerate");
     const double sum = point.weights[0] + point.weights[1] + point.weights[2];
     check_weights(point, sum, name);
     std::array<uint32_t, 3> corners{0, 1, 2};

@@ -16,8 +16,7 @@ namespace {
 
 uint32_t solver_vertex(const geoidx_solver& solver, uint32_t id) {
     if (id >= solver.intake.vertex_of_id.size())
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
-                    "vertex " + std::to_string(id) + " is out of range: the mesh has " +
+        refuse_argument("vertex " + std::to_string(id) + " is out of range: the mesh has " +
                         std::to_string(solver.intake.vertex_of_id.size()) + " vertices");
     return solver.intake.vertex_of_id[id];
 }

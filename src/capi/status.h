@@ -29,7 +29,7 @@ geoidx_status guarded(const Body& body) noexcept {
 }
 
 inline void require(bool condition, const char* detail) {
-    if (!condition) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, detail);
+    if (!condition) refuse_argument(detail);
 }
 
 }

@@ -24,8 +24,8 @@ Struct whole(const Struct& given, void (*init)(Struct*)) {
     Struct result;
     init(&result);
     if (given.struct_size < sizeof(uint32_t))
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "struct_size is " + std::to_string(given.struct_size) +
-                                                       ": the struct was not initialized");
+        refuse_argument("struct_size is " + std::to_string(given.struct_size) +
+                        ": the struct was not initialized");
     const auto size = std::min<size_t>(given.struct_size, sizeof(Struct));
     std::memcpy(&result, &given, size);
     result.struct_size = sizeof(Struct);

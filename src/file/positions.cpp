@@ -117,8 +117,7 @@ void read_without_positions(format::ByteReader& reader, const ReadOptions& optio
     read_differences(reader, added, stored);
     if (options.mesh) return take_from_mesh(*options.mesh, id_of_number, checksum, stored);
     if (!options.may_lack_positions)
-        throw Error(
-            GEOIDX_ERROR_INVALID_ARGUMENT,
+        refuse_argument(
             "the file holds no positions, so that it opens only with the mesh that it was built from, "
             "as expected_mesh");
 }

@@ -33,19 +33,19 @@ size_t position_stride(const geoidx_mesh& mesh) {
     const size_t scalar = mesh.position_type == GEOIDX_POSITION_DOUBLE ? sizeof(double) : sizeof(float);
     if (mesh.position_stride == 0) return 3 * scalar;
     if (mesh.position_stride < 3 * scalar)
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "position_stride " + std::to_string(mesh.position_stride) +
-                                                       " is less than three coordinates");
+        refuse_argument("position_stride " + std::to_string(mesh.position_stride) +
+                        " is less than three coordinates");
     return mesh.position_stride;
 }
 
 void check_arrays(const geoidx_mesh& mesh) {
     if (mesh.position_type != GEOIDX_POSITION_FLOAT && mesh.position_type != GEOIDX_POSITION_DOUBLE)
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
-                    "position_type " + std::to_string(mesh.position_type) + " is not a GEOIDX_POSITION_*");
+        refuse_argument("position_type " + std::to_string(mesh.position_type) +
+                        " is not a GEOIDX_POSITION_*");
     check_count(mesh.vertex_count, MOST_VERTICES, "vertices");
     check_count(mesh.triangle_count, MOST_TRIANGLES, "triangles");
-    if (!mesh.positions) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "positions is NULL");
-    if (!mesh.triangles) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "triangles is NULL");
+    if (!mesh.positions) refuse_argument("positions is NULL");
+    if (!mesh.triangles) refuse_argument("triangles is NULL");
 }
 
 template <class Scalar>
@@ -223,7 +223,7 @@ uint64_t mesh_fingerprint(const geoidx_mesh& mesh) {
 
 Intake take_in(const geoidx_mesh& mesh, const IntakeOptions& options) {
     if (!(options.weld_tolerance >= 0) || !std::isfinite(options.weld_tolerance))
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "weld_tolerance must be finite and not negative");
+        refuse_argument("weld_tolerance must be finite and not negative");
     check_arrays(mesh);
     const auto positions = positions_of(mesh);
     const auto triangles = read_triangles(mesh);

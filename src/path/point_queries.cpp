@@ -17,8 +17,7 @@ PointQueries::PointQueries(const Index& index, Query& query, const Surface& surf
         throw Error(GEOIDX_ERROR_MESH_MISMATCH, "the surface is of another mesh than the index");
     const bool is_known = about.metric == GEOIDX_METRIC_EXACT || about.metric == GEOIDX_METRIC_EDGES;
     if (!is_known || about.metric_fingerprint != 0)
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
-                    "the metric of the index does not tell what a way within a triangle costs");
+        refuse_argument("the metric of the index does not tell what a way within a triangle costs");
 }
 
 bool PointQueries::unfolds() const { return index_.description.metric == GEOIDX_METRIC_EXACT; }
@@ -33,8 +32,7 @@ FacePoint PointQueries::face_point_of(const SurfacePoint& point) const {
             (surface_.positions[corners[(k + 1) % 3]] - surface_.positions[corners[(k + 2) % 3]]).norm();
     }
     if (std::ranges::find(numbers, NONE) != numbers.end())
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
-                    "the surface has a triangle that the index does not: they differ in weld_tolerance");
+        refuse_argument("the surface has a triangle that the index does not: they differ in weld_tolerance");
     return face_point(numbers, lengths, point.weights, unfolds());
 }
 

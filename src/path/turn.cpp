@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src/mesh/angle.h"
+
 namespace geodesic {
 
 using Eigen::Vector3d;

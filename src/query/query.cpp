@@ -32,8 +32,7 @@ Query::Query(const Index& index, std::pmr::memory_resource* memory)
 
 uint32_t Query::number_of(uint32_t id) const {
     if (id >= index_.description.id_count)
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
-                    "vertex " + std::to_string(id) + " is out of range: the mesh has " +
+        refuse_argument("vertex " + std::to_string(id) + " is out of range: the mesh has " +
                         std::to_string(index_.description.id_count) + " vertices");
     return index_.number_of_id[id];
 }
@@ -75,7 +74,7 @@ void Query::prepare(uint32_t source_id) {
 }
 
 float Query::prepared_sssd(uint32_t target_id) {
-    if (prepared_id_ == NONE) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "no source has been prepared");
+    if (prepared_id_ == NONE) refuse_argument("no source has been prepared");
     const uint32_t target = number_of(target_id);
     if (target_id == prepared_id_) return 0;
     if (prepared_ == NONE || target == NONE) return INFINITE;
@@ -85,11 +84,10 @@ float Query::prepared_sssd(uint32_t target_id) {
 
 void Query::check_count(std::span<const float> distances, uint64_t fields) const {
     if (distances.size() != fields * index_.description.id_count)
-        throw Error(GEOIDX_ERROR_INVALID_ARGUMENT,
-                    "distance_count is " + std::to_string(distances.size()) + ", but the mesh has " +
+        refuse_argument("distance_count is " + std::to_string(distances.size()) + ", but the mesh has " +
                         std::to_string(index_.description.id_count) + " vertices" +
                         (fields == 1 ? "" : " and there are " + std::to_string(fields) + " sources"));
-    if (fields == 0) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "there is no source");
+    if (fields == 0) refuse_argument("there is no source");
 }
 
 void Query::write_by_id(std::span<float> field) const {
@@ -135,7 +133,7 @@ void Query::write_by_id(const SideBySide& fields) const {
 
 // Takes the numbers of sources, in an order of their own, so that answers do not depend on that of the ids.
 void Query::take_sources(std::span<const uint32_t> source_ids) {
-    if (source_ids.empty()) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "there is no source");
+    if (source_ids.empty()) refuse_argument("there is no source");
     sources_.clear();
     for (uint32_t id : source_ids)
         if (const uint32_t source = number_of(id); source != NONE) sources_.push_back(source);
@@ -152,7 +150,7 @@ std::span<const float> Query::field_within(float radius) {
 
 void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<float> distances) {
     check_count(distances, 1);
-    if (!(radius >= 0)) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "the radius is negative or NaN");
+    if (!(radius >= 0)) refuse_argument("the radius is negative or NaN");
     take_sources(source_ids);
     field_within(radius);
     write_by_id(distances);

@@ -9,13 +9,12 @@ namespace geodesic {
 
 namespace {
 
-constexpr uint32_t REACH = Rings::REACH;
-
-// The kernel reads REACH places on each side of a winner. This is what it reads of a border for ways over a
-// range.
+// The kernel reads Rings::REACH places on each side of a winner. This is what it reads of a border for ways
+// over a range.
 BorderRange range_read(const OverlayIndex& index, uint32_t patch, BorderRange range) {
     const BorderRange whole = whole_border(index, patch);
-    return {std::max(range.first, whole.first + REACH) - REACH, std::min(range.last + REACH, whole.last)};
+    constexpr uint32_t reach = Rings::REACH;
+    return {std::max(range.first, whole.first + reach) - reach, std::min(range.last + reach, whole.last)};
 }
 
 // Lets the crossing begin with the distances from a range of a patch's border. Places that are read outside
