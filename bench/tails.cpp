@@ -27,7 +27,7 @@ struct TailsArguments {
     ReportArguments report;
 };
 
-struct Edge {
+struct MeasuredEdge {
     uint32_t a, b;
     double length;
 };
@@ -65,7 +65,7 @@ struct Edges {
     }
 
     std::vector<std::vector<uint32_t>> neighbours;
-    std::vector<Edge> all;
+    std::vector<MeasuredEdge> all;
 };
 
 struct Answer {
@@ -121,9 +121,9 @@ private:
 };
 
 // What is asked of one index, from one source after the other.
-class Bench {
+class TailBench {
 public:
-    Bench(const Model& model, geoidx_query& query, geoidx_solver& solver)
+    TailBench(const Model& model, geoidx_query& query, geoidx_solver& solver)
         : model_(model), query_(query), solver_(solver), edges_(model.mesh),
           field_(model.mesh.vertex_count()) {}
 
@@ -206,7 +206,7 @@ private:
 
     void check_edges() {
         edges_asked_ += edges_.all.size();
-        for (const Edge& edge : edges_.all) {
+        for (const MeasuredEdge& edge : edges_.all) {
             const double ratio = std::abs(double{field_[edge.a]} - double{field_[edge.b]}) / edge.length;
             if (!(ratio > LONGER_THAN_EDGE)) continue;
             ++steep_;
@@ -234,7 +234,7 @@ void tails(const TailsArguments& arguments) {
                   arguments.report);
     const tools::Solver solver = tools::make_solver(model.mesh, model.path, options_for(1, {}));
     const tools::Query query = tools::make_query(*index, arguments.index);
-    Bench bench(model, *query, *solver);
+    TailBench bench(model, *query, *solver);
     std::mt19937_64 random(SEED);
     const uint32_t sources = (arguments.pairs + TARGETS - 1) / TARGETS;
     for (uint32_t i = 0; i < sources; ++i) bench.ask_random(random);

@@ -123,7 +123,7 @@ TEST_CASE("picture: unreachable parts are grey, reachable ones are not") {
 
 TEST_CASE("picture: the source is marked and turned to the viewer") {
     const TriangleMesh mesh = sphere(30, 60);
-    const Surface surface = make_surface(mesh);
+    const DrawnSurface surface = drawn_surface(mesh);
     for (const uint32_t source : {15u * 60 + 7, 15u * 60 + 37, 8u * 60 + 20}) {
         const View view = view_of_source(surface, source, UpAxis::y);
         CHECK(VisibilityTest(surface, view)(surface.positions[source]));
@@ -158,12 +158,12 @@ TEST_CASE("picture: normals are smooth over a seam and sharp at a cube's edge") 
     TriangleMesh seam;
     seam.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0.1, 0, 0, 0, 0, 1, 0.1, -1, 0, 0};
     seam.triangles = {0, 1, 2, 3, 4, 5};
-    const Surface surface = make_surface(seam);
+    const DrawnSurface surface = drawn_surface(seam);
     CHECK(surface.normals[0][0].x == doctest::Approx(surface.normals[1][0].x));
     TriangleMesh edge;
     edge.positions = {0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1};
     edge.triangles = {0, 2, 1, 0, 1, 3};
-    CHECK(make_surface(edge).normals[0][0].z == doctest::Approx(1));
+    CHECK(drawn_surface(edge).normals[0][0].z == doctest::Approx(1));
 }
 
 TEST_CASE("picture: the colour map darkens evenly") {

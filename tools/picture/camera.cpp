@@ -46,7 +46,8 @@ ScreenPoint Camera::project(Vec3 position) const {
             nearness};
 }
 
-Camera fitted_camera(const Surface& surface, const View& view, double width, double height, double margin) {
+Camera fitted_camera(const DrawnSurface& surface, const View& view, double width, double height,
+                     double margin) {
     Camera camera = aimed_camera(view);
     constexpr double HUGE_NUMBER = std::numeric_limits<double>::max();
     double left = HUGE_NUMBER, top = HUGE_NUMBER, right = -HUGE_NUMBER, bottom = -HUGE_NUMBER;
@@ -74,7 +75,7 @@ Camera magnified(Camera camera, double factor) {
     return camera;
 }
 
-std::vector<ScreenPoint> project_all(const Surface& surface, const Camera& camera) {
+std::vector<ScreenPoint> project_all(const DrawnSurface& surface, const Camera& camera) {
     std::vector<ScreenPoint> points;
     points.reserve(surface.positions.size());
     for (const Vec3& position : surface.positions) points.push_back(camera.project(position));

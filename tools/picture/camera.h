@@ -38,11 +38,12 @@ struct Camera {
 };
 
 // A camera whose picture of the surface fills width x height up to a margin, in the middle.
-Camera fitted_camera(const Surface& surface, const View& view, double width, double height, double margin);
+Camera fitted_camera(const DrawnSurface& surface, const View& view, double width, double height,
+                     double margin);
 
 // The same camera for a picture `factor` times as large.
 Camera magnified(Camera camera, double factor);
 
-std::vector<ScreenPoint> project_all(const Surface& surface, const Camera& camera);
+std::vector<ScreenPoint> project_all(const DrawnSurface& surface, const Camera& camera);
 
 }

@@ -54,7 +54,7 @@ std::array<double, 3> ScreenTriangle::weights(double x, double y) const {
     return {1 - b - c, b, c};
 }
 
-void rasterize(const Surface& surface, std::span<const ScreenPoint> points, VisibilityBuffer& buffer) {
+void rasterize(const DrawnSurface& surface, std::span<const ScreenPoint> points, VisibilityBuffer& buffer) {
     for (uint32_t t = 0; t < surface.triangles.size(); ++t) {
         const auto& [ia, ib, ic] = surface.triangles[t];
         const ScreenPoint& a = points[ia];

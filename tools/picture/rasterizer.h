@@ -38,6 +38,6 @@ struct ScreenTriangle {
 };
 
 // Draws all triangles into the buffer; either side of a triangle is visible.
-void rasterize(const Surface& surface, std::span<const ScreenPoint> points, VisibilityBuffer& buffer);
+void rasterize(const DrawnSurface& surface, std::span<const ScreenPoint> points, VisibilityBuffer& buffer);
 
 }

@@ -73,7 +73,7 @@ Isolines isolines_of(const PictureOptions& options, double max_distance) {
 
 Image render_field(const TriangleMesh& mesh, std::span<const float> distances,
                    std::span<const uint32_t> sources, const PictureOptions& options) {
-    const Surface surface = make_surface(mesh);
+    const DrawnSurface surface = drawn_surface(mesh);
     const auto first_source = sources.empty() ? std::nullopt : std::optional(sources[0]);
     const View view = options.view ? *options.view : view_of_source(surface, first_source, options.up);
     const Camera camera = fitted_camera(surface, view, options.width, options.height, MARGIN);

@@ -31,7 +31,7 @@ double slope_of(const ScreenTriangle& triangle, const std::array<float, 3>& dist
 
 }
 
-double largest_distance(const Surface& surface, std::span<const float> distances) {
+double largest_distance(const DrawnSurface& surface, std::span<const float> distances) {
     float largest = 0;
     for (const auto& triangle : surface.triangles)
         for (const uint32_t v : triangle)

@@ -18,7 +18,7 @@ struct Isolines {
 
 // What a pixel's colour follows from. The spans are per vertex.
 struct Scene {
-    const Surface& surface;
+    const DrawnSurface& surface;
     const Camera& camera;
     std::span<const ScreenPoint> points;
     std::span<const float> distances;
@@ -28,7 +28,7 @@ struct Scene {
 };
 
 // The largest finite distance of a vertex that a triangle uses, 0 if there is none.
-double largest_distance(const Surface& surface, std::span<const float> distances);
+double largest_distance(const DrawnSurface& surface, std::span<const float> distances);
 
 // How much of a line covers the place with this distance, 0 .. 1; `slope` is the distance's change per pixel.
 double line_coverage(const Isolines& lines, double distance, double slope);

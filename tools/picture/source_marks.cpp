@@ -44,7 +44,7 @@ void draw_mark(const ScreenPoint& centre, double radius, Image& image) {
 
 }
 
-void draw_source_marks(const Surface& surface, const View& view, const Camera& camera,
+void draw_source_marks(const DrawnSurface& surface, const View& view, const Camera& camera,
                        std::span<const uint32_t> sources, Image& image) {
     const VisibilityTest is_visible(surface, view);
     const double radius = mark_radius(image, sources.size());

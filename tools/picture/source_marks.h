@@ -8,7 +8,7 @@
 namespace geodesic::tools {
 
 // A white ball with a dark rim at each source that is not hidden.
-void draw_source_marks(const Surface& surface, const View& view, const Camera& camera,
+void draw_source_marks(const DrawnSurface& surface, const View& view, const Camera& camera,
                        std::span<const uint32_t> sources, Image& image);
 
 }

@@ -50,7 +50,7 @@ struct TrianglesAround {
     }
 };
 
-TrianglesAround triangles_around(const Surface& surface) {
+TrianglesAround triangles_around(const DrawnSurface& surface) {
     TrianglesAround around{first_in_same_place(surface.positions), {}, {}};
     around.begin.assign(surface.positions.size() + 1, 0);
     for (const auto& triangle : surface.triangles)
@@ -78,7 +78,7 @@ Vec3 corner_normal(std::span<const Vec3> area_normals, std::span<const uint32_t>
     return normalized(sum);
 }
 
-void add_normals(Surface& surface) {
+void add_normals(DrawnSurface& surface) {
     std::vector<Vec3> area_normals;
     area_normals.reserve(surface.triangles.size());
     for (const auto& [a, b, c] : surface.triangles)
@@ -106,8 +106,8 @@ std::vector<uint32_t> first_in_same_place(std::span<const Vec3> positions) {
     return first;
 }
 
-Surface make_surface(const TriangleMesh& mesh) {
-    Surface surface;
+DrawnSurface drawn_surface(const TriangleMesh& mesh) {
+    DrawnSurface surface;
     surface.positions = in_unit_ball(mesh);
     surface.triangles = grouped_by_three(mesh.triangles);
     add_normals(surface);

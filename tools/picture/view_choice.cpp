@@ -8,7 +8,7 @@ namespace {
 
 constexpr int SIDE = 400;
 
-Vec3 normal_at(const Surface& surface, uint32_t vertex) {
+Vec3 normal_at(const DrawnSurface& surface, uint32_t vertex) {
     for (size_t t = 0; t < surface.triangles.size(); ++t)
         for (size_t corner = 0; corner < 3; ++corner)
             if (surface.triangles[t][corner] == vertex) return surface.normals[t][corner];
@@ -28,7 +28,7 @@ std::vector<Candidate> candidates(UpAxis up) {
     return list;
 }
 
-double score(const Surface& surface, const Candidate& candidate, Vec3 source, Vec3 normal) {
+double score(const DrawnSurface& surface, const Candidate& candidate, Vec3 source, Vec3 normal) {
     const VisibilityTest is_visible(surface, candidate.view);
     const Vec3 back = is_visible.camera().back;
     return (is_visible(source) ? 3.0 : 0.0) + dot(source, back) + std::abs(dot(normal, back)) +
@@ -37,7 +37,7 @@ double score(const Surface& surface, const Candidate& candidate, Vec3 source, Ve
 
 }
 
-VisibilityTest::VisibilityTest(const Surface& surface, const View& view)
+VisibilityTest::VisibilityTest(const DrawnSurface& surface, const View& view)
     : camera_(fitted_camera(surface, view, SIDE, SIDE, 0.05)) {
     VisibilityBuffer buffer(SIDE, 0, SIDE);
     rasterize(surface, project_all(surface, camera_), buffer);
@@ -58,7 +58,7 @@ double VisibilityTest::filled_part() const {
     return 1 - static_cast<double>(empty) / static_cast<double>(nearness_.size());
 }
 
-View view_of_source(const Surface& surface, std::optional<uint32_t> source, UpAxis up) {
+View view_of_source(const DrawnSurface& surface, std::optional<uint32_t> source, UpAxis up) {
     if (!source) return View{.up = up};
     const Vec3 position = surface.positions[*source];
     const Vec3 normal = normal_at(surface, *source);

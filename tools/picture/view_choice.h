@@ -9,7 +9,7 @@ namespace geodesic::tools {
 // Is the point not hidden by the surface (but for what is just around it)?
 class VisibilityTest {
 public:
-    VisibilityTest(const Surface& surface, const View& view);
+    VisibilityTest(const DrawnSurface& surface, const View& view);
     bool operator()(Vec3 position) const;
 
     const Camera& camera() const { return camera_; }
@@ -22,6 +22,6 @@ private:
 };
 
 // Of a few three-quarter views the one in which the source is visible and turned to the viewer.
-View view_of_source(const Surface& surface, std::optional<uint32_t> source, UpAxis up);
+View view_of_source(const DrawnSurface& surface, std::optional<uint32_t> source, UpAxis up);
 
 }
