@@ -33,7 +33,7 @@ Soup lattice_soup(std::mt19937_64& random, size_t faces, double jitter) {
 
     std::map<std::pair<uint32_t, uint32_t>, size_t> faces_at;
     std::vector<std::array<uint32_t, 3>> triangles{{0, 1, 2}};
-    const auto edge = [](uint32_t a, uint32_t b) { return std::minmax(a, b); };
+    const auto edge = [](uint32_t a, uint32_t b) { return std::minmax({a, b}); };
     for (size_t k = 0; k < 3; ++k) ++faces_at[edge(triangles[0][k], triangles[0][(k + 1) % 3])];
     for (int i = 0; i < 100; ++i) {
         const auto& t = triangles[random() % triangles.size()];
