@@ -208,5 +208,3 @@ SIZE(geoidx_surface_options, 16);
 FIELD(geoidx_path_point, point, 0);
 FIELD(geoidx_path_point, position, 32);
 SIZE(geoidx_path_point, 56);
-
-int main(void) { return 0; }

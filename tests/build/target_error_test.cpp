@@ -5,6 +5,7 @@
 
 #include "tests/capi/calls.h"
 #include "tests/capi/refusals.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 
@@ -79,7 +80,7 @@ Errors errors_of(const geoidx* index, const TestMesh& mesh) {
 
 }
 
-TEST_CASE("target error: is reached, or the index is as large as it may be") {
+TEST_CASE("target error: is reached, or the index is as large as it may be" * doctest::skip(SANITIZED)) {
     for (const TestMesh& mesh : {rough(), torus(20, 10), sphere(12, 18), dirty()}) {
         const auto plain = build(mesh, options_with(0));
         const geoidx_info before = info_of(plain.get());
@@ -104,7 +105,8 @@ TEST_CASE("target error: is reached, or the index is as large as it may be") {
     }
 }
 
-TEST_CASE("target error: errors become smaller from sources that the builder did not choose, too") {
+TEST_CASE("target error: errors become smaller from sources that the builder did not choose, too" *
+          doctest::skip(SANITIZED)) {
     for (const TestMesh& mesh : {rough(), dirty()}) {
         const Errors before = errors_of(build(mesh, options_with(0)).get(), mesh);
         const Errors after = errors_of(build(mesh, options_with(1e-6)).get(), mesh);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+#include <utility>
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -112,6 +113,20 @@ REPLACES int pthread_create(pthread_t* thread, const pthread_attr_t* attributes,
     if (error) std::free(start);
     return error;
 }
+
+// The address sanitizer asks for the bounds of the stack whenever something is thrown, and ends the process
+// if it does not learn them. The C library allocates for the answer.
+REPLACES int pthread_getattr_np(pthread_t thread, pthread_attr_t* attributes) {
+    using GetAttributes = decltype(pthread_getattr_np);
+    const bool was_at_work = std::exchange(is_at_work, false);
+    static auto* const get = reinterpret_cast<GetAttributes*>(dlsym(RTLD_NEXT, "pthread_getattr_np"));
+    const int error = get(thread, attributes);
+    is_at_work = was_at_work;
+    return error;
+}
+
+// The loader keeps the storage of threads that have ended, where the leak sanitizer does not look.
+REPLACES const char* __lsan_default_suppressions() { return "leak:ld-linux"; }
 }
 
 // A sanitizer has an operator new of its own, which asks no malloc.

@@ -237,7 +237,7 @@ TEST_CASE("overlay: several sources are the nearest of them") {
 
 // The straight lines of a plane cross every border between two vertices: over vertices only they would be 0.1
 // % too long on average, over the middles of segments, too, a quarter of that. The hills are coarse.
-TEST_CASE("overlay: exact distances, crossing borders between vertices") {
+TEST_CASE("overlay: exact distances, crossing borders between vertices" * doctest::skip(SANITIZED)) {
     for (uint32_t exact_vertices : {1u, 1000000u})
         for (const auto& [mesh, most] :
              {std::pair{grid(40, 40, 0.25), 3e-4}, {hills(40, 40), 2e-3}, {torus(60, 30), 1e-3}}) {
@@ -343,7 +343,7 @@ TEST_CASE("overlay: SSSD on a stretched plane") {
 }
 
 // The same distances, told to be locally Euclidean or not.
-TEST_CASE("overlay: only a metric that unfolds crosses borders between vertices") {
+TEST_CASE("overlay: only a metric that unfolds crosses borders between vertices" * doctest::skip(SANITIZED)) {
     const TestMesh mesh = grid(40, 40, 0.25);
     const uint32_t count = mesh.vertex_count();
     auto options = overlay_options(GEOIDX_METRIC_EXACT, 3, 1000000);

@@ -5,7 +5,7 @@
 namespace geodesic::test {
 
 // Whether this is a build with a sanitizer: each query then takes ten times as long, or longer.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef GEOIDX_SANITIZED
 inline constexpr bool SANITIZED = true;
 #else
 inline constexpr bool SANITIZED = false;
