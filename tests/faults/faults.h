@@ -6,7 +6,6 @@
 #include "tests/capi/calls.h"
 #include "tests/capi/counting_allocator.h"
 #include "tests/faults/failing_malloc.h"
-#include "tests/support/sanitized.h"
 
 namespace geodesic::test {
 
@@ -58,10 +57,9 @@ private:
 };
 
 // Tries something with the first allocation failing, then with the one `stride` later, and so on until none
-// fails any more; with a sanitizer the one three strides later; with every one where GEOIDX_EVERY_FAULT is
-// set in the environment. Returns how often one failed.
+// fails any more; with every one where GEOIDX_EVERY_FAULT is set in the environment. Returns how often one
+// failed.
 inline uint64_t try_with_faults(Source source, uint64_t stride, const std::function<void(Fault&)>& attempt) {
-    if (SANITIZED) stride *= 3;
     if (std::getenv("GEOIDX_EVERY_FAULT")) stride = 1;
     uint64_t failed = 0;
     for (bool recovers : {false, true})

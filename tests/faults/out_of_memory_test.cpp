@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "tests/faults/faults.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace geodesic::test;
@@ -17,6 +18,9 @@ namespace {
 
 constexpr Source SOURCES[] = {Source::caller, Source::process};
 constexpr uint32_t ENGINES[] = {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY};
+
+// Of the allocations of a query, each of which is followed by every question.
+constexpr uint64_t ASKING_STRIDE = SANITIZED ? 3 : 1;
 
 // Two parts that borders divide, one that none does, and vertices that no triangle uses.
 TestMesh several_parts() {
@@ -327,7 +331,7 @@ TEST_CASE("out of memory while a query is asked") {
                 CAPTURE(threads);
                 CAPTURE(QUESTIONS_TO_A_QUERY[q].name);
                 for (Source source : SOURCES)
-                    failed += try_with_faults(source, 1, [&](Fault& fault) {
+                    failed += try_with_faults(source, ASKING_STRIDE, [&](Fault& fault) {
                         const IndexHandle index = open_with(file, fault.allocator());
                         const QueryHandle query = query_of(index.get());
                         require_success(geoidx_query_set_threads(query.get(), threads));
@@ -366,7 +370,7 @@ TEST_CASE("out of memory while a query is given threads") {
     const Answers right = answers_to(QUESTIONS_TO_A_QUERY, reference);
     for (uint32_t threads = 2; threads <= 4; ++threads)
         for (Source source : SOURCES) {
-            const uint64_t failed = try_with_faults(source, 1, [&](Fault& fault) {
+            const uint64_t failed = try_with_faults(source, ASKING_STRIDE, [&](Fault& fault) {
                 const IndexHandle index = open_with(file, fault.allocator());
                 const QueryHandle query = query_of(index.get());
                 fault.disturb([&] { return geoidx_query_set_threads(query.get(), threads); });
