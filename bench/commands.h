@@ -16,5 +16,7 @@ void add_pairs(CLI::App& app);
 void add_paths(CLI::App& app);
 void add_files(CLI::App& app);
 void add_farthest(CLI::App& app);
+void add_nearest(CLI::App& app);
+void add_matrix(CLI::App& app);
 
 }

@@ -24,6 +24,8 @@ void add_commands(CLI::App& app) {
     add_error(app);
     add_several(app);
     add_farthest(app);
+    add_nearest(app);
+    add_matrix(app);
     add_tails(app);
     add_open(app);
     add_pairs(app);

@@ -578,6 +578,14 @@ GEOIDX_API geoidx_status geoidx_msad(const geoidx* index, const uint32_t* source
 GEOIDX_API geoidx_status geoidx_ssad_batch(const geoidx* index, const uint32_t* sources,
                                            uint32_t source_count, float* distances, uint64_t distance_count);
 
+/* The distance from every source to every target: distances[i * target_count + j] is that from sources[i] to
+ * targets[j]. distance_count must be source_count times target_count. Each is as geoidx_sssd gives it, or as
+ * geoidx_ssad_batch gives it from the source or from the target, whichever takes least time for all of them;
+ * they differ by the error of the index. When a vertex is out of range, nothing is written. */
+GEOIDX_API geoidx_status geoidx_matrix(const geoidx* index, const uint32_t* sources, uint32_t source_count,
+                                       const uint32_t* targets, uint32_t target_count, float* distances,
+                                       uint64_t distance_count);
+
 /* One thread's scratch, so that a query does not lock and, after the first ones, does not allocate. The index
  * must outlive it. */
 GEOIDX_API geoidx_status geoidx_query_create(const geoidx* index, geoidx_query** out);
@@ -597,22 +605,58 @@ GEOIDX_API geoidx_status geoidx_query_msad_within(geoidx_query* query, const uin
                                                   uint32_t source_count, float radius, float* distances,
                                                   uint32_t distance_count);
 
+GEOIDX_API geoidx_status geoidx_query_matrix(geoidx_query* query, const uint32_t* sources,
+                                             uint32_t source_count, const uint32_t* targets,
+                                             uint32_t target_count, float* distances,
+                                             uint64_t distance_count);
+
+/* The nearest source to each vertex: nearest[v] is its position in `sources`, and GEOIDX_NO_SOURCE where no
+ * source is reached. Of several that are as near, it is one whose choice depends on the index alone; of a
+ * vertex that is repeated, the first. vertex_count must be the mesh's. distances[v] are the same bits as
+ * those of geoidx_query_msad; `distances` may be NULL. A source that is nearer than every other one by more
+ * than the error of the index is the one that is found. */
+#define GEOIDX_NO_SOURCE 0xffffffffu
+GEOIDX_API geoidx_status geoidx_query_nearest_sources(geoidx_query* query, const uint32_t* sources,
+                                                      uint32_t source_count, uint32_t* nearest,
+                                                      float* distances, uint32_t vertex_count);
+
+/* The vertices that can be reached and are no farther than `radius` (0 or more) from the nearest of 1 or more
+ * sources, the nearest first, of those that are as near the one with the least id. *count is set to how many
+ * there are; vertices[i] and distances[i] are written for as many of them as `capacity`, which both arrays
+ * have room for. distances may be NULL, and so may both if capacity is 0. From one source the distances are
+ * the same bits as those of geoidx_query_msad_within; from several they are the least of those from each.
+ * GEOIDX_ENGINE_OVERLAY looks only into patches within the radius of each source, and takes time in
+ * proportion to that; its scratch is 4 bytes a vertex, and 4 to 8 more for the ids. */
+GEOIDX_API geoidx_status geoidx_query_within(geoidx_query* query, const uint32_t* sources,
+                                             uint32_t source_count, float radius, uint32_t* vertices,
+                                             float* distances, uint32_t capacity, uint32_t* count);
+
+/* The nearest of some targets: positions[i] are positions in `targets`, the nearest first, of those that are
+ * as near the one that comes first. *count is set to how many are written: `capacity`, which `positions` and
+ * `distances` have room for, unless fewer targets can be reached. distances may be NULL. Few targets are
+ * asked for one by one, as by geoidx_query_sssd; with many GEOIDX_ENGINE_OVERLAY looks only into patches that
+ * are little farther than the targets that it finds, as geoidx_query_within does. */
+GEOIDX_API geoidx_status geoidx_query_nearest_targets(geoidx_query* query, uint32_t source,
+                                                      const uint32_t* targets, uint32_t target_count,
+                                                      uint32_t* positions, float* distances,
+                                                      uint32_t capacity, uint32_t* count);
+
 /* Farthest-point sampling: points[i] is the vertex that is farthest from the nearest of the 1 or more sources
  * and of the points before it, and distances[i] how far it is; of several that are as far, one whose choice
  * depends on the index alone. Vertices that cannot be reached are infinitely far, so that each component has
  * a point before any has two. Vertices that no triangle uses are never chosen, nor are two at one place.
  * *count is set to how many were found: point_count, unless there are fewer vertices. `points` and
  * `distances` have room for point_count; distances may be NULL. Each point after the first ones looks only at
- * what lies nearer to it than the farthest vertex. 8 bytes of the index's memory a vertex are taken during
- * the call. */
+ * what lies nearer to it than the farthest vertex. 4 bytes of the index's memory a vertex are taken during
+ * the call, and 4 to 8 for the ids are kept. */
 GEOIDX_API geoidx_status geoidx_query_farthest_points(geoidx_query* query, const uint32_t* sources,
                                                       uint32_t source_count, uint32_t point_count,
                                                       uint32_t* points, float* distances, uint32_t* count);
 
-/* From then on geoidx_query_msad, geoidx_query_msad_within, geoidx_query_point_msad and
- * geoidx_query_farthest_points of this query use so many threads, which begin and end within each call, for
- * the same bits, or as many of them as the system can begin: 1 at first, 0 means one per processor, at most
- * 1024. GEOIDX_ENGINE_GRAPH uses one. */
+/* From then on geoidx_query_msad, geoidx_query_msad_within, geoidx_query_point_msad,
+ * geoidx_query_nearest_sources and geoidx_query_farthest_points of this query use so many threads, which
+ * begin and end within each call, for the same bits, or as many of them as the system can begin: 1 at first,
+ * 0 means one per processor, at most 1024. GEOIDX_ENGINE_GRAPH uses one. */
 GEOIDX_API geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t threads);
 
 /* Keeps what depends on the source, for geoidx_query_prepared, until the next call; one that fails for lack

@@ -52,6 +52,12 @@ std::uint32_t count_of(std::span<T> values) {
     return static_cast<std::uint32_t>(values.size());
 }
 
+// Of distances that may be left out.
+inline void require_equal_or_none(std::size_t distances, std::size_t others) {
+    if (distances != 0 && distances != others)
+        throw std::invalid_argument("distances must be as many as what they belong to, or none");
+}
+
 inline const char* path_of(const std::string& utf8_path) {
     if (utf8_path.find('\0') != std::string::npos) throw std::invalid_argument("the path holds a NUL");
     return utf8_path.c_str();
@@ -187,6 +193,13 @@ public:
                                 distances.size()));
     }
 
+    // distances[i * targets.size() + j] is that from sources[i] to targets[j].
+    void matrix(std::span<const std::uint32_t> sources, std::span<const std::uint32_t> targets,
+                std::span<float> distances) const {
+        check(geoidx_matrix(get(), sources.data(), detail::count_of(sources), targets.data(),
+                            detail::count_of(targets), distances.data(), distances.size()));
+    }
+
     query make_query() const;
 
     const geoidx* get() const noexcept { return handle_.get(); }
@@ -268,11 +281,45 @@ public:
         check(geoidx_query_ssad_batch(get(), sources.data(), detail::count_of(sources), distances.data(),
                                       distances.size()));
     }
+    // distances[i * targets.size() + j] is that from sources[i] to targets[j].
+    void matrix(std::span<const std::uint32_t> sources, std::span<const std::uint32_t> targets,
+                std::span<float> distances) {
+        check(geoidx_query_matrix(get(), sources.data(), detail::count_of(sources), targets.data(),
+                                  detail::count_of(targets), distances.data(), distances.size()));
+    }
+    // Fills the position in `sources` of the nearest one to each vertex; `distances` are as many, or none.
+    void nearest_sources(std::span<const std::uint32_t> sources, std::span<std::uint32_t> nearest,
+                         std::span<float> distances = {}) {
+        detail::require_equal_or_none(distances.size(), nearest.size());
+        check(geoidx_query_nearest_sources(get(), sources.data(), detail::count_of(sources), nearest.data(),
+                                           distances.empty() ? nullptr : distances.data(),
+                                           detail::count_of(nearest)));
+    }
+    // Returns how many vertices are within the radius, of which the nearest are written; `distances` are as
+    // many as `vertices`, or none.
+    std::uint32_t within(std::span<const std::uint32_t> sources, float radius,
+                         std::span<std::uint32_t> vertices, std::span<float> distances = {}) {
+        detail::require_equal_or_none(distances.size(), vertices.size());
+        std::uint32_t count = 0;
+        check(geoidx_query_within(get(), sources.data(), detail::count_of(sources), radius, vertices.data(),
+                                  distances.empty() ? nullptr : distances.data(), detail::count_of(vertices),
+                                  &count));
+        return count;
+    }
+    // Returns how many of the nearest targets were written; `distances` are as many as `positions`, or none.
+    std::uint32_t nearest_targets(std::uint32_t source, std::span<const std::uint32_t> targets,
+                                  std::span<std::uint32_t> positions, std::span<float> distances = {}) {
+        detail::require_equal_or_none(distances.size(), positions.size());
+        std::uint32_t count = 0;
+        check(geoidx_query_nearest_targets(get(), source, targets.data(), detail::count_of(targets),
+                                           positions.data(), distances.empty() ? nullptr : distances.data(),
+                                           detail::count_of(positions), &count));
+        return count;
+    }
     // Returns how many of the points there are; `distances` are as many as the points, or none.
     std::uint32_t farthest_points(std::span<const std::uint32_t> sources, std::span<std::uint32_t> points,
                                   std::span<float> distances = {}) {
-        if (!distances.empty() && distances.size() != points.size())
-            throw error(GEOIDX_ERROR_INVALID_ARGUMENT, "points and distances are not equally long");
+        detail::require_equal_or_none(distances.size(), points.size());
         std::uint32_t count = 0;
         check(geoidx_query_farthest_points(get(), sources.data(), detail::count_of(sources),
                                            detail::count_of(points), points.data(),

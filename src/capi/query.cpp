@@ -22,6 +22,7 @@ public:
     BorrowedQuery& operator=(const BorrowedQuery&) = delete;
 
     Query* operator->() const { return query_; }
+    Query& operator*() const { return *query_; }
 
 private:
     QueryPool& pool_;
@@ -31,6 +32,22 @@ private:
 void check_msad(const uint32_t* sources, const float* distances) {
     require(sources, "sources is NULL");
     require(distances, "distances is NULL");
+}
+
+void fill_matrix(Query& query, std::span<const uint32_t> sources, std::span<const uint32_t> targets,
+                 std::span<float> distances) {
+    require(sources.empty() || sources.data(), "sources is NULL");
+    require(targets.empty() || targets.data(), "targets is NULL");
+    require(distances.empty() || distances.data(), "distances is NULL");
+    query.matrix(sources, targets, distances);
+}
+
+// Writes as many of what was found as there is room for. `distances` may be NULL.
+void write_found(std::span<const Query::Found> found, uint32_t* which, float* distances, uint32_t capacity) {
+    for (size_t i = 0; i < std::min<size_t>(found.size(), capacity); ++i) {
+        which[i] = found[i].which;
+        if (distances) distances[i] = found[i].distance;
+    }
 }
 
 }
@@ -68,6 +85,16 @@ geoidx_status geoidx_ssad_batch(const geoidx* index, const uint32_t* sources, ui
         require(index, "index is NULL");
         check_msad(sources, distances);
         BorrowedQuery(*index)->ssad_each({sources, source_count}, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_matrix(const geoidx* index, const uint32_t* sources, uint32_t source_count,
+                            const uint32_t* targets, uint32_t target_count, float* distances,
+                            uint64_t distance_count) {
+    return guarded([&] {
+        require(index, "index is NULL");
+        fill_matrix(*BorrowedQuery(*index), {sources, source_count}, {targets, target_count},
+                    {distances, distance_count});
     });
 }
 
@@ -109,6 +136,58 @@ geoidx_status geoidx_query_msad_within(geoidx_query* query, const uint32_t* sour
         require(query, "query is NULL");
         check_msad(sources, distances);
         query->query.msad({sources, source_count}, radius, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_matrix(geoidx_query* query, const uint32_t* sources, uint32_t source_count,
+                                  const uint32_t* targets, uint32_t target_count, float* distances,
+                                  uint64_t distance_count) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        fill_matrix(query->query, {sources, source_count}, {targets, target_count},
+                    {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_nearest_sources(geoidx_query* query, const uint32_t* sources,
+                                           uint32_t source_count, uint32_t* nearest, float* distances,
+                                           uint32_t vertex_count) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(sources, "sources is NULL");
+        require(nearest, "nearest is NULL");
+        query->query.nearest_sources({sources, source_count}, {nearest, vertex_count},
+                                     {distances, distances ? vertex_count : 0});
+    });
+}
+
+geoidx_status geoidx_query_within(geoidx_query* query, const uint32_t* sources, uint32_t source_count,
+                                  float radius, uint32_t* vertices, float* distances, uint32_t capacity,
+                                  uint32_t* count) {
+    if (count) *count = 0;
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(sources, "sources is NULL");
+        require(capacity == 0 || vertices, "vertices is NULL");
+        require(count, "count is NULL");
+        const auto found = query->query.within({sources, source_count}, radius);
+        write_found(found, vertices, distances, capacity);
+        *count = static_cast<uint32_t>(found.size());
+    });
+}
+
+geoidx_status geoidx_query_nearest_targets(geoidx_query* query, uint32_t source, const uint32_t* targets,
+                                           uint32_t target_count, uint32_t* positions, float* distances,
+                                           uint32_t capacity, uint32_t* count) {
+    if (count) *count = 0;
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(target_count == 0 || targets, "targets is NULL");
+        require(capacity == 0 || positions, "positions is NULL");
+        require(count, "count is NULL");
+        const auto found = query->query.nearest_targets(source, {targets, target_count}, capacity);
+        write_found(found, positions, distances, capacity);
+        *count = static_cast<uint32_t>(found.size());
     });
 }
 

@@ -25,9 +25,12 @@ void add_row(Number d, std::span<const float> row, Number* distances) {
 
 // First the overlays above the sources, upwards, so that every border of theirs knows its distance; then all
 // overlays downwards from their outer borders; then the leaves.
-void GraphQuery::msad(std::span<const uint32_t> sources, float, std::span<float> distance) {
+void GraphQuery::nearest_sources(std::span<const uint32_t> sources, std::span<float> distance,
+                                 std::span<uint32_t> source) {
     distance_ = distance;
+    source_ = source;
     std::fill(distance_.begin(), distance_.end(), INFINITE);
+    std::fill(source_.begin(), source_.end(), NONE);
     std::fill(has_sources_.begin(), has_sources_.end(), uint8_t{0});
     for (uint32_t source : sources) start_from(source);
     climb();
@@ -36,7 +39,7 @@ void GraphQuery::msad(std::span<const uint32_t> sources, float, std::span<float>
 }
 
 void GraphQuery::start_from(uint32_t source) {
-    distance_[source] = 0;
+    take_way(source, 0, source);
     if (numbering_.is_border(source))
         has_sources_[numbering_.owner[source]] = 1;
     else
@@ -48,9 +51,9 @@ void GraphQuery::start_from_internal(uint32_t source) {
     const uint32_t first = numbering_.first_internal(leaf), own = source - first;
     const auto border = numbering_.border_of(leaf);
     for (uint32_t i = 0; i < border.size(); ++i)
-        distance_[border[i]] = std::min(distance_[border[i]], index_.border_internal_row(leaf, i)[own]);
+        take_way(border[i], index_.border_internal_row(leaf, i)[own], source);
     for (uint32_t i = 0; i < numbering_.internal_size(leaf); ++i)
-        distance_[first + i] = std::min(distance_[first + i], index_.internal_distance(leaf, own, i));
+        take_way(first + i, index_.internal_distance(leaf, own, i), source);
     has_sources_[numbering_.parent[leaf]] = 1;
 }
 
@@ -111,10 +114,14 @@ void GraphQuery::cross_child(uint32_t patch, uint32_t child) {
         slot_is_active_[slot] = 0;
         add_row(slot_distance_[slot], {index_.border_row(child, slot - first), size}, crossed_.data());
     }
+    if (!source_.empty()) find_crossed_sources(child);
     active_count_[child] = 0;
     nearest_active_[child] = INFINITE;
-    for (uint32_t k = 0; k < size; ++k)
-        if (crossed_[k] < slot_distance_[first + k]) pass_on(patch, first + k, crossed_[k]);
+    for (uint32_t k = 0; k < size; ++k) {
+        if (!(crossed_[k] < slot_distance_[first + k])) continue;
+        if (!source_.empty()) source_[numbering_.border[first + k]] = crossed_source_[k];
+        pass_on(patch, first + k, crossed_[k]);
+    }
 }
 
 void GraphQuery::pass_on(uint32_t patch, uint32_t slot, double distance) {
@@ -130,6 +137,7 @@ void GraphQuery::fill_leaf(uint32_t leaf) {
     for (uint32_t b = 0; b < border.size(); ++b)
         add_row(distance_[border[b]], {index_.border_internal_row(leaf, b), size},
                 distance_.data() + numbering_.first_internal(leaf));
+    if (!source_.empty()) find_sources_in_leaf(leaf);
 }
 
 }

@@ -25,7 +25,13 @@ public:
     }
 
     // distance[number], of every vertex, whatever the radius.
-    void msad(std::span<const uint32_t> sources, float radius, std::span<float> distance);
+    void msad(std::span<const uint32_t> sources, float, std::span<float> distance) {
+        nearest_sources(sources, distance, {});
+    }
+
+    // The same, and fills source[number] with the source that is nearest, NONE for none, unless it is empty.
+    void nearest_sources(std::span<const uint32_t> sources, std::span<float> distance,
+                         std::span<uint32_t> source);
 
 private:
     // msad.cpp
@@ -40,6 +46,11 @@ private:
     void pass_on(uint32_t patch, uint32_t slot, double distance);
     void fill_leaf(uint32_t leaf);
 
+    // nearest_sources.cpp
+    void take_way(uint32_t number, float way, uint32_t source);
+    void find_crossed_sources(uint32_t child);
+    void find_sources_in_leaf(uint32_t leaf);
+
     // sssd.cpp
     float same_leaf_distance(uint32_t a, uint32_t b) const;
     double search(uint32_t source, uint32_t target);
@@ -52,8 +63,10 @@ private:
     uint32_t prepared_ = NONE;
     ArcQueue queue_; // of SSSD
 
-    // MSAD: distances by number, the caller's; which inner patches have sources below them.
+    // MSAD: distances by number and the sources that they come from, the caller's; which inner patches have
+    // sources below them.
     std::span<float> distance_;
+    std::span<uint32_t> source_;
     Array<uint8_t> has_sources_;
     // The overlay that is being crossed: distances per slot, so that a table row meets them side by side; per
     // child the slots whose rows have not been looked at since their distance fell, in the child's part of
@@ -63,7 +76,9 @@ private:
     Array<uint32_t> active_slots_;
     Array<uint32_t> active_count_; // per patch
     Array<double> nearest_active_; // per patch: no active slot is nearer; infinity without one
-    Array<double> crossed_;        // of one child's border, while its rows are looked at
+    // Of one child's border, while its rows are looked at: distances, and the sources of those that fell.
+    Array<double> crossed_;
+    Array<uint32_t> crossed_source_;
 
     // SSSD: distances of border vertices, valid where the epoch is the current one; likewise allowed patches.
     Array<double> search_distance_;

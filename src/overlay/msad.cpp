@@ -6,6 +6,24 @@
 
 namespace geodesic {
 
+namespace {
+
+// Lowers the distances of vertices, which begin at `first`, to those from one source.
+void lower(const OverlayMsad::Field& field, uint32_t first, std::span<const float> found, uint32_t source) {
+    float* const known = field.distance.data() + first;
+    if (field.source.empty()) {
+        for (size_t i = 0; i < found.size(); ++i) known[i] = std::min(known[i], found[i]);
+        return;
+    }
+    uint32_t* const nearest = field.source.data() + first;
+    for (size_t i = 0; i < found.size(); ++i) {
+        nearest[i] = found[i] < known[i] ? source : nearest[i];
+        known[i] = std::min(known[i], found[i]);
+    }
+}
+
+}
+
 OverlayMsad::Scratch::Scratch(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : sweep(index, 1, memory), own(index, memory) {}
 
@@ -20,22 +38,30 @@ void OverlayMsad::set_threads(uint32_t count) {
     while (of_thread_.size() < count) of_thread_.emplace_back(index_, of_thread_.get_allocator().resource());
 }
 
-void OverlayMsad::sweep(const Sources& sources, float radius, std::span<float> distance) {
+void OverlayMsad::sweep(const Sources& sources, float radius, const Field& field) {
     sources_ = sources;
     const uint32_t keys = numbering_.vertex_count() + static_cast<uint32_t>(sources.points.size());
     top_.own.set_keys(keys);
     for (Scratch& scratch : of_thread_) scratch.own.set_keys(keys);
+    begin(field);
+    count_sources(numbering_, sources, sources_inside_);
+    ascend(numbering_, sources_inside_, [&](uint32_t child) { hop_up(child, field.distance); });
+    descend_everywhere(numbering_, top_, std::span(of_thread_),
+                       [&](uint32_t patch, Scratch& scratch) { hop_down(patch, radius, field, scratch); });
+    if (!field.source.empty())
+        for (uint32_t v = 0; v < numbering_.border_vertex_count(); ++v) field.source[v] = nearest_.nearest(v);
+}
+
+// Takes the ways that need no hop. Those to border vertices are kept source by source.
+void OverlayMsad::begin(const Field& field) {
     nearest_.clear();
-    std::ranges::fill(distance, INFINITE);
-    for (const uint32_t source : sources.keys)
-        sources.for_each_way(index_, source, [&](uint32_t number, float way) {
-            distance[number] = std::min(distance[number], way);
+    std::ranges::fill(field.distance, INFINITE);
+    std::ranges::fill(field.source, NONE);
+    for (const uint32_t source : sources_.keys)
+        sources_.for_each_way(index_, source, [&](uint32_t number, float way) {
+            lower(field, number, {&way, 1}, source);
             if (numbering_.is_border(number)) nearest_.add(number, {way, source});
         });
-    count_sources(numbering_, sources, sources_inside_);
-    ascend(numbering_, sources_inside_, [&](uint32_t child) { hop_up(child, distance); });
-    descend_everywhere(numbering_, top_, std::span(of_thread_),
-                       [&](uint32_t patch, Scratch& scratch) { hop_down(patch, radius, distance, scratch); });
 }
 
 bool OverlayMsad::is_within(uint32_t source, uint32_t patch) const {
@@ -59,20 +85,19 @@ void OverlayMsad::hop_up(uint32_t child, std::span<float> distance) {
 }
 
 // Hops from the sources outside of a patch to its inner vertices. A source that is inside has all of its
-// distances there already. Nobody asks which source is the nearest to a vertex inside of a leaf.
-void OverlayMsad::hop_down(uint32_t patch, float radius, std::span<float> distance, Scratch& scratch) {
+// distances there already. No hop begins at the vertices inside of a leaf, so that their ways are not kept.
+void OverlayMsad::hop_down(uint32_t patch, float radius, const Field& field, Scratch& scratch) {
     if (sources_inside_[patch] == sources_inside_[0]) return;
     const uint32_t first = numbering_.first_inner(patch);
     const auto is_outside = [&](uint32_t source) { return !is_within(source, patch); };
     const auto hop = [&](const float* from, uint32_t source) {
         if (!scratch.sweep.begin(patch, from, radius)) return;
         const std::span<const float> found = scratch.sweep.cross();
-        float* const inside = distance.data() + first;
-        for (size_t r = 0; r < found.size(); ++r) inside[r] = std::min(inside[r], found[r]);
+        lower(field, first, found, source);
         if (patch >= numbering_.first_leaf()) return;
         for (uint32_t r = 0; r < found.size(); ++r) add_way(first + r, found[r], source);
     };
-    scratch.own.for_each_source(patch, nearest_, distance.data(), is_outside, hop);
+    scratch.own.for_each_source(patch, nearest_, field.distance.data(), is_outside, hop);
 }
 
 void OverlayMsad::add_way(uint32_t border_vertex, float distance, uint32_t source) {

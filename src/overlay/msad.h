@@ -21,9 +21,14 @@ public:
     // Sets how many threads sweep() uses, at least 1. It is 1 at first.
     void set_threads(uint32_t count);
 
-    // Fills distance[number] of every vertex. Patches whose whole border is farther than `radius` are
-    // skipped, and their vertices stay at infinity.
-    void sweep(const Sources& sources, float radius, std::span<float> distance);
+    // What a sweep fills, by number: the distance of every vertex and, unless `source` is empty, the key of
+    // the source that it comes from, or NONE where no source reaches.
+    struct Field {
+        std::span<float> distance;
+        std::span<uint32_t> source{};
+    };
+    // Patches whose whole border is farther than `radius` are skipped, and their vertices stay at infinity.
+    void sweep(const Sources& sources, float radius, const Field& field);
 
 private:
     // What one thread works with.
@@ -35,8 +40,9 @@ private:
     };
 
     bool is_within(uint32_t source, uint32_t patch) const;
+    void begin(const Field& field);
     void hop_up(uint32_t child, std::span<float> distance);
-    void hop_down(uint32_t patch, float radius, std::span<float> distance, Scratch& scratch);
+    void hop_down(uint32_t patch, float radius, const Field& field, Scratch& scratch);
     void add_way(uint32_t border_vertex, float distance, uint32_t source);
 
     const OverlayIndex& index_;

@@ -72,7 +72,7 @@ void OverlayQuery::point_msad(std::span<const FacePoint> points, std::span<const
     if (keys_.size() == 1)
         field_.sweep(Sources{keys_, points_}, INFINITE, distance);
     else
-        nearest_.sweep({keys_, points_}, INFINITE, distance);
+        nearest_.sweep({keys_, points_}, INFINITE, {distance});
 }
 
 void OverlayQuery::prepare_end(size_t end, const FacePoint& point) {

@@ -11,6 +11,7 @@
 #include "src/overlay/ssad.h"
 #include "src/overlay/sssd/prepared_source.h"
 #include "src/overlay/sssd/sssd.h"
+#include "src/overlay/within_sweep.h"
 
 namespace geodesic {
 
@@ -42,8 +43,25 @@ public:
         if (sources.size() == 1)
             field_.sweep(sources, radius, distance);
         else
-            nearest_.sweep({sources}, radius, distance);
+            nearest_.sweep({sources}, radius, {distance});
     }
+
+    // The same, without a radius, and fills source[number] with the source that is nearest, NONE for none.
+    void nearest_sources(std::span<const uint32_t> sources, std::span<float> distance,
+                         std::span<uint32_t> source) {
+        if (sources.size() != 1) return nearest_.sweep({sources}, INFINITE, {distance, source});
+        field_.sweep(sources, INFINITE, distance);
+        for (size_t v = 0; v < distance.size(); ++v)
+            source[v] = distance[v] < INFINITE ? sources.front() : NONE;
+    }
+
+    // The vertices that are no farther than `radius` from a source.
+    std::span<const WithinSweep::Found> within(uint32_t source, float radius) {
+        return within_sweep().sweep(source, radius);
+    }
+    // The least distance of those that the latest call of within() has seen and left out, infinite if there
+    // are none: then all vertices that can be reached are within the radius.
+    float nearest_beyond() const { return within_->nearest_beyond(); }
 
     // Whether points of a face can be answered by the tables of one leaf, as the following require.
     bool takes(const FacePoint& point) const { return leaf_of_face(index_.numbering, point.corners) != NONE; }
@@ -77,9 +95,12 @@ private:
         return pairs_.emplace(index_, memory_);
     }
 
+    WithinSweep& within_sweep() { return within_ ? *within_ : within_.emplace(index_, memory_); }
+
     const OverlayIndex& index_;
     std::pmr::memory_resource* const memory_;
     std::optional<OverlaySssd> pairs_;
+    std::optional<WithinSweep> within_;
     OverlaySsad field_;
     OverlayMsad nearest_;
     OverlaySsad batch_;

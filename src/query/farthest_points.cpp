@@ -37,20 +37,16 @@ uint32_t Query::farthest_points(std::span<const uint32_t> source_ids, std::span<
     take_sources(source_ids);
     const uint32_t vertices = index_.numbering().vertex_count();
     if (vertices == 0) return 0;
-    std::pmr::memory_resource* const memory = distance_.get_allocator().resource();
-    Array<uint32_t> id_of_number(vertices, NONE, memory);
-    Array<float> nearest(vertices, NEVER_CHOSEN, memory);
-    for (auto id = static_cast<uint32_t>(index_.description.id_count); id-- > 0;)
-        if (const uint32_t number = index_.number_of_id[id]; number != NONE) {
-            id_of_number[number] = id;
-            nearest[number] = INFINITE;
-        }
+    const IdsOfNumbers& ids = ids_of_numbers();
+    Array<float> nearest(vertices, NEVER_CHOSEN, distance_.get_allocator().resource());
+    for (uint32_t number = 0; number < vertices; ++number)
+        if (ids.first(number) != NONE) nearest[number] = INFINITE;
     size_t farthest =
         sources_.empty() ? lower_to(nearest, nearest) : lower_to(field_within(INFINITE), nearest);
     for (uint32_t found = 0; found < points.size(); ++found) {
         const float distance = nearest[farthest];
         if (!(distance > 0)) return found;
-        points[found] = id_of_number[farthest];
+        points[found] = ids.first(static_cast<uint32_t>(farthest));
         if (!distances.empty()) distances[found] = distance;
         sources_.assign(1, static_cast<uint32_t>(farthest));
         farthest = lower_to(field_within(distance), nearest);

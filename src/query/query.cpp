@@ -28,7 +28,8 @@ Query::Query(const Index& index, std::pmr::memory_resource* memory)
       distance_(index.numbering().vertex_count(), memory), corner_fields_{Array<float>(memory),
                                                                           Array<float>(memory),
                                                                           Array<float>(memory)},
-      point_field_(memory), end_fields_{Array<float>(memory), Array<float>(memory)} {}
+      point_field_(memory), end_fields_{Array<float>(memory), Array<float>(memory)}, pair_ids_(memory),
+      nearest_(memory), position_at_(memory), next_target_(memory), within_(memory), ranked_(memory) {}
 
 uint32_t Query::number_of(uint32_t id) const {
     if (id >= index_.description.id_count)
@@ -82,9 +83,9 @@ float Query::prepared_sssd(uint32_t target_id) {
     return std::visit([&](auto& engine) { return engine.prepared_sssd(target); }, engine_);
 }
 
-void Query::check_count(std::span<const float> distances, uint64_t fields) const {
-    if (distances.size() != fields * index_.description.id_count)
-        refuse_argument("distance_count is " + std::to_string(distances.size()) + ", but the mesh has " +
+void Query::check_count(const char* name, uint64_t count, uint64_t fields) const {
+    if (count != fields * index_.description.id_count)
+        refuse_argument(std::string(name) + " is " + std::to_string(count) + ", but the mesh has " +
                         std::to_string(index_.description.id_count) + " vertices" +
                         (fields == 1 ? "" : " and there are " + std::to_string(fields) + " sources"));
     if (fields == 0) refuse_argument("there is no source");
@@ -149,7 +150,7 @@ std::span<const float> Query::field_within(float radius) {
 }
 
 void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<float> distances) {
-    check_count(distances, 1);
+    check_count("distance_count", distances.size(), 1);
     if (!(radius >= 0)) refuse_argument("the radius is negative or NaN");
     take_sources(source_ids);
     field_within(radius);
@@ -204,7 +205,7 @@ void Query::add_point_field(const FacePoint& point, float offset) {
 
 void Query::point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
                        std::span<const KnownWay> known, std::span<float> distances) {
-    check_count(distances, 1);
+    check_count("distance_count", distances.size(), 1);
     const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
     if (std::ranges::all_of(points, [&](const FacePoint& point) { return takes(point); })) {
         std::get<OverlayQuery>(engine_).point_msad(points, offsets, by_number);
@@ -239,45 +240,66 @@ void Query::set_threads(uint32_t count) {
     if (auto* const overlay = std::get_if<OverlayQuery>(&engine_)) overlay->set_threads(count);
 }
 
+// How many fields are best swept together, if so many are left.
+size_t Query::fields_at_once(size_t left) const {
+    return left >= OverlayQuery::FEWEST_AT_ONCE && std::holds_alternative<OverlayQuery>(engine_)
+               ? std::min(OverlayQuery::FIELDS_AT_ONCE, left)
+               : 1;
+}
+
 void Query::ssad_each(std::span<const uint32_t> source_ids, std::span<float> distances) {
-    constexpr size_t AT_ONCE = OverlayQuery::FIELDS_AT_ONCE;
-    check_count(distances, source_ids.size());
+    check_count("distance_count", distances.size(), source_ids.size());
     for (uint32_t id : source_ids) number_of(id);
-    auto* const overlay = std::get_if<OverlayQuery>(&engine_);
     for (size_t done = 0; done < source_ids.size();) {
-        const size_t left = source_ids.size() - done;
-        const size_t count = overlay && left >= OverlayQuery::FEWEST_AT_ONCE ? std::min(AT_ONCE, left) : 1;
+        const size_t count = fields_at_once(source_ids.size() - done);
         const auto ids = source_ids.subspan(done, count);
         const auto fields =
             distances.subspan(done * index_.description.id_count, count * index_.description.id_count);
         if (count == 1)
             msad(ids, INFINITE, fields);
         else
-            ssad_at_once(*overlay, ids, fields);
+            ssad_at_once(ids, fields);
         done += count;
     }
 }
 
-void Query::ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_ids,
-                         std::span<float> distances) {
-    SideBySide fields;
+// Sweeps the fields of as many sources as fields_at_once() says.
+Query::FieldsByNumber Query::fields_from(std::span<const uint32_t> source_ids) {
+    FieldsByNumber fields{};
     sources_.clear();
     for (size_t i = 0; i < source_ids.size(); ++i) {
-        const auto field = distances.subspan(i * index_.description.id_count, index_.description.id_count);
-        if (const uint32_t source = number_of(source_ids[i]); source != NONE) {
-            fields[sources_.size()] = field.data();
-            sources_.push_back(source);
-        } else {
-            std::ranges::fill(field, INFINITE);
-        }
+        const uint32_t source = number_of(source_ids[i]);
+        fields.lane[i] = source == NONE ? NONE : static_cast<uint32_t>(sources_.size());
+        if (source != NONE) sources_.push_back(source);
     }
-    if (!sources_.empty()) {
-        // The last source is repeated.
-        std::fill(fields.begin() + sources_.size(), fields.end(), fields[sources_.size() - 1]);
-        sources_.resize(fields.size(), sources_.back());
-        distance_.resize(fields.size() * index_.numbering().vertex_count());
-        engine.ssad_each(sources_, distance_);
-        write_by_id(fields);
+    if (sources_.empty()) return fields;
+    if (source_ids.size() == 1) {
+        fields.distances = field_within(INFINITE).data();
+        fields.stride = 1;
+        return fields;
+    }
+    fields.stride = OverlayQuery::FIELDS_AT_ONCE;
+    sources_.resize(fields.stride, sources_.back()); // the last source is repeated
+    distance_.resize(fields.stride * index_.numbering().vertex_count());
+    std::get<OverlayQuery>(engine_).ssad_each(sources_, distance_);
+    fields.distances = distance_.data();
+    return fields;
+}
+
+void Query::ssad_at_once(std::span<const uint32_t> source_ids, std::span<float> distances) {
+    const FieldsByNumber fields = fields_from(source_ids);
+    SideBySide by_id{};
+    float* last = nullptr;
+    for (size_t i = 0; i < source_ids.size(); ++i) {
+        const auto field = distances.subspan(i * index_.description.id_count, index_.description.id_count);
+        if (fields.lane[i] == NONE)
+            std::ranges::fill(field, INFINITE);
+        else
+            by_id[fields.lane[i]] = last = field.data();
+    }
+    if (last) {
+        std::ranges::replace(by_id, static_cast<float*>(nullptr), last);
+        write_by_id(by_id);
     }
     for (size_t i = 0; i < source_ids.size(); ++i)
         distances[i * index_.description.id_count + source_ids[i]] = 0;

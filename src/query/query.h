@@ -1,11 +1,14 @@
 #pragma once
 
 #include <array>
+#include <compare>
+#include <optional>
 #include <span>
 #include <variant>
 
 #include "src/graph/query.h"
 #include "src/overlay/query.h"
+#include "src/query/ids_of_numbers.h"
 #include "src/query/index.h"
 
 namespace geodesic {
@@ -28,6 +31,31 @@ public:
 
     // Multiple sources, all destinations: distances[id] to the nearest source, infinite beyond the radius.
     void msad(std::span<const uint32_t> source_ids, float radius, std::span<float> distances);
+
+    // Fills distances[i * target_ids.size() + j] with the distance from source i to target j.
+    void matrix(std::span<const uint32_t> source_ids, std::span<const uint32_t> target_ids,
+                std::span<float> distances);
+
+    // Fills nearest[id] with the position of the source that is nearest, NONE where none is reached, and the
+    // distances, unless they are empty, as msad() does.
+    void nearest_sources(std::span<const uint32_t> source_ids, std::span<uint32_t> nearest,
+                         std::span<float> distances);
+
+    // A vertex or a target that was found, by its id or by its position among the targets.
+    struct Found {
+        float distance;
+        uint32_t which;
+        auto operator<=>(const Found&) const = default;
+    };
+
+    // The vertices that are no farther than the radius from the nearest source, in ascending order. They stay
+    // valid until the next call.
+    std::span<const Found> within(std::span<const uint32_t> source_ids, float radius);
+
+    // The nearest `count` targets or, if fewer can be reached, all of these, in ascending order. They stay
+    // valid until the next call.
+    std::span<const Found> nearest_targets(uint32_t source_id, std::span<const uint32_t> target_ids,
+                                           size_t count);
 
     // Fills points[i] with the vertex that is farthest from all sources and from the points before it, and
     // distances[i] with how far it is, unless `distances` is empty. Returns how many points there are.
@@ -58,14 +86,50 @@ public:
     void ssad_each(std::span<const uint32_t> source_ids, std::span<float> distances);
 
 private:
+    // Fields of some sources, side by side by number. A source that no triangle uses has no lane.
+    struct FieldsByNumber {
+        const float* distances;
+        size_t stride;
+        std::array<uint32_t, OverlayQuery::FIELDS_AT_ONCE> lane; // per source
+
+        float at(size_t source, uint32_t number) const {
+            return number == NONE || lane[source] == NONE ? INFINITE
+                                                          : distances[number * stride + lane[source]];
+        }
+    };
+    // The entries of a matrix, or of its transpose.
+    struct MatrixEntries {
+        float* first;
+        size_t row_stride, column_stride;
+        float& at(size_t row, size_t column) const {
+            return first[row * row_stride + column * column_stride];
+        }
+    };
+
     uint32_t number_of(uint32_t id) const;
-    void check_count(std::span<const float> distances, uint64_t fields) const;
+    void check_count(const char* name, uint64_t count, uint64_t fields) const;
     void take_sources(std::span<const uint32_t> source_ids);
     std::span<const float> field_within(float radius);
     bool takes(const FacePoint& point) const;
     float vertex_to_point(uint32_t vertex, const FacePoint& point);
     void add_point_field(const FacePoint& point, float offset);
-    void ssad_at_once(OverlayQuery& engine, std::span<const uint32_t> source_ids, std::span<float> distances);
+    size_t fields_at_once(size_t left) const;
+    FieldsByNumber fields_from(std::span<const uint32_t> source_ids);
+    void ssad_at_once(std::span<const uint32_t> source_ids, std::span<float> distances);
+    double pairs_worth_a_field(size_t fields) const;
+    bool pairs_are_faster(size_t pairs, size_t fields) const;
+    void matrix_of_pairs(std::span<const uint32_t> source_ids, std::span<const uint32_t> target_ids,
+                         bool is_symmetric, float* distances);
+    void matrix_of_fields(std::span<const uint32_t> source_ids, std::span<const uint32_t> target_ids,
+                          const MatrixEntries& entries);
+    void write_positions(std::span<const uint32_t> source_ids, std::span<uint32_t> nearest);
+    const IdsOfNumbers& ids_of_numbers();
+    std::span<const WithinSweep::Found> numbers_within(uint32_t source, float radius);
+    void keep_least();
+    void replace_numbers();
+    void rank_by_pairs(uint32_t source_id, std::span<const uint32_t> target_ids);
+    void rank_by_sweeps(uint32_t source, std::span<const uint32_t> target_ids, size_t count);
+    class TargetsAtNumbers;
     void write_by_id(std::span<float> field) const;
     using SideBySide = std::array<float*, OverlayQuery::FIELDS_AT_ONCE>;
     void write_by_id(const SideBySide& fields) const;
@@ -81,6 +145,14 @@ private:
     std::array<Array<float>, 3> corner_fields_;
     Array<float> point_field_;
     std::array<Array<float>, 2> end_fields_;
+    Array<uint32_t> pair_ids_; // of a row of a matrix
+    Array<uint32_t> nearest_;  // by number: the nearest source, by its number
+    // By number: the position of the first source or target at a vertex, NONE except during a call; and per
+    // target the next one at the same vertex.
+    Array<uint32_t> position_at_, next_target_;
+    std::optional<IdsOfNumbers> ids_of_numbers_;
+    Array<WithinSweep::Found> within_; // where the engine sweeps whole fields only
+    Array<Found> ranked_;              // what within() and nearest_targets() answer
 };
 
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "tests/campaign/near_checks.h"
+
 namespace geodesic::campaign {
 
 namespace {
@@ -153,6 +155,7 @@ void check_several(const Subject& subject, geoidx_solver* solver, std::span<cons
         check_answer("msad of several", subject.input(), subject.bounds(), truth, id, field[id]);
     check_radius(subject, sources, field, dice);
     check_threads(subject, sources, field, dice);
+    check_near(subject, sources, field, dice);
     sources.insert(sources.end(), {sources.front(), sources.back()});
     dice.shuffle(sources);
     Floats again(field.size(), -1);

@@ -48,6 +48,17 @@ static geoidx_status (*const query_msad)(geoidx_query*, const uint32_t*, uint32_
                                          uint32_t) = geoidx_query_msad;
 static geoidx_status (*const query_msad_within)(geoidx_query*, const uint32_t*, uint32_t, float, float*,
                                                 uint32_t) = geoidx_query_msad_within;
+static geoidx_status (*const matrix)(const geoidx*, const uint32_t*, uint32_t, const uint32_t*, uint32_t,
+                                     float*, uint64_t) = geoidx_matrix;
+static geoidx_status (*const query_matrix)(geoidx_query*, const uint32_t*, uint32_t, const uint32_t*,
+                                           uint32_t, float*, uint64_t) = geoidx_query_matrix;
+static geoidx_status (*const query_nearest_sources)(geoidx_query*, const uint32_t*, uint32_t, uint32_t*,
+                                                    float*, uint32_t) = geoidx_query_nearest_sources;
+static geoidx_status (*const query_within)(geoidx_query*, const uint32_t*, uint32_t, float, uint32_t*, float*,
+                                           uint32_t, uint32_t*) = geoidx_query_within;
+static geoidx_status (*const query_nearest_targets)(geoidx_query*, uint32_t, const uint32_t*, uint32_t,
+                                                    uint32_t*, float*, uint32_t,
+                                                    uint32_t*) = geoidx_query_nearest_targets;
 static geoidx_status (*const query_farthest_points)(geoidx_query*, const uint32_t*, uint32_t, uint32_t,
                                                     uint32_t*, float*,
                                                     uint32_t*) = geoidx_query_farthest_points;
@@ -111,7 +122,7 @@ static int check_queries(const geoidx* index) {
     geoidx_query* query = NULL;
     const uint32_t sources[2] = {0, COUNT - 1}, pairs[4] = {0, COUNT - 1, 5, 5};
     float all[COUNT], same[COUNT], batch[2], one = -1;
-    uint32_t farthest = COUNT, found = 0;
+    uint32_t farthest = COUNT, found = 0, nearest[COUNT], few[2];
     EXPECT(sssd(index, 0, COUNT - 1, &one) == GEOIDX_OK && is_straight(0, COUNT - 1, one));
     EXPECT(sssd_batch(index, pairs, 2, batch) == GEOIDX_OK && batch[0] == one && batch[1] == 0);
     EXPECT(msad(index, sources, 2, all, COUNT) == GEOIDX_OK && is_straight(0, SIDE - 1, all[SIDE - 1]));
@@ -122,6 +133,15 @@ static int check_queries(const geoidx* index) {
            memcmp(all, same, sizeof all) == 0);
     EXPECT(query_farthest_points(query, sources, 2, 1, &farthest, &one, &found) == GEOIDX_OK && found == 1 &&
            one == all[farthest]);
+    EXPECT(query_nearest_sources(query, sources, 2, nearest, same, COUNT) == GEOIDX_OK &&
+           memcmp(all, same, sizeof all) == 0 && nearest[1] == 0 && nearest[COUNT - 2] == 1);
+    EXPECT(query_within(query, sources, 2, 0, few, batch, 2, &found) == GEOIDX_OK && found == 2 &&
+           few[0] == 0 && few[1] == COUNT - 1 && batch[1] == 0);
+    EXPECT(query_nearest_targets(query, 1, sources, 2, few, batch, 1, &found) == GEOIDX_OK && found == 1 &&
+           few[0] == 0 && is_straight(0, 1, batch[0]));
+    EXPECT(matrix(index, sources, 2, sources, 1, batch, 2) == GEOIDX_OK && batch[0] == 0 &&
+           is_straight(0, COUNT - 1, batch[1]));
+    EXPECT(query_matrix(query, sources, 2, sources, 1, same, 2) == GEOIDX_OK && same[1] == batch[1]);
     EXPECT(query_set_threads(query, 2) == GEOIDX_OK);
     EXPECT(query_msad(query, sources, 2, same, COUNT) == GEOIDX_OK && memcmp(all, same, sizeof all) == 0);
     EXPECT(ssad_batch(index, sources, 1, all, COUNT) == GEOIDX_OK);

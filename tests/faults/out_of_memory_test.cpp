@@ -97,11 +97,12 @@ struct Asked {
     std::vector<uint32_t> few, many; // vertices
     std::vector<uint32_t> pairs;
     std::vector<float> answer; // with room for the largest
+    std::vector<uint32_t> ids; // that an answer names, one for each vertex
 
     Asked(const geoidx* index, geoidx_query* query)
         : index(index), query(query), vertex_count(static_cast<uint32_t>(info_of(index).vertex_count)),
           few(some_vertices(vertex_count, 4)), many(some_vertices(vertex_count, 18)),
-          answer(size_t{18} * vertex_count) {
+          answer(size_t{18} * vertex_count), ids(vertex_count) {
         for (uint32_t a : many)
             for (uint32_t b : few) pairs.insert(pairs.end(), {a, b});
         clear();
@@ -153,6 +154,30 @@ const Question QUESTIONS_TO_A_QUERY[] = {
          return geoidx_query_farthest_points(a.query, a.few.data(), size_of(a.few), 5, points,
                                              a.answer.data(), &count);
      }},
+    {"nearest sources", true,
+     [](Asked& a) {
+         const auto status = geoidx_query_nearest_sources(a.query, a.many.data(), size_of(a.many),
+                                                          a.ids.data(), a.answer.data(), a.vertex_count);
+         if (status == GEOIDX_OK) std::ranges::copy(a.ids, a.answer.begin() + a.vertex_count);
+         return status;
+     }},
+    {"within", false,
+     [](Asked& a) {
+         uint32_t count;
+         return geoidx_query_within(a.query, a.few.data(), size_of(a.few), 3, a.ids.data(), a.answer.data(),
+                                    a.vertex_count, &count);
+     }},
+    {"nearest targets", false,
+     [](Asked& a) {
+         uint32_t positions[3], count;
+         return geoidx_query_nearest_targets(a.query, a.few[2], a.many.data(), size_of(a.many), positions,
+                                             a.answer.data(), 3, &count);
+     }},
+    {"matrix", false,
+     [](Asked& a) {
+         return geoidx_query_matrix(a.query, a.many.data(), size_of(a.many), a.few.data(), size_of(a.few),
+                                    a.answer.data(), a.many.size() * a.few.size());
+     }},
     {"ssad batch", false,
      [](Asked& a) {
          return geoidx_query_ssad_batch(a.query, a.many.data(), size_of(a.many), a.answer.data(),
@@ -170,6 +195,11 @@ const Question QUESTIONS_TO_AN_INDEX[] = {
     {"msad of an index", false,
      [](Asked& a) {
          return geoidx_msad(a.index, a.few.data(), size_of(a.few), a.answer.data(), a.vertex_count);
+     }},
+    {"matrix of an index", false,
+     [](Asked& a) {
+         return geoidx_matrix(a.index, a.many.data(), size_of(a.many), a.many.data(), size_of(a.many),
+                              a.answer.data(), a.many.size() * a.many.size());
      }},
     {"ssad batch of an index", false,
      [](Asked& a) {

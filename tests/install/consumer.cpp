@@ -25,6 +25,28 @@ bool answers_right(const gdx::index& index) {
            is_root_of_two(double{index.msad(std::span(&source, 1))[target]});
 }
 
+bool finds_what_is_near(const gdx::index& index) {
+    gdx::query query = index.make_query();
+    const std::vector<std::uint32_t> corners{0, 1, 2, 3};
+    std::vector<std::uint32_t> nearest(4), found(4);
+    std::vector<float> distances(4), entries(4), same(4);
+    query.nearest_sources(std::span(corners).first(1), nearest, distances);
+    const bool all_from_the_source = nearest == std::vector<std::uint32_t>(4, 0u);
+    const bool is_alone = query.within(std::span(corners).first(1), 0.5f, found, distances) == 1;
+    const std::uint32_t near =
+        query.nearest_targets(2, std::span(corners).first(2), std::span(found).first(1));
+    index.matrix(std::span(corners).first(1), corners, entries);
+    query.matrix(corners, std::span(corners).first(1), same);
+    bool refused = false;
+    try {
+        query.nearest_sources(corners, nearest, std::span(distances).first(3));
+    } catch (const std::invalid_argument&) {
+        refused = true;
+    }
+    return all_from_the_source && is_alone && distances[0] == 0 && near == 1 && found[0] == 1 &&
+           is_root_of_two(double{entries[2]}) && entries == same && refused;
+}
+
 bool walks_right(const gdx::index& index, const geoidx_mesh& mesh) {
     const gdx::surface surface(mesh);
     gdx::query query = index.make_query();
@@ -89,6 +111,7 @@ int main() {
     if (!throws_what_progress_throws(mesh)) return 7;
 
     if (!walks_right(moved, mesh)) return 10;
+    if (!finds_what_is_near(moved)) return 11;
     if (!comes_back_without_positions(moved, mesh)) return 9;
 
     std::vector<double> distances(4);

@@ -113,6 +113,7 @@ namespace Geoidx.Tests
         private static int ConstantValue(string constant)
         {
             if (constant == "GEOIDX_MAX_LEVELS") return BuildOptions.MaxLevels;
+            if (constant == "GEOIDX_NO_SOURCE") return GeodesicQuery.NoSource;
             (string prefix, Type type) = Enums.First(
                 candidate => constant.StartsWith(candidate.Prefix, StringComparison.Ordinal));
             string name = constant.Substring(prefix == constant ? "GEOIDX_METRIC_".Length : prefix.Length);

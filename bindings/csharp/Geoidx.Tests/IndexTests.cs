@@ -77,6 +77,19 @@ namespace Geoidx.Tests
         }
 
         [Fact]
+        public void AMatrixHasARowForEachSource()
+        {
+            int[] sources = { 17, 0, 143, 0 }, targets = { 5, 17, 131 };
+            float[] matrix = plane.Matrix(sources, targets);
+            Assert.Equal(12, matrix.Length);
+            for (int i = 0; i < matrix.Length; i++)
+                AssertNearly(Shapes.PlaneDistance(Side, sources[i / 3], targets[i % 3]), matrix[i]);
+            var written = new float[12];
+            plane.Matrix(sources, targets, written);
+            Assert.Equal(matrix, written);
+        }
+
+        [Fact]
         public void AStructOfFloatsAndASpanAreTheSameMesh()
         {
             (float[] positions, int[] triangles) = Shapes.PlaneArrays(Side);
@@ -305,11 +318,127 @@ namespace Geoidx.Tests
         }
 
         [Fact]
+        public void NearestSourcesAreAsNearAsAny()
+        {
+            int[] sources = { 0, 143, 0, 5, 78 };
+            var nearest = new int[Side * Side];
+            var distances = new float[Side * Side];
+            using GeodesicQuery query = plane.CreateQuery();
+            query.NearestSources(sources, nearest, distances);
+            Assert.Equal(plane.FromSources(sources), distances);
+            for (int v = 0; v < nearest.Length; v++)
+            {
+                double least = sources.Min(source => Shapes.PlaneDistance(Side, source, v));
+                double chosen = Shapes.PlaneDistance(Side, sources[nearest[v]], v);
+                Assert.InRange(chosen, least, least * 1.05 / 0.95);
+                Assert.NotEqual(2, nearest[v]); // vertex 0 is repeated, and its first position is 0
+            }
+            var alone = new int[Side * Side];
+            query.NearestSources(sources, alone);
+            Assert.Equal(nearest, alone);
+        }
+
+        [Fact]
+        public void VerticesWithinARadiusAreSortedByDistance()
+        {
+            int[] sources = { 17, 100, 18 };
+            float[][] fields = sources.Select(source => FromSourceWithin(source, 2.5f)).ToArray();
+            float[] least = Enumerable.Range(0, Side * Side).Select(v => fields.Min(field => field[v])).ToArray();
+            IsWithin(new[] { 17 }, 2.5f, fields[0]);
+            IsWithin(sources, 2.5f, least);
+            IsWithin(new[] { 17 }, 0, FromSourceWithin(17, 0));
+            IsWithin(new[] { 17 }, float.PositiveInfinity, plane.FromSources(17));
+        }
+
+        private float[] FromSourceWithin(int source, float radius)
+        {
+            using GeodesicQuery query = plane.CreateQuery();
+            var field = new float[Side * Side];
+            query.FromSourcesWithin(new[] { source }, radius, field);
+            return field;
+        }
+
+        private void IsWithin(int[] sources, float radius, float[] field)
+        {
+            int[] expected = Enumerable.Range(0, Side * Side)
+                .Where(v => !float.IsPositiveInfinity(field[v]))
+                .OrderBy(v => field[v])
+                .ThenBy(v => v)
+                .ToArray();
+            using GeodesicQuery query = plane.CreateQuery();
+            var vertices = new int[Side * Side];
+            var distances = new float[Side * Side];
+            Assert.Equal(expected.Length, query.Within(sources, radius, vertices, distances));
+            Assert.Equal(expected, vertices.Take(expected.Length));
+            Assert.Equal(expected.Select(v => field[v]), distances.Take(expected.Length));
+        }
+
+        [Fact]
+        public void TheNearestVerticesAreWrittenWhenThereIsLittleRoom()
+        {
+            using GeodesicIndex cube = GeodesicIndex.Build(Shapes.Cube());
+            using GeodesicQuery query = cube.CreateQuery();
+            int[] vertices = { -7, -7, -7, -7, -7 };
+            Assert.Equal(4, query.Within(new[] { 0 }, 1.2f, default));
+            Assert.Equal(4, query.Within(new[] { 0 }, 1.2f, vertices.AsSpan(0, 1)));
+            Assert.Equal(new[] { 0, -7 }, vertices.Take(2));
+            Assert.Equal(4, query.Within(new[] { 0 }, 1.2f, vertices));
+            Assert.Equal(new[] { 0, 1, 2, 4 }, vertices.Take(4).OrderBy(v => v));
+            Assert.Equal(-7, vertices[4]);
+        }
+
+        [Fact]
+        public void NearestTargetsAreSortedByDistance()
+        {
+            int[] targets = { 143, 18, 30, 17, 18 }; // at (11, 11), (6, 1), (6, 2), (5, 1)
+            using GeodesicQuery query = plane.CreateQuery();
+            var positions = new int[6];
+            var distances = new float[6];
+            Assert.Equal(5, query.NearestTargets(17, targets, positions, distances));
+            Assert.Equal(new[] { 3, 1, 4, 2, 0 }, positions.Take(5));
+            for (int i = 0; i < 5; i++)
+                AssertNearly(Shapes.PlaneDistance(Side, 17, targets[positions[i]]), distances[i]);
+            positions[2] = -7;
+            Assert.Equal(2, query.NearestTargets(17, targets, positions.AsSpan(0, 2)));
+            Assert.Equal(new[] { 3, 1, -7 }, positions.Take(3));
+        }
+
+        [Fact]
+        public void NearestOfManyTargetsAreAsNearAsAny()
+        {
+            const int count = 20;
+            int[] targets = Enumerable.Range(0, Side * Side).Reverse().ToArray();
+            double[] exact = targets.Select(target => Shapes.PlaneDistance(Side, 65, target)).ToArray();
+            double[] least = exact.OrderBy(distance => distance).Take(count).ToArray();
+            using GeodesicQuery query = plane.CreateQuery();
+            var positions = new int[count];
+            var distances = new float[count];
+            Assert.Equal(count, query.NearestTargets(65, targets, positions, distances));
+            Assert.Equal(count, positions.Distinct().Count());
+            Assert.Equal(distances.OrderBy(distance => distance), distances);
+            for (int i = 0; i < count; i++)
+            {
+                AssertNearly(least[i], distances[i]);
+                AssertNearly(exact[positions[i]], distances[i]);
+            }
+        }
+
+        [Fact]
         public void AnUnusedVertexIsUnreachable()
         {
             using GeodesicIndex index = GeodesicIndex.Build(
                 GeodesicMesh.From(new float[] { 0, 0, 0, 1, 0, 0, 1, 1, 0, 9, 9, 9 }, new[] { 0, 1, 2 }));
             Assert.True(float.IsPositiveInfinity(index.Distance(0, 3)));
+            Assert.True(float.IsPositiveInfinity(index.Matrix(new[] { 0 }, new[] { 3 })[0]));
+            using GeodesicQuery query = index.CreateQuery();
+            var nearest = new int[4];
+            var distances = new float[4];
+            query.NearestSources(new[] { 1 }, nearest, distances);
+            Assert.Equal(new[] { 0, 0, 0, GeodesicQuery.NoSource }, nearest);
+            Assert.True(float.IsPositiveInfinity(distances[3]));
+            Assert.Equal(1, query.NearestTargets(0, new[] { 3, 1 }, nearest));
+            Assert.Equal(1, nearest[0]);
+            Assert.Equal(3, query.Within(new[] { 0 }, float.MaxValue, nearest));
         }
     }
 }

@@ -30,6 +30,10 @@ namespace Geoidx.Tests
             var fields = new float[3 * query.VertexCount];
             query.FromEachSource(sources, fields);
             Assert.Equal(index.FromEachSource(sources), fields);
+            int[] targets = { 0, 899 };
+            var matrix = new float[6];
+            query.Matrix(sources, targets, matrix);
+            Assert.Equal(index.Matrix(sources, targets), matrix);
         }
 
         [Theory]
@@ -66,6 +70,14 @@ namespace Geoidx.Tests
             query.SetThreads(2);
             query.FromSources(new[] { 12 }, distances);
             Assert.Equal(index.FromSources(12), distances);
+            int[] sources = { 12, 700, 435 };
+            var nearest = new int[query.VertexCount];
+            query.NearestSources(sources, nearest, distances);
+            using GeodesicQuery alone = index.CreateQuery();
+            var nearestByOne = new int[query.VertexCount];
+            alone.NearestSources(sources, nearestByOne);
+            Assert.Equal(nearestByOne, nearest);
+            Assert.Equal(index.FromSources(sources), distances);
         }
 
         [Fact]
@@ -93,16 +105,22 @@ namespace Geoidx.Tests
             var distances = new float[query.VertexCount];
             VertexPair[] pairs = { (0, 100), (7, 600) };
             int[] sources = { 0, 77 };
+            var found = new int[query.VertexCount];
             void Ask()
             {
                 query.Distance(3, 500);
                 index.Distance(3, 500);
                 query.FromSources(sources, distances);
                 query.FromSourcesWithin(sources, 5, distances);
+                query.Matrix(sources, sources, distances.AsSpan(0, 4));
+                query.NearestSources(sources, found, distances);
+                query.Within(sources, 5, found, distances);
+                query.NearestTargets(3, sources, found, distances);
                 query.Prepare(3);
                 query.FromPrepared(500);
                 index.Distances(pairs, distances.AsSpan(0, 2));
                 index.FromSources(sources, distances);
+                index.Matrix(sources, sources, distances.AsSpan(0, 4));
             }
             Ask();
             long before = GC.GetAllocatedBytesForCurrentThread();

@@ -172,6 +172,45 @@ namespace Geoidx
             return distances;
         }
 
+        /// <summary>The distance from every source to every target.</summary>
+        /// <remarks>
+        /// Each is as <see cref="Distance"/> gives it, or as
+        /// <see cref="FromEachSource(ReadOnlySpan{int}, Span{float})"/> gives it from the source or from the target,
+        /// whichever takes least time for all of them. They differ by the error of the index.
+        /// </remarks>
+        /// <param name="sources">Vertices.</param>
+        /// <param name="targets">Vertices.</param>
+        /// <param name="distances">
+        /// For each source one for each target, in the mesh's unit: that from sources[i] to targets[j] at
+        /// i * targets.Length + j.
+        /// </param>
+        /// <exception cref="GeodesicArgumentException">
+        /// A vertex is out of range, or the number of distances is wrong; nothing is written.
+        /// </exception>
+        public unsafe void Matrix(ReadOnlySpan<int> sources, ReadOnlySpan<int> targets, Span<float> distances)
+        {
+            fixed (int* first = &MemoryMarshal.GetReference(sources))
+            fixed (int* firstTarget = &MemoryMarshal.GetReference(targets))
+            fixed (float* results = &MemoryMarshal.GetReference(distances))
+                NativeMethods.geoidx_matrix(
+                    Handle, first, (uint)sources.Length, firstTarget, (uint)targets.Length, results,
+                    (ulong)distances.Length).ThrowIfError();
+        }
+
+        /// <summary>
+        /// The distance from every source to every target, in the mesh's unit: that from sources[i] to targets[j] at
+        /// i * targets.Length + j.
+        /// </summary>
+        /// <inheritdoc cref="Matrix(ReadOnlySpan{int}, ReadOnlySpan{int}, Span{float})" path="/remarks"/>
+        public float[] Matrix(int[] sources, int[] targets)
+        {
+            if (sources == null) throw new ArgumentNullException(nameof(sources));
+            if (targets == null) throw new ArgumentNullException(nameof(targets));
+            var distances = new float[checked(sources.Length * targets.Length)];
+            Matrix(sources, targets, distances);
+            return distances;
+        }
+
         /// <summary>One thread's scratch for queries, which neither lock nor, after the first ones, allocate.</summary>
         public GeodesicQuery CreateQuery() => new GeodesicQuery(QueryHandle.Create(Handle), VertexCount);
 

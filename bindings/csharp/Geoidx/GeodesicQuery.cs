@@ -98,6 +98,18 @@ namespace Geoidx
                     handle, first, (uint)sources.Length, results, (ulong)distances.Length).ThrowIfError();
         }
 
+        /// <inheritdoc cref="GeodesicIndex.Matrix(ReadOnlySpan{int}, ReadOnlySpan{int}, Span{float})"/>
+        public unsafe void Matrix(ReadOnlySpan<int> sources, ReadOnlySpan<int> targets, Span<float> distances)
+        {
+            using SingleUse.Scope scope = use.Begin();
+            fixed (int* first = &MemoryMarshal.GetReference(sources))
+            fixed (int* firstTarget = &MemoryMarshal.GetReference(targets))
+            fixed (float* results = &MemoryMarshal.GetReference(distances))
+                NativeMethods.geoidx_query_matrix(
+                    handle, first, (uint)sources.Length, firstTarget, (uint)targets.Length, results,
+                    (ulong)distances.Length).ThrowIfError();
+        }
+
         /// <summary>
         /// Keeps what depends on a source, for <see cref="FromPrepared(ReadOnlySpan{int}, Span{float})"/>, until the
         /// next call of this.
@@ -136,8 +148,9 @@ namespace Geoidx
         }
 
         /// <summary>
-        /// From then on <see cref="FromSources"/> and <see cref="FromSourcesWithin"/> use so many threads, which
-        /// begin and end within each call, for the same distances.
+        /// From then on <see cref="FromSources"/>, <see cref="FromSourcesWithin"/>, <see cref="FromPoints"/>,
+        /// <see cref="NearestSources"/> and <see cref="FarthestPoints"/> use so many threads, which begin and end
+        /// within each call, for the same answers.
         /// </summary>
         /// <param name="threads">1 at first; 0 means one per processor; at most 1024.</param>
         /// <exception cref="ArgumentOutOfRangeException">These are fewer than 0.</exception>

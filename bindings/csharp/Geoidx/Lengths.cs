@@ -2,11 +2,11 @@ namespace Geoidx
 {
     internal static class Lengths
     {
-        internal static void CheckEqual(int questions, int distances)
+        internal static void CheckEqual(int questions, int answers, string name = "distances")
         {
-            if (questions != distances)
+            if (questions != answers)
                 throw new GeodesicArgumentException(
-                    $"distances.Length is {distances}, but {questions} are asked for");
+                    $"{name}.Length is {answers}, but {questions} are asked for");
         }
     }
 }

@@ -6,10 +6,13 @@ import unittest
 from unittest import mock
 
 import numpy as np
-from meshes import hills, plane
+from meshes import hills, plane, straight
 
 import geoidx
-from geoidx import _matrix
+from geoidx import _matrix, _query
+
+EXACT_ON_A_PLANE = ("overlay", (3,)), ("overlay", (1,)), ("graph", (1,))
+"""Engines and patches whose distances on a small plane are straight, or nearly so."""
 
 
 class Queries(unittest.TestCase):
@@ -74,21 +77,41 @@ class Sssd(Queries):
 
 
 class Matrix(Queries):
-    def test_is_sssd_of_each_pair(self):
-        a, b = [5, 0, 250], [9, 200, 5, 5]
-        matrix = self.index.matrix(a, b)
-        self.assertEqual((matrix.shape, matrix.dtype), ((3, 4), np.float32))
-        np.testing.assert_array_equal(matrix, self.index.sssd(np.array(a)[:, None], b))
-        np.testing.assert_array_equal(self.index.matrix(a), self.index.matrix(a, a))
-        self.assertEqual(self.index.matrix([], b).shape, (0, 4))
-        self.assertEqual(self.index.matrix(a, []).shape, (3, 0))
-        self.assertEqual(self.index.matrix(4, b).shape, (1, 4))
+    def assert_one_way(self, sources, targets, matrix):
+        """Of the two lists as they are: pairs, or fields from the sources, or fields from the targets."""
+        ways = [
+            self.index.sssd(sources[:, None], targets),
+            self.index.ssad(sources)[:, targets],
+            self.index.ssad(targets)[:, sources].T,
+        ]
+        self.assertTrue(any(np.array_equal(matrix, way) for way in ways))
 
-    def test_few_vertices_are_pairs(self):
-        for count in (1, 2, 9, 24):
-            a = np.arange(count) * 10
-            for matrix in (self.index.matrix(a), self.index.matrix(a, a.copy())):
-                np.testing.assert_array_equal(matrix, self.index.sssd(a[:, None], a))
+    def test_every_entry_is_found_in_the_same_way(self):
+        a, b = np.array([5, 0, 250]), np.array([9, 200, 5, 5])
+        everything = np.arange(self.n)
+        for asked in (self.index, self.query):
+            for sources, targets in ((a, b), (b, a), (a, everything), (everything, a), (everything, everything[::-1])):
+                matrix = asked.matrix(sources, targets)
+                self.assertEqual((matrix.shape, matrix.dtype), ((len(sources), len(targets)), np.float32))
+                self.assert_one_way(sources, targets, matrix)
+                np.testing.assert_array_equal(matrix, self.index.matrix(sources, targets))
+            self.assertFalse(asked.matrix(a, b)[0, 2:].any())
+
+    def test_shapes(self):
+        a, b = [5, 0, 250], [9, 200, 5, 5]
+        for asked in (self.index, self.query):
+            np.testing.assert_array_equal(asked.matrix(a), asked.matrix(a, a))
+            self.assertEqual(asked.matrix([], b).shape, (0, 4))
+            self.assertEqual(asked.matrix(a, []).shape, (3, 0))
+            self.assertEqual(asked.matrix([]).shape, (0, 0))
+            self.assertEqual(asked.matrix(4, b).shape, (1, 4))
+            self.assertEqual(asked.matrix(4).shape, (1, 1))
+            with self.assertRaises(geoidx.InvalidArgumentError):
+                asked.matrix([a], b)
+
+    def test_one_pair_is_sssd(self):
+        self.assertEqual(self.index.matrix(5, 200), self.index.sssd(5, 200))
+        self.assertEqual(self.query.matrix(200, 5), self.index.sssd(5, 200))
 
     def test_many_columns_are_fields_of_the_rows(self):
         a, b = np.arange(3, 22), np.arange(self.n)[::-1].repeat(2)
@@ -96,24 +119,25 @@ class Matrix(Queries):
         self.assertTrue((fields != self.index.sssd(a[:, None], b)).any())  # the test can tell them apart
         np.testing.assert_array_equal(self.index.matrix(a, b), fields)
         np.testing.assert_array_equal(self.index.matrix(b, a), fields.T)
-        same_length = np.arange(self.n), np.arange(self.n)[::-1]
-        np.testing.assert_array_equal(self.index.matrix(*same_length), self.index.ssad(same_length[0])[:, ::-1])
 
     def test_equal_rows_and_columns_are_symmetric(self):
         a = np.random.default_rng(5).permutation(self.n)
         fields = self.index.ssad(a)[:, a]
         self.assertTrue((fields != fields.T).any())
-        for a_again in (None, list(a)):
-            matrix = self.index.matrix(a, a_again)
-            np.testing.assert_array_equal(matrix, matrix.T)
-            np.testing.assert_array_equal(matrix, (fields + fields.T) / 2)
-            self.assertFalse(np.diag(matrix).any())
+        for asked in (self.index, self.query):
+            for a_again in (None, list(a)):
+                matrix = asked.matrix(a, a_again)
+                np.testing.assert_array_equal(matrix, matrix.T)
+                np.testing.assert_array_equal(matrix, (fields + fields.T) / 2)
+                self.assertFalse(np.diag(matrix).any())
+            for count in (1, 2, 9, 24):
+                matrix = asked.matrix(a[:count])
+                np.testing.assert_array_equal(matrix, matrix.T)
+                self.assertFalse(np.diag(matrix).any())
 
-    def test_strips_of_a_few_pairs(self):
+    def test_strips_of_a_few_entries(self):
         for at_once in (1, 30, 255):
-            with mock.patch.object(_matrix, "_PAIRS_AT_ONCE", at_once):
-                self.test_is_sssd_of_each_pair()
-                self.test_few_vertices_are_pairs()
+            with mock.patch.object(_matrix, "_ENTRIES_AT_ONCE", at_once):
                 self.test_equal_rows_and_columns_are_symmetric()
 
     def test_by_the_graph_engine(self):
@@ -160,46 +184,184 @@ class Matrix(Queries):
         np.testing.assert_array_equal(out, self.index.matrix([1, 2]))
 
 
-class WorkOfAMatrix(unittest.TestCase):
-    """How many pairs and fields are asked for, on a mesh of 43,243 vertices."""
+class Nearest(Queries):
+    def test_no_other_source_is_nearer(self):
+        sources = [5, 200, 41, 120]
+        exact = np.stack([geoidx.Solver(*self.mesh).distances(source) for source in sources])
+        nearest, second = np.sort(exact, axis=0)[:2]
+        clear = second > 1.2 * nearest
+        self.assertGreater(clear.sum(), self.n / 2)
+        everywhere = self.index.nearest(sources)
+        for asked in (self.index, self.query):
+            out = np.zeros(self.n, np.float32)
+            positions = asked.nearest(sources, out=out)
+            self.assertEqual((positions.shape, positions.dtype), ((self.n,), np.uint32))
+            np.testing.assert_array_equal(positions[clear], exact.argmin(axis=0)[clear])
+            np.testing.assert_array_equal(positions[sources], np.arange(4))
+            own = self.index.ssad(sources)[positions, np.arange(self.n)]
+            np.testing.assert_allclose(own, self.index.msad(sources), rtol=0.02)
+            np.testing.assert_array_equal(out, self.index.msad(sources))
+            np.testing.assert_array_equal(asked.nearest(sources), everywhere)
 
-    def work(self, row_count, column_count, first_column=0, engine=geoidx.Engine.OVERLAY):
-        asked = {"pairs": 0, "fields": 0, "fields at once": 0}
+    def test_halves_of_a_plane(self):
+        vertices, faces = plane(20, 4)
+        index = geoidx.Index.build(vertices, faces, patches=(3,))
+        np.testing.assert_array_equal(index.nearest([20, 39]), vertices[:, 0] > 9.5)
+        np.testing.assert_array_equal(index.nearest([39, 20]), vertices[:, 0] < 9.5)
 
-        def pairs(vertices, distances):
-            asked["pairs"] += distances.size
+    def test_one_source_and_repeated_ones(self):
+        for asked in (self.index, self.query):
+            self.assertFalse(asked.nearest(7).any())
+            self.assertFalse(asked.nearest([7, 7]).any())
+            positions = asked.nearest([5, 200, 5, 200])
+            np.testing.assert_array_equal(positions, asked.nearest([5, 200]))
 
-        def fields(sources):
-            asked["fields"] += sources.size
-            asked["fields at once"] = max(asked["fields at once"], sources.size)
-            return np.zeros((sources.size, 43243), np.float32)
+    def test_where_no_source_is_reached(self):
+        self.assertEqual(geoidx.NO_SOURCE, 0xFFFFFFFF)
+        vertices, faces = plane(3, 3)
+        two = np.concatenate([vertices, vertices + 10, [[0, 0, 50]]]), np.concatenate([faces, faces + 9])
+        for engine in geoidx.Engine:
+            index = geoidx.Index.build(*two, engine=engine)
+            out = np.zeros(19, np.float32)
+            positions = index.nearest([12, 3], out=out)
+            np.testing.assert_array_equal(positions, [1] * 9 + [0] * 9 + [geoidx.NO_SOURCE])
+            np.testing.assert_array_equal(out, index.msad([12, 3]))
+            positions = index.nearest(18)
+            np.testing.assert_array_equal(positions, [geoidx.NO_SOURCE] * 18 + [0])
 
-        rows = np.arange(row_count, dtype=np.uint32)
-        columns = np.arange(first_column, first_column + column_count, dtype=np.uint32)
-        distances = np.empty((row_count, column_count), np.float32)
-        _matrix.Matrix(engine, 43243, pairs, fields).fill(rows, columns, distances)
-        return asked
+    def test_what_is_wrong_is_refused(self):
+        for asked in (self.index, self.query):
+            for sources in ([], [self.n], [[1, 2]]):
+                with self.assertRaises(geoidx.InvalidArgumentError):
+                    asked.nearest(sources)
+            with self.assertRaises(geoidx.InvalidArgumentError):
+                asked.nearest(4, out=np.zeros(self.n + 1, np.float32))
+            with self.assertRaises(TypeError):
+                asked.nearest(4, out=np.zeros(self.n))
 
-    def test_many_landmarks_are_a_field_each(self):
-        expected = {"pairs": 0, "fields": 1000, "fields at once": 16}
-        self.assertEqual(self.work(1000, 1000), expected)
-        self.assertEqual(self.work(1000, 1000, first_column=1), expected)
 
-    def test_the_shorter_side_is_the_source(self):
-        for rows, columns in ((20, 900), (900, 20)):
-            self.assertEqual(self.work(rows, columns, first_column=5)["fields"], 20)
+class Within(Queries):
+    def assert_in_order(self, vertices, distances, field):
+        """They are all vertices that the field reaches, with its distances."""
+        order = np.lexsort((np.arange(field.size), field))[: np.isfinite(field).sum()]
+        self.assertEqual((vertices.dtype, distances.dtype), (np.uint32, np.float32))
+        np.testing.assert_array_equal(vertices, order)
+        np.testing.assert_array_equal(distances, field[order])
 
-    def test_few_rows_and_columns_are_pairs(self):
-        for rows, columns in ((1, 10), (10, 1), (50, 60)):
-            expected = {"pairs": rows * columns, "fields": 0, "fields at once": 0}
-            self.assertEqual(self.work(rows, columns, first_column=5), expected)
-            graph = self.work(rows, columns, first_column=5, engine=geoidx.Engine.GRAPH)
-            self.assertEqual(graph["fields"], min(rows, columns))
+    def test_a_disk_of_a_plane(self):
+        mesh = plane(9, 9)
+        exact = straight(mesh[0], 40, np.arange(81))
+        for engine, patches in EXACT_ON_A_PLANE:
+            vertices, distances = geoidx.Index.build(*mesh, engine=engine, patches=patches).within(40, 2.5)
+            self.assertEqual(sorted(vertices), list(np.flatnonzero(exact < 2.5)))
+            self.assertEqual((vertices[0], distances[0]), (40, 0))
+            np.testing.assert_allclose(distances, exact[vertices], rtol=0.02)
+            self.assertTrue((np.diff(distances) >= 0).all())
 
-    def test_a_square_of_pairs_is_little_more_than_half_of_it(self):
-        asked = self.work(100, 100)
-        self.assertEqual(asked["fields"], 0)
-        self.assertLess(asked["pairs"], 0.6 * 100 * 100)
+    def test_of_one_source_as_msad(self):
+        for asked in (self.index, self.query):
+            for radius in (0, 1.5, 5, 1e300, math.inf):
+                self.assert_in_order(*asked.within(4, radius), asked.msad(4, radius=radius))
+
+    def test_of_several_sources_the_least(self):
+        for asked in (self.index, self.query):
+            for radius in (2, 5.5):
+                field = np.min([asked.msad(source, radius=radius) for source in (4, 240, 120)], axis=0)
+                self.assert_in_order(*asked.within([240, 4, 120, 4], radius), field)
+
+    def test_the_sources_alone(self):
+        for asked in (self.index, self.query):
+            vertices, distances = asked.within([9, 4, 9], 0)
+            np.testing.assert_array_equal(vertices, [4, 9])
+            np.testing.assert_array_equal(distances, [0, 0])
+
+    def test_more_than_there_is_room_for_at_first(self):
+        expected = self.query.within([4, 240], 5)
+        count = len(expected[0])
+        self.assertTrue(10 < count < self.n)
+        for room in (1, count - 1, count, count + 1):
+            with mock.patch.object(_query, "_LIKELY_COUNT", room):
+                for asked in (self.index, self.query):
+                    for found, wanted in zip(asked.within([4, 240], 5), expected):
+                        np.testing.assert_array_equal(found, wanted)
+
+    def test_separate_parts(self):
+        vertices, faces = plane(3, 3)
+        index = geoidx.Index.build(np.concatenate([vertices, vertices + 10]), np.concatenate([faces, faces + 9]))
+        self.assertEqual(sorted(index.within(0, 100)[0]), list(range(9)))
+        self.assertEqual(sorted(index.within([10, 3], 100)[0]), list(range(18)))
+
+    def test_what_is_wrong_is_refused(self):
+        for asked in (self.index, self.query):
+            for sources in ([], [self.n], [[1, 2]]):
+                with self.assertRaises(geoidx.InvalidArgumentError):
+                    asked.within(sources, 1)
+            for radius in (-1, math.nan, 10**400):
+                with self.assertRaisesRegex(geoidx.InvalidArgumentError, "radius"):
+                    asked.within(4, radius)
+            for radius in ("5", None, [5]):
+                with self.assertRaises(TypeError):
+                    asked.within(4, radius)
+
+
+class NearestTargets(Queries):
+    def test_on_a_plane(self):
+        mesh = plane(9, 9)
+        targets = [80, 10, 4, 10, 0]
+        for engine, patches in EXACT_ON_A_PLANE:
+            index = geoidx.Index.build(*mesh, engine=engine, patches=patches)
+            for count in (0, 1, 3, 5, 6, 0xFFFFFFFF):
+                positions, distances = index.nearest_targets(0, targets, count)
+                self.assertEqual((positions.dtype, distances.dtype), (np.uint32, np.float32))
+                np.testing.assert_array_equal(positions, [4, 1, 3, 2, 0][:count])
+                expected = np.sqrt([0, 2, 2, 16, 128])[:count]
+                np.testing.assert_allclose(distances, expected, rtol=0.02)
+
+    def test_no_other_target_is_nearer(self):
+        field = self.index.msad(100)
+        exact = geoidx.Solver(*self.mesh).distances(100)
+        targets = np.random.default_rng(3).permutation(self.n)
+        for asked in (self.index, self.query):
+            for some in (targets[:6], targets[:60], targets, targets.repeat(2)):
+                for count in (1, 5, len(some)):
+                    positions, distances = asked.nearest_targets(100, some, count)
+                    self.assertEqual((len(positions), len(distances)), (min(count, len(some)),) * 2)
+                    self.assertEqual(len(set(positions)), len(positions))
+                    self.assertTrue((np.diff(distances) >= 0).all())
+                    np.testing.assert_allclose(distances, field[some[positions]], rtol=0.05)
+                    others = np.delete(exact[some], positions)
+                    self.assertTrue((others >= 0.8 * distances[-1]).all())
+
+    def test_as_the_query_does(self):
+        targets = [250, 7, 41, 8, 120, 7]
+        expected = self.query.nearest_targets(4, targets, 4)
+        for found, wanted in zip(self.index.nearest_targets(4, targets, 4), expected):
+            np.testing.assert_array_equal(found, wanted)
+
+    def test_targets_that_cannot_be_reached(self):
+        vertices, faces = plane(3, 3)
+        two = np.concatenate([vertices, vertices + 10, [[0, 0, 50]]]), np.concatenate([faces, faces + 9])
+        for engine in geoidx.Engine:
+            index = geoidx.Index.build(*two, engine=engine)
+            positions, distances = index.nearest_targets(0, [12, 3, 18, 1], 4)
+            np.testing.assert_array_equal(positions, [1, 3])
+            np.testing.assert_allclose(distances, [1, 1], rtol=1e-3)
+            self.assertEqual(index.nearest_targets(18, [0, 12], 2)[0].size, 0)
+
+    def test_one_target_and_none(self):
+        for asked in (self.index, self.query):
+            positions, distances = asked.nearest_targets(4, 240, 1)
+            np.testing.assert_array_equal(positions, [0])
+            np.testing.assert_allclose(distances, self.index.sssd(4, 240), rtol=0.02)
+            self.assertEqual([found.size for found in asked.nearest_targets(4, [], 3)], [0, 0])
+
+    def test_what_is_wrong_is_refused(self):
+        for asked in (self.index, self.query):
+            for source, targets, count in ((self.n, [0], 1), (0, [self.n], 1), (0, [[1]], 1), (0, [1], -1)):
+                with self.assertRaises(geoidx.InvalidArgumentError):
+                    asked.nearest_targets(source, targets, count)
+            with self.assertRaises(TypeError):
+                asked.nearest_targets(0, [1], 1.0)
 
 
 class Fields(Queries):
@@ -301,10 +463,12 @@ class Prepared(Queries):
 class Threads(Queries):
     def test_the_same_bits(self):
         expected = self.index.msad([4, 240])
+        nearest = self.index.nearest([4, 240])
         for threads in (1, 2, 0):
             with self.index.query(threads=threads) as query:
                 self.assertEqual(query.threads, threads)
                 np.testing.assert_array_equal(query.msad([4, 240]), expected)
+                np.testing.assert_array_equal(query.nearest([4, 240]), nearest)
 
     def test_out_of_range(self):
         for threads in (-1, 1025, 1 << 40):
@@ -321,9 +485,13 @@ class Ids(Queries):
         self.query.prepare(0)
         yield lambda v: self.index.sssd(v, 0)
         yield lambda v: self.index.sssd([0, 1], [v, v])
-        yield lambda v: self.index.matrix([0, v])
-        yield lambda v: self.index.matrix([0], [v])
         for asked in (self.index, self.query):
+            yield lambda v: asked.matrix([0, v])
+            yield lambda v: asked.matrix([0], [v])
+            yield lambda v: asked.nearest([0, v])
+            yield lambda v: asked.within([0, v], 1.0)
+            yield lambda v: asked.nearest_targets(v, [0], 1)
+            yield lambda v: asked.nearest_targets(0, [0, v], 1)
             yield lambda v: asked.msad([0, v])
             yield lambda v: asked.ssad([0, v])
             yield lambda v: asked.msad([0, v], radius=1.0)
@@ -350,7 +518,14 @@ class Ids(Queries):
 
     def test_truth_values_are_no_vertices(self):
         for true in (True, np.True_):
-            for call in (self.index.msad, self.index.ssad, self.query.prepare, lambda v: self.query.sssd(v, 2)):
+            for call in (
+                self.index.msad,
+                self.index.ssad,
+                self.index.nearest,
+                self.query.prepare,
+                lambda v: self.query.sssd(v, 2),
+                lambda v: self.query.nearest_targets(v, [2], 1),
+            ):
                 with self.assertRaises(TypeError):
                     call(true)
             with self.assertRaises(TypeError):
@@ -358,8 +533,9 @@ class Ids(Queries):
 
     def test_rows_of_different_lengths(self):
         solver = geoidx.Solver(*self.mesh)
-        calls = (self.index.msad, self.index.ssad, self.index.matrix, solver.distances, self.query.prepared)
-        for call in (*calls, lambda v: self.index.sssd(v, 1), lambda v: solver.distances(0, v)):
+        calls = (self.index.msad, self.index.ssad, self.index.matrix, self.index.nearest, self.query.prepared)
+        two = (lambda v: self.index.sssd(v, 1), lambda v: self.index.within(v, 1), lambda v: solver.distances(0, v))
+        for call in (*calls, *two, solver.distances):
             with self.assertRaises((geoidx.InvalidArgumentError, TypeError)) as caught:  # the latter by old NumPy
                 call([[1], [2, 3]])
             self.assertNotEqual(type(caught.exception), ValueError)

@@ -24,6 +24,11 @@ def ask(vertices: NDArray[np.float32], faces: NDArray[np.int64]) -> None:
         distances = index.sssd([[0], [1]], 0)
         field: NDArray[np.float32] = index.msad([0, 1], radius=2 * distance)
         index.ssad(3, out=field)
+        distances = index.matrix(faces[0], [0, 1], out=index.matrix([0, 1, 2]))
+        owners: NDArray[np.uint32] = index.nearest([0, 1], out=field)
+        owners = owners[owners != geoidx.NO_SOURCE]
+        ids, distances = index.within([0, 1], 2 * distance)
+        order, distances = index.nearest_targets(0, ids, np.int64(3))
         with index.query(threads=2) as query:
             query.prepare(3)
             distance = query.prepared(2)
@@ -34,6 +39,10 @@ def ask(vertices: NDArray[np.float32], faces: NDArray[np.int64]) -> None:
             way: geoidx.Path | None = query.path(surface, foot, foot, quality="exact")
             if way is not None:
                 distances = query.point_msad(surface, way.points, offsets=[height])
+            distances = query.matrix(ids, order)
+            owners = query.nearest(3)
+            ids, distances = query.within(3, 1)
+            order, distances = query.nearest_targets(3, faces[:, 0], 2)
             chosen: NDArray[np.uint32] = query.farthest_points(3, sources=[0])
             distances = query.prepared(chosen)
         diagonal: float = index.info.bounding_box_diagonal

@@ -28,6 +28,15 @@ namespace Geoidx
             this GeodesicIndex index, NativeArray<int> sources, NativeArray<float> distances) =>
             index.FromEachSource(Read(sources), Written(distances));
 
+        /// <summary>
+        /// The distance from every source to every target, in the mesh's unit: that from sources[i] to targets[j] at
+        /// i * targets.Length + j.
+        /// </summary>
+        public static void Matrix(
+            this GeodesicIndex index, NativeArray<int> sources, NativeArray<int> targets,
+            NativeArray<float> distances) =>
+            index.Matrix(Read(sources), Read(targets), Written(distances));
+
         /// <summary>The distance of every vertex to the nearest source (MSAD), in the mesh's unit.</summary>
         public static void FromSources(
             this GeodesicQuery query, NativeArray<int> sources, NativeArray<float> distances) =>
@@ -47,6 +56,42 @@ namespace Geoidx
         public static void FromEachSource(
             this GeodesicQuery query, NativeArray<int> sources, NativeArray<float> distances) =>
             query.FromEachSource(Read(sources), Written(distances));
+
+        /// <summary>
+        /// The distance from every source to every target, in the mesh's unit: that from sources[i] to targets[j] at
+        /// i * targets.Length + j.
+        /// </summary>
+        public static void Matrix(
+            this GeodesicQuery query, NativeArray<int> sources, NativeArray<int> targets,
+            NativeArray<float> distances) =>
+            query.Matrix(Read(sources), Read(targets), Written(distances));
+
+        /// <summary>The nearest source to every vertex, and how far it is, in the mesh's unit.</summary>
+        public static void NearestSources(
+            this GeodesicQuery query, NativeArray<int> sources, NativeArray<int> nearest,
+            NativeArray<float> distances) =>
+            query.NearestSources(Read(sources), Written(nearest), Written(distances));
+
+        /// <summary>
+        /// The vertices that are no farther than a radius from the nearest source, the nearest first, and how far they
+        /// are, in the mesh's unit.
+        /// </summary>
+        /// <returns>How many vertices are within the radius, which may be more than there is room for.</returns>
+        public static int Within(
+            this GeodesicQuery query, NativeArray<int> sources, float radius, NativeArray<int> vertices,
+            NativeArray<float> distances) =>
+            query.Within(Read(sources), radius, Written(vertices), Written(distances));
+
+        /// <summary>
+        /// The positions of the nearest of some targets, the nearest first, and how far they are, in the mesh's unit.
+        /// </summary>
+        /// <returns>
+        /// How many targets there are: fewer than there is room for only if no more of them can be reached.
+        /// </returns>
+        public static int NearestTargets(
+            this GeodesicQuery query, int source, NativeArray<int> targets, NativeArray<int> positions,
+            NativeArray<float> distances) =>
+            query.NearestTargets(source, Read(targets), Written(positions), Written(distances));
 
         /// <summary>The distances from the prepared source to targets, in the mesh's unit.</summary>
         public static void FromPrepared(

@@ -33,6 +33,7 @@ facts() {
     printf '#include <stddef.h>\n#include <stdio.h>\n#include "geoidx.h"\nint main(void) {\n'
     facts
     printf 'printf("version %%d\\n", GEOIDX_VERSION_MAJOR * 10000 + GEOIDX_VERSION_MINOR * 100 + GEOIDX_VERSION_PATCH);\n'
+    printf 'printf("constant GEOIDX_NO_SOURCE %%d\\n", (int)GEOIDX_NO_SOURCE);\n'
     printf 'return 0;\n}\n'
 } >"$out/header.c"
 cc -I"$include" -o "$out/header" "$out/header.c"

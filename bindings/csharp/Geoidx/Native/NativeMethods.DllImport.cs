@@ -85,6 +85,11 @@ namespace Geoidx
             IndexHandle index, int* sources, uint source_count, float* distances, ulong distance_count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_matrix(
+            IndexHandle index, int* sources, uint source_count, int* targets, uint target_count,
+            float* distances, ulong distance_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_query_create(IndexHandle index, out IntPtr query);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
@@ -106,6 +111,26 @@ namespace Geoidx
         internal static extern GeodesicStatus geoidx_query_msad_within(
             QueryHandle query, int* sources, uint source_count, float radius, float* distances,
             uint distance_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_matrix(
+            QueryHandle query, int* sources, uint source_count, int* targets, uint target_count,
+            float* distances, ulong distance_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_nearest_sources(
+            QueryHandle query, int* sources, uint source_count, int* nearest, float* distances,
+            uint vertex_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_within(
+            QueryHandle query, int* sources, uint source_count, float radius, int* vertices, float* distances,
+            uint capacity, out uint count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_nearest_targets(
+            QueryHandle query, int source, int* targets, uint target_count, int* positions, float* distances,
+            uint capacity, out uint count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_query_farthest_points(

@@ -83,6 +83,11 @@ namespace Geoidx
             IndexHandle index, int* sources, uint source_count, float* distances, ulong distance_count);
 
         [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_matrix(
+            IndexHandle index, int* sources, uint source_count, int* targets, uint target_count,
+            float* distances, ulong distance_count);
+
+        [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_query_create(IndexHandle index, out IntPtr query);
 
         [LibraryImport(Library)]
@@ -104,6 +109,26 @@ namespace Geoidx
         internal static partial GeodesicStatus geoidx_query_msad_within(
             QueryHandle query, int* sources, uint source_count, float radius, float* distances,
             uint distance_count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_matrix(
+            QueryHandle query, int* sources, uint source_count, int* targets, uint target_count,
+            float* distances, ulong distance_count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_nearest_sources(
+            QueryHandle query, int* sources, uint source_count, int* nearest, float* distances,
+            uint vertex_count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_within(
+            QueryHandle query, int* sources, uint source_count, float radius, int* vertices, float* distances,
+            uint capacity, out uint count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_nearest_targets(
+            QueryHandle query, int source, int* targets, uint target_count, int* positions, float* distances,
+            uint capacity, out uint count);
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_query_farthest_points(

@@ -32,7 +32,16 @@ from ._errors import (
 from ._index import Index
 from ._info import Info
 from ._metrics import Callback, Edges, Exact, Metric, MetricKind, MetricLike, Weighted
-from ._native import HEADER_VERSION, AllocateFn, Allocator, ReleaseFn, library, version_of, version_text
+from ._native import (
+    HEADER_VERSION,
+    NO_SOURCE,
+    AllocateFn,
+    Allocator,
+    ReleaseFn,
+    library,
+    version_of,
+    version_text,
+)
 from ._options import Codec, Engine
 from ._query import Query
 from ._sections import Coding, Section
@@ -45,6 +54,7 @@ library_version = version_text(version_of(library))
 """The release of the native library in use."""
 
 __all__ = [
+    "NO_SOURCE",
     "SURFACE_POINT",
     "AllocateFn",
     "Allocator",

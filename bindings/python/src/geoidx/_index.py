@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _fields, _native
-from ._arrays import UINT64_MAX, Ids, Vertex, Vertices, address, broadcast, id_list, ids, output, whole_number
+from ._arrays import UINT64_MAX, Ids, Vertex, Vertices, address, broadcast, ids, whole_number
 from ._callbacks import Progress
 from ._errors import Path, check
 from ._fields import Distances
 from ._files import bytes_of_buffer, native_path
 from ._handle import Closable, Handle
 from ._info import Info, info_of
-from ._matrix import Matrix
+from ._matrix import matrix
 from ._mesh import MeshView
 from ._metrics import MetricLike
 from ._native import Allocator, library
@@ -308,35 +308,24 @@ class Index(Closable):
         _fields.pairwise(library.geoidx_sssd_batch, self._handle, pairs, distances)
         return distances if distances.ndim else float(distances)
 
-    def matrix(self, a: ArrayLike, b: ArrayLike | None = None, *, out: Distances | None = None) -> Distances:
-        """(len(a), len(b)) distances between the vertices of a and those of b; b: a, unless given.
+    def matrix(
+        self, sources: ArrayLike, targets: ArrayLike | None = None, *, out: Distances | None = None
+    ) -> Distances:
+        """(len(sources), len(targets)) distances from each source to each target; targets: sources, unless given.
 
-        Takes the faster of two ways, by the numbers of rows, columns and vertices: for few columns or rows, pairs,
-        with the same bits as `sssd` gives; for many, fields, with those of `ssad` from the shorter of a and b (a, where
-        both are as long). Both are as near the metric on average; they differ by some hundredths of a percent, for
-        single pairs by 1 % and more. By the graph engine they agree to float precision. The same a, b and index
-        always give the same bits. Who needs the answers of one way asks for `sssd(a[:, None], b)` or `ssad(a)[:, b]`.
+        Takes the faster of two ways: for few vertices, pairs, with the same bits as `sssd` gives; for many, fields,
+        with those of `ssad` from the sources or from the targets. Both are as near the metric on average; they differ
+        by some hundredths of a percent, for single pairs by 1 % and more. By the graph engine they agree to float
+        precision. Who needs the answers of one way asks for `sssd(sources[:, None], targets)` or
+        `ssad(sources)[:, targets]`.
 
-        Where a and b are equal, the matrix is symmetric bit for bit, with zeros on the diagonal: of fields, the mean
-        of both ways is taken. In every matrix a vertex is 0 from itself.
+        Where sources and targets are equal, the matrix is symmetric bit for bit, with zeros on the diagonal: of
+        fields, the mean of both ways is taken. In every matrix a vertex is 0 from itself.
 
-        out: float32 of that shape, C-contiguous, to be written to and returned. Besides it, memory for 16 fields or
-        2^18 pairs is taken.
+        sources, targets: a vertex or (k,) of them.
+        out: float32 of that shape, C-contiguous, to be written to and returned.
         """
-        handle = self._handle
-        rows = id_list(a, "a")
-        columns = rows if b is None else id_list(b, "b")
-        distances = output(out, (rows.size, columns.size), np.float32)
-        n = self._info.vertex_count
-
-        def pairs(vertices: Ids, part: Distances) -> None:
-            _fields.pairwise(library.geoidx_sssd_batch, handle, vertices, part)
-
-        def fields(sources: Ids) -> Distances:
-            return _fields.ssad(library.geoidx_ssad_batch, handle, sources, n, None)
-
-        Matrix(self._info.engine, n, pairs, fields).fill(rows, columns, distances)
-        return distances
+        return matrix(library.geoidx_matrix, self._handle, sources, targets, out)
 
     def msad(self, sources: ArrayLike, *, radius: float = math.inf, out: Distances | None = None) -> Distances:
         """Multiple sources, all destinations: (n,) distances to the nearest of the sources.
@@ -357,6 +346,43 @@ class Index(Closable):
         """
         return _fields.ssad(library.geoidx_ssad_batch, self._handle, sources, self.vertex_count, out)
 
+    def nearest(self, sources: ArrayLike, *, out: Distances | None = None) -> Ids:
+        """Which source is the nearest to each vertex: (n,) positions in sources, NO_SOURCE where none is reached.
+
+        Of several sources that are as near, it is one whose choice depends on the index alone; of a vertex that is
+        repeated, the first.
+
+        sources: a vertex or (k,) of them, at least one.
+        out: (n,) float32, C-contiguous, to be written to: the distances, the same bits as those of `msad`.
+        """
+        with self.query() as query:
+            return query.nearest(sources, out=out)
+
+    def within(self, sources: ArrayLike, radius: float) -> tuple[Ids, Distances]:
+        """The vertices that are no farther than radius from the nearest of the sources, and how far they are.
+
+        Two arrays of the same length, the nearest first, of those that are as near the one with the least id. By the
+        overlay engine the search takes time in proportion to what lies within the radius. `Query.within` keeps its
+        scratch of 12 bytes a vertex for the next call, and is faster where many are asked for.
+
+        sources: a vertex or (k,) of them, at least one.
+        """
+        with self.query() as query:
+            return query.within(sources, radius)
+
+    def nearest_targets(
+        self, source: SupportsIndex, targets: ArrayLike, count: SupportsIndex
+    ) -> tuple[Ids, Distances]:
+        """The targets that are nearest to the source, as positions in targets, and how far they are.
+
+        Two arrays of the same length, the nearest first, of those that are as near the one that comes first. There
+        are fewer than count only if no other target can be reached.
+
+        targets: a vertex or (k,) of them.
+        """
+        with self.query() as query:
+            return query.nearest_targets(source, targets, count)
+
     def farthest_points(self, count: SupportsIndex, *, sources: ArrayLike = 0) -> Ids:
         """Farthest-point sampling: (count,) vertices, each the farthest from the sources and from those before it.
 
@@ -367,7 +393,7 @@ class Index(Closable):
             return query.farthest_points(count, sources=sources)
 
     def query(self, *, threads: int = 1) -> Query:
-        """Scratch for the queries of one thread; `threads` is how many its `msad` uses, 0: one per processor."""
+        """Scratch for the queries of one thread; `threads` as in `Query.threads`, 0: one per processor."""
         query = Query(self._handle, self.vertex_count)
         if threads != 1:
             query.threads = threads

@@ -34,6 +34,9 @@ OPEN_BORROW = 2
 OPEN_NO_LABELS = 4
 SAVE_NO_POSITIONS = 1
 
+NO_SOURCE = 0xFFFFFFFF
+"""What `nearest` gives for a vertex that no source reaches."""
+
 AllocateFn = CFUNCTYPE(c_void_p, c_void_p, c_uint64, c_uint64)
 ReleaseFn = CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint64)
 MetricFn = CFUNCTYPE(c_int32, c_void_p, c_uint32, c_void_p, c_uint32, c_void_p)
@@ -213,12 +216,23 @@ FUNCTIONS = {
     "geoidx_sssd_batch": (c_int32, [c_void_p, c_void_p, c_uint64, c_void_p]),
     "geoidx_msad": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint32]),
     "geoidx_ssad_batch": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint64]),
+    "geoidx_matrix": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint32, c_void_p, c_uint64]),
     "geoidx_query_create": (c_int32, [c_void_p, _HANDLE_OUT]),
     "geoidx_query_close": (None, [c_void_p]),
     "geoidx_query_sssd": (c_int32, [c_void_p, c_uint32, c_uint32, POINTER(c_float)]),
     "geoidx_query_msad": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint32]),
     "geoidx_query_ssad_batch": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint64]),
     "geoidx_query_msad_within": (c_int32, [c_void_p, c_void_p, c_uint32, c_float, c_void_p, c_uint32]),
+    "geoidx_query_matrix": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint32, c_void_p, c_uint64]),
+    "geoidx_query_nearest_sources": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p, c_uint32]),
+    "geoidx_query_within": (
+        c_int32,
+        [c_void_p, c_void_p, c_uint32, c_float, c_void_p, c_void_p, c_uint32, POINTER(c_uint32)],
+    ),
+    "geoidx_query_nearest_targets": (
+        c_int32,
+        [c_void_p, c_uint32, c_void_p, c_uint32, c_void_p, c_void_p, c_uint32, POINTER(c_uint32)],
+    ),
     "geoidx_query_farthest_points": (
         c_int32,
         [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p, c_void_p, POINTER(c_uint32)],

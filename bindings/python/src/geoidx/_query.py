@@ -26,10 +26,14 @@ from ._arrays import (
 from ._errors import InvalidArgumentError, Status, check
 from ._fields import Distances
 from ._handle import Closable, Handle, OneThread
+from ._matrix import matrix
 from ._native import PathPoint, library
 from ._surface import Path, Surface, SurfacePoints, one_point, point_list
 
 PATH_QUALITIES = ("straight", "exact")
+
+_LIKELY_COUNT = 1024
+"""For so many vertices `within` has room at first. Where there are more, it asks again."""
 
 
 class Query(Closable):
@@ -55,7 +59,10 @@ class Query(Closable):
 
     @property
     def threads(self) -> int:
-        """How many threads `msad` uses, 1 .. 1024; 0: one per processor. 1 at first. By the graph engine one."""
+        """How many threads `msad`, `point_msad`, `nearest` and `farthest_points` use, 1 .. 1024; 0: one per processor.
+
+        1 at first. By the graph engine one.
+        """
         self._handle
         return self._threads
 
@@ -71,6 +78,13 @@ class Query(Closable):
         with self._one_thread:
             return _fields.sssd(library.geoidx_query_sssd, self._handle, source, target)
 
+    def matrix(
+        self, sources: ArrayLike, targets: ArrayLike | None = None, *, out: Distances | None = None
+    ) -> Distances:
+        """As `Index.matrix`."""
+        with self._one_thread:
+            return matrix(library.geoidx_query_matrix, self._handle, sources, targets, out)
+
     def msad(self, sources: ArrayLike, *, radius: float = math.inf, out: Distances | None = None) -> Distances:
         """As `Index.msad`."""
         with self._one_thread:
@@ -85,6 +99,78 @@ class Query(Closable):
         with self._one_thread:
             call = library.geoidx_query_ssad_batch
             return _fields.ssad(call, self._handle, sources, self._vertex_count, out)
+
+    def nearest(self, sources: ArrayLike, *, out: Distances | None = None) -> Ids:
+        """As `Index.nearest`."""
+        source_ids = id_list(sources, "sources")
+        source_count = whole_number(source_ids.size, "the number of sources")
+        distances = None if out is None else output(out, (self._vertex_count,), np.float32)
+        positions = np.empty(self._vertex_count, np.uint32)
+        with self._one_thread:
+            check(
+                library.geoidx_query_nearest_sources(
+                    self._handle,
+                    address(source_ids),
+                    source_count,
+                    address(positions),
+                    None if distances is None else address(distances),
+                    self._vertex_count,
+                )
+            )
+        return positions
+
+    def within(self, sources: ArrayLike, radius: float) -> tuple[Ids, Distances]:
+        """As `Index.within`."""
+        source_ids = id_list(sources, "sources")
+        largest = real_number(radius, "radius")
+        with self._one_thread:
+            capacity = min(_LIKELY_COUNT, self._vertex_count)
+            vertices, distances, count = self._first_within(source_ids, largest, capacity)
+            if count > capacity:
+                vertices, distances, count = self._first_within(source_ids, largest, count)
+        return vertices[:count], distances[:count]
+
+    def _first_within(self, sources: Ids, radius: float, capacity: int) -> tuple[Ids, Distances, int]:
+        """Arrays of `capacity`, filled with the nearest vertices, and how many there are within the radius."""
+        vertices, distances = np.empty(capacity, np.uint32), np.empty(capacity, np.float32)
+        count = c_uint32()
+        check(
+            library.geoidx_query_within(
+                self._handle,
+                address(sources),
+                whole_number(sources.size, "the number of sources"),
+                radius,
+                address(vertices),
+                address(distances),
+                capacity,
+                byref(count),
+            )
+        )
+        return vertices, distances, count.value
+
+    def nearest_targets(
+        self, source: SupportsIndex, targets: ArrayLike, count: SupportsIndex
+    ) -> tuple[Ids, Distances]:
+        """As `Index.nearest_targets`."""
+        target_ids = id_list(targets, "targets")
+        target_count = whole_number(target_ids.size, "the number of targets")
+        capacity = min(whole_number(count, "count"), target_count)
+        positions, distances = np.empty(capacity, np.uint32), np.empty(capacity, np.float32)
+        found = c_uint32()
+        with self._one_thread:
+            check(
+                library.geoidx_query_nearest_targets(
+                    self._handle,
+                    vertex(source),
+                    address(target_ids),
+                    target_count,
+                    address(positions),
+                    address(distances),
+                    capacity,
+                    byref(found),
+                )
+            )
+        return positions[: found.value], distances[: found.value]
 
     def farthest_points(self, count: SupportsIndex, *, sources: ArrayLike = 0) -> Ids:
         """As `Index.farthest_points`."""

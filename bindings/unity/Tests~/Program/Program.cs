@@ -42,6 +42,7 @@ internal static class Program
             NothingIsRefusedByName();
             TheMenuTakesASkinnedMesh();
             NativeArraysGiveTheSameBits();
+            NativeArraysTakeWhatIsNearest();
             ThePageMeasures(index);
             ThePageMeasuresInAJob(index);
             APageThatNeverStartedIsDestroyed();
@@ -182,6 +183,9 @@ internal static class Program
         Check(Written(18, distances => index.FromEachSource(sources, distances)), each);
         Check(Written(9, distances => query.FromSources(sources, distances)), nearest);
         Check(Written(18, distances => query.FromEachSource(sources, distances)), each);
+        float[] matrix = index.Matrix(new[] { 0, 7 }, new[] { 0, 7 });
+        Check(Written(4, distances => index.Matrix(sources, sources, distances)), matrix);
+        Check(Written(4, distances => query.Matrix(sources, sources, distances)), matrix);
         Check(
             Written(9, distances => query.FromSourcesWithin(sources, 1.1f, distances)),
             nearest.Select(distance => distance <= 1.1f ? distance : float.PositiveInfinity).ToArray());
@@ -189,6 +193,22 @@ internal static class Program
         Check(
             Written(2, distances => query.FromPrepared(sources, distances)),
             new[] { index.Distance(2, 0), index.Distance(2, 7) });
+    }
+
+    private static void NativeArraysTakeWhatIsNearest()
+    {
+        using GeodesicIndex index = Strip().ToGeodesicMesh().Build();
+        using GeodesicQuery query = index.CreateQuery();
+        using var sources = new NativeArray<int>(new[] { 0, 7 }, Allocator.TempJob);
+        using var found = new NativeArray<int>(9, Allocator.TempJob);
+        float[] distances = Written(9, written => query.NearestSources(sources, found, written));
+        Check(distances, index.FromSources(0, 7));
+        int[] nearest = { 0, 0, 0, 0, 1, 1, 1, 1, GeodesicQuery.NoSource };
+        Check(found.ToArray().SequenceEqual(nearest), "each vertex has its nearest source");
+        Written(9, written => Check(query.Within(sources, 1.1f, found, written) == 6, "six are within the radius"));
+        Check(found.ToArray().Take(2).SequenceEqual(new[] { 0, 7 }), "sources are nearest to themselves");
+        Written(9, written => Check(query.NearestTargets(6, sources, found, written) == 2, "both are reached"));
+        Check(found.ToArray().Take(2).SequenceEqual(new[] { 1, 0 }), "the nearer target comes first");
     }
 
     private static float[] Written(int length, Action<NativeArray<float>> query)

@@ -1,0 +1,83 @@
+#include "src/overlay/within_sweep.h"
+
+#include <algorithm>
+
+#include "src/overlay/ascend.h"
+
+namespace geodesic {
+
+WithinSweep::WithinSweep(const OverlayIndex& index, std::pmr::memory_resource* memory)
+    : index_(index), numbering_(index.numbering), up_(index, memory), down_(index, 1, memory),
+      distance_(index.numbering.vertex_count(), INFINITE, memory), seen_(memory), found_(memory) {}
+
+// The overlay of a patch on the way up is known once the hop from its child has been made, so that the way
+// down into its other children begins there.
+std::span<const WithinSweep::Found> WithinSweep::sweep(uint32_t source, float radius) {
+    forget();
+    for_each_way_from(index_, source, [&](uint32_t number, float way) { lower(number, way); });
+    uint32_t patch = numbering_.innermost_patch(source);
+    hop_down_to_children(patch, NONE, radius);
+    while (patch != 0 && is_within(patch, radius)) {
+        hop_up(patch);
+        hop_down_to_children(numbering_.parent[patch], patch, radius);
+        patch = numbering_.parent[patch];
+    }
+    collect(radius);
+    return found_;
+}
+
+// What the sweep before has left, too, where a lack of memory ended it.
+void WithinSweep::forget() {
+    for (const uint32_t number : seen_) distance_[number] = INFINITE;
+    seen_.clear();
+}
+
+void WithinSweep::lower(uint32_t number, float way) {
+    if (!(way < distance_[number])) return;
+    if (distance_[number] == INFINITE) seen_.push_back(number);
+    distance_[number] = way;
+}
+
+// Whether any vertex of the patch's border is.
+bool WithinSweep::is_within(uint32_t patch, float radius) const {
+    return std::ranges::any_of(numbering_.border_of(patch), [&](uint32_t number) {
+        return distance_[number] <= radius && distance_[number] < INFINITE;
+    });
+}
+
+// Hops to the overlay of the parent.
+void WithinSweep::hop_up(uint32_t child) {
+    if (!up_.begin(child, {distance_.data()})) return;
+    const std::span<const float> ways = up_.cross();
+    const std::span<const uint32_t> targets = up_.targets();
+    for (size_t r = 0; r < ways.size(); ++r) lower(targets[r], ways[r]);
+}
+
+void WithinSweep::hop_down_to_children(uint32_t patch, uint32_t left_out, float radius) {
+    if (patch >= numbering_.first_leaf()) return;
+    for (uint32_t child = numbering_.child_begin[patch]; child < numbering_.child_begin[patch + 1]; ++child)
+        if (child != left_out) hop_down(child, radius);
+}
+
+// Hops to the inner vertices of a patch and of the patches inside of it.
+void WithinSweep::hop_down(uint32_t patch, float radius) {
+    if (!is_within(patch, radius)) return;
+    if (down_.begin(patch, distance_.data(), radius)) {
+        const uint32_t first = numbering_.first_inner(patch);
+        const std::span<const float> ways = down_.cross();
+        for (uint32_t r = 0; r < ways.size(); ++r) lower(first + r, ways[r]);
+    }
+    hop_down_to_children(patch, NONE, radius);
+}
+
+void WithinSweep::collect(float radius) {
+    found_.clear();
+    nearest_beyond_ = INFINITE;
+    for (const uint32_t number : seen_)
+        if (distance_[number] <= radius)
+            found_.push_back({number, distance_[number]});
+        else
+            nearest_beyond_ = std::min(nearest_beyond_, distance_[number]);
+}
+
+}

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory_resource>
+#include <span>
+
+#include "src/overlay/inner_sweep.h"
+#include "src/overlay/outer_crossing.h"
+#include "src/overlay/tables.h"
+
+namespace geodesic {
+
+// Distances from a single source to the vertices within a radius, in time that depends on these and not on
+// the mesh: the sweep up ends at the first patch whose border is farther, and the sweep down enters no such
+// patch. Vertices are given by their numbers.
+class WithinSweep {
+public:
+    struct Found {
+        uint32_t number;
+        float distance;
+    };
+
+    WithinSweep(const OverlayIndex& index, std::pmr::memory_resource* memory);
+
+    // Finds the vertices that are no farther than `radius`, in no particular order, with the bits that
+    // OverlaySsad gives. They stay valid until the next call.
+    std::span<const Found> sweep(uint32_t source, float radius);
+
+    // The least distance beyond the radius that the latest sweep has seen. If it is infinite, nothing else
+    // can be reached from the source.
+    float nearest_beyond() const { return nearest_beyond_; }
+
+private:
+    void forget();
+    void lower(uint32_t number, float way);
+    bool is_within(uint32_t patch, float radius) const;
+    void hop_up(uint32_t child);
+    void hop_down_to_children(uint32_t patch, uint32_t left_out, float radius);
+    void hop_down(uint32_t patch, float radius);
+    void collect(float radius);
+
+    const OverlayIndex& index_;
+    const Numbering& numbering_;
+    OuterCrossing up_;
+    InnerSweep down_;
+    Array<float> distance_; // by number; infinite but for those of `seen_`
+    Array<uint32_t> seen_;  // numbers, each once
+    Array<Found> found_;    // those within the radius
+    float nearest_beyond_ = INFINITE;
+};
+
+}

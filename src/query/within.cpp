@@ -1,0 +1,149 @@
+// What is near: the vertices within a radius, and the nearest targets.
+#include <algorithm>
+
+#include "format/error.h"
+#include "src/query/query.h"
+
+namespace geodesic {
+
+namespace {
+
+// How many times farther each sweep for the nearest targets looks than the one before.
+constexpr float GROWTH = 2;
+
+// Of targets that lie evenly over the mesh, sweeps find as many in a share of its vertices. A pair takes as
+// long as so many of these: the last sweep looks too far, and those before it cost something, too.
+constexpr uint64_t SWEPT_VERTICES_PER_PAIR = 64;
+
+}
+
+const IdsOfNumbers& Query::ids_of_numbers() {
+    if (!ids_of_numbers_) ids_of_numbers_.emplace(index_, distance_.get_allocator().resource());
+    return *ids_of_numbers_;
+}
+
+std::span<const WithinSweep::Found> Query::numbers_within(uint32_t source, float radius) {
+    if (auto* const overlay = std::get_if<OverlayQuery>(&engine_)) return overlay->within(source, radius);
+    sources_.assign(1, source);
+    const std::span<const float> field = field_within(radius);
+    within_.clear();
+    for (uint32_t v = 0; v < field.size(); ++v)
+        if (field[v] <= radius && field[v] < INFINITE) within_.push_back({v, field[v]});
+    return within_;
+}
+
+std::span<const Query::Found> Query::within(std::span<const uint32_t> source_ids, float radius) {
+    if (source_ids.empty()) refuse_argument("there is no source");
+    if (!(radius >= 0)) refuse_argument("the radius is negative or NaN");
+    for (const uint32_t id : source_ids) number_of(id);
+    ranked_.clear();
+    for (const uint32_t id : source_ids)
+        if (const uint32_t source = number_of(id); source != NONE)
+            for (const auto& [number, distance] : numbers_within(source, radius))
+                ranked_.push_back({distance, number});
+    if (source_ids.size() > 1) keep_least();
+    replace_numbers();
+    for (const uint32_t id : source_ids)
+        if (number_of(id) == NONE) ranked_.push_back({0, id});
+    std::ranges::sort(ranked_);
+    const auto repeated = std::ranges::unique(ranked_); // sources that no triangle uses
+    ranked_.erase(repeated.begin(), repeated.end());
+    return ranked_;
+}
+
+// Keeps the least distance of each vertex that several sources have found.
+void Query::keep_least() {
+    std::ranges::sort(ranked_, [](const Found& a, const Found& b) {
+        return a.which < b.which || (a.which == b.which && a.distance < b.distance);
+    });
+    const auto farther = std::ranges::unique(ranked_, {}, &Found::which);
+    ranked_.erase(farther.begin(), farther.end());
+}
+
+// Replaces numbers by ids: more where vertices were welded, none for an added vertex.
+void Query::replace_numbers() {
+    const IdsOfNumbers& ids = ids_of_numbers();
+    for (size_t i = 0, count = ranked_.size(); i < count; ++i) {
+        const uint32_t first = ids.first(ranked_[i].which);
+        ranked_[i].which = first;
+        if (first == NONE) continue;
+        for (uint32_t id = ids.next(first); id != NONE; id = ids.next(id))
+            ranked_.push_back({ranked_[i].distance, id});
+    }
+    std::erase_if(ranked_, [](const Found& found) { return found.which == NONE; });
+}
+
+std::span<const Query::Found> Query::nearest_targets(uint32_t source_id, std::span<const uint32_t> target_ids,
+                                                     size_t count) {
+    const uint32_t source = number_of(source_id);
+    for (const uint32_t id : target_ids) number_of(id);
+    count = std::min(count, target_ids.size());
+    ranked_.clear();
+    if (count == 0) return ranked_;
+    const uint64_t targets = target_ids.size(), vertices = index_.numbering().vertex_count();
+    const bool are_few = pairs_are_faster(targets, 1) &&
+                         targets * targets * SWEPT_VERTICES_PER_PAIR < uint64_t{count} * vertices;
+    if (source == NONE || are_few)
+        rank_by_pairs(source_id, target_ids);
+    else
+        rank_by_sweeps(source, target_ids, count);
+    std::ranges::sort(ranked_);
+    ranked_.resize(std::min(count, ranked_.size()));
+    return ranked_;
+}
+
+void Query::rank_by_pairs(uint32_t source_id, std::span<const uint32_t> target_ids) {
+    for (uint32_t i = 0; i < target_ids.size(); ++i)
+        if (const float distance = sssd(source_id, target_ids[i]); distance < INFINITE)
+            ranked_.push_back({distance, i});
+}
+
+// Notes which targets there are at each vertex, while they are looked for.
+class Query::TargetsAtNumbers {
+public:
+    TargetsAtNumbers(Query& query, std::span<const uint32_t> target_ids)
+        : query_(query), target_ids_(target_ids) {
+        query_.position_at_.resize(query_.index_.numbering().vertex_count(), NONE);
+        query_.next_target_.resize(target_ids.size());
+        for (size_t i = target_ids.size(); i-- > 0;) {
+            const uint32_t number = query_.number_of(target_ids[i]);
+            if (number == NONE) continue;
+            query_.next_target_[i] = query_.position_at_[number];
+            query_.position_at_[number] = static_cast<uint32_t>(i);
+        }
+    }
+    ~TargetsAtNumbers() {
+        for (const uint32_t id : target_ids_)
+            if (const uint32_t number = query_.index_.number_of_id[id]; number != NONE)
+                query_.position_at_[number] = NONE;
+    }
+    TargetsAtNumbers(const TargetsAtNumbers&) = delete;
+    TargetsAtNumbers& operator=(const TargetsAtNumbers&) = delete;
+
+    // Calls use(i) for each target at a vertex.
+    template <class Use>
+    void for_each_at(uint32_t number, const Use& use) const {
+        for (uint32_t i = query_.position_at_[number]; i != NONE; i = query_.next_target_[i]) use(i);
+    }
+
+private:
+    Query& query_;
+    std::span<const uint32_t> target_ids_;
+};
+
+// Looks farther until enough targets are found, or nothing else can be reached.
+void Query::rank_by_sweeps(uint32_t source, std::span<const uint32_t> target_ids, size_t count) {
+    const TargetsAtNumbers targets(*this, target_ids);
+    const auto* const overlay = std::get_if<OverlayQuery>(&engine_);
+    for (float radius = overlay ? 0 : INFINITE;;) {
+        ranked_.clear();
+        for (const auto& [number, distance] : numbers_within(source, radius))
+            targets.for_each_at(number, [&, d = distance](uint32_t i) { ranked_.push_back({d, i}); });
+        if (ranked_.size() >= count || radius == INFINITE) return;
+        const float beyond = overlay->nearest_beyond();
+        if (beyond == INFINITE) return;
+        radius = std::max(radius, beyond) * GROWTH;
+    }
+}
+
+}
