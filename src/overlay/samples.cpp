@@ -12,7 +12,7 @@ namespace {
 // A border has about WANTED samples, but no more than MOST_SHARE of its vertices and no fewer than
 // LEAST_SHARE of them. A chain has FEWEST_OF_CHAIN samples or more, or all of its vertices if these are
 // fewer: where nothing unfolds, each vertex is a chain by itself.
-constexpr double WANTED = 64, MOST_SHARE = 1.0 / 2, LEAST_SHARE = 1.0 / 8;
+constexpr double WANTED = 64, MOST_SHARE = 1.0 / 2, LEAST_SHARE = 1.0 / 10;
 constexpr uint32_t FEWEST_OF_CHAIN = 3;
 
 // Calls use(place, length) for each segment of a border. It begins at a place of its own, counted over all

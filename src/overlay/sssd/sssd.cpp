@@ -23,6 +23,9 @@ constexpr float NEAR_SPACINGS = 14;
 // Unless these are more pairs of places than that, which would take too long.
 constexpr size_t MOST_NEAR_PAIRS = size_t{3} << 13;
 
+// Distances over samples come from rounded codes: they may be too short by less than this share.
+constexpr float SAMPLES_ROUNDING = 1e-3f;
+
 // Ranges are moved along with the way at most this many times.
 constexpr int MOST_MOVES = 8;
 
@@ -203,7 +206,8 @@ float OverlaySssd::distance_to_border(uint32_t border_vertex, uint32_t vertex) c
 
 // Measures the path over whole borders if that takes little time, and over the ranges near each candidate
 // otherwise. Where no border has segments, all vertices are samples, and the shortest way over samples is the
-// path.
+// path. That way is also the answer where it is shorter than every measured path by more than rounding: no
+// measured range may have a segment or a row that its best path needs.
 float OverlaySssd::meet() {
     if (has_few_pairs()) {
         uint32_t place;
@@ -226,7 +230,7 @@ float OverlaySssd::meet() {
                                         ways.length_of_next(sample)}));
         shortest = std::min(shortest, follow(shortest));
     }
-    return shortest;
+    return shortest <= least * (1 + SAMPLES_ROUNDING) ? shortest : least;
 }
 
 // Takes the ranges of both ends that a way no longer than this can cross. Returns whether they are small
