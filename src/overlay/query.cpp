@@ -79,7 +79,7 @@ void OverlayQuery::prepare_end(size_t end, const FacePoint& point) {
     points_.clear();
     keys_.clear();
     add_point(point, 0);
-    ends_[end].prepare({keys_, points_}, field_);
+    ends_[end].prepare({keys_, points_});
 }
 
 }

@@ -29,8 +29,8 @@ public:
     float sssd(uint32_t low, uint32_t high) { return pairs().distance(low, high); }
 
     // Prepares a source: prepared_sssd() then answers distances from it.
-    void prepare(uint32_t source) { prepared_.prepare({{&source, 1}}, field_); }
-    float prepared_sssd(uint32_t target) { return prepared_.distance(target); }
+    void prepare(uint32_t source) { prepared_.prepare({{&source, 1}}); }
+    float prepared_sssd(uint32_t target) { return prepared_.distance(target, field_); }
 
     // Sets how many threads msad() uses.
     void set_threads(uint32_t count) {
@@ -75,7 +75,7 @@ public:
 
     // Prepares one of the two ends of a path, 0 or 1: end_distance() then answers distances from it.
     void prepare_end(size_t end, const FacePoint& point);
-    float end_distance(size_t end, uint32_t number) { return ends_[end].distance(number); }
+    float end_distance(size_t end, uint32_t number) { return ends_[end].distance(number, field_); }
 
     // Fills distances[number * FIELDS_AT_ONCE + i] with the distance from the i-th of FIELDS_AT_ONCE sources.
     // For fewer than FEWEST_AT_ONCE different ones it is faster to call msad() for each.

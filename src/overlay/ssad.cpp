@@ -32,12 +32,6 @@ void OverlaySsad::sweep(const Sources& sources, float radius, std::span<float> d
     });
 }
 
-void OverlaySsad::sweep_borders(const Sources& source, std::span<float> distance) {
-    climb(source, distance);
-    for (uint32_t p = 1; p < numbering_.first_leaf(); ++p)
-        hop_down(p, source, INFINITE, distance, down_.front());
-}
-
 // Fills the distances to the overlays of all patches that contain the source, for each field. All others are
 // infinite.
 void OverlaySsad::climb(const Sources& sources, std::span<float> distances) {
@@ -63,6 +57,12 @@ void OverlaySsad::hop_up(uint32_t child, DistanceField distance) {
         float& known = distance[targets[r]];
         known = std::min(known, ways[r]);
     }
+}
+
+void OverlaySsad::hop_down(uint32_t patch, std::span<float> distance) {
+    InnerSweep& sweep = down_.front();
+    if (sweep.begin(patch, distance.data(), segments_of(patch), INFINITE))
+        sweep.cross_to(distance.data() + numbering_.first_inner(patch));
 }
 
 // Hops to the inner vertices of a patch. Their distances from sources inside of the patch are known already.

@@ -36,9 +36,12 @@ public:
     }
     void sweep(const Sources& sources, float radius, std::span<float> distances);
 
-    // For one field. Fills the distances to all border vertices, and to the inner vertices of the patches
-    // that contain the source. All others are infinite.
-    void sweep_borders(const Sources& source, std::span<float> distance);
+    // Single steps of a sweep, for one field that is wanted in some patches only. A hop up leads to the
+    // overlay of the parent of a patch that contains the source, a hop down to the inner vertices of a patch
+    // that does not; the distances of the patch's border must be known, and those that a hop leads to
+    // infinite.
+    void hop_up(uint32_t child, std::span<float> distance) { hop_up(child, DistanceField{distance.data()}); }
+    void hop_down(uint32_t patch, std::span<float> distance);
 
 private:
     RingSegments segments_of(uint32_t patch) const;
