@@ -138,6 +138,34 @@ double distance(const Subject& on, const PointPair& pair) {
     return double{distance};
 }
 
+// Walks along each pair by steps, each of which is timed. Errors are those of the lengths of the walks.
+Row walk_row(const Subject& on, const char* name, const std::vector<PointPair>& pairs) {
+    std::vector<double> times, errors;
+    for (const PointPair& pair : pairs) {
+        tools::require_ok(geoidx_query_prepare_target(on.query.get(), on.surface.get(), &pair.target),
+                          "target");
+        geoidx_surface_point at = pair.source;
+        double walked = 0;
+        for (double length = 1; length > 0; walked += length) {
+            geoidx_path_point step[2];
+            times.push_back(1e6 * time_of([&] {
+                                      tools::require_ok(geoidx_query_next_step(on.query.get(),
+                                                                               on.surface.get(), &at, step,
+                                                                               nullptr),
+                                                        "step");
+                                  }).wall);
+            length = 0;
+            for (size_t i = 0; i < 3; ++i)
+                length = std::hypot(length, step[1].position[i] - step[0].position[i]);
+            at = step[1].point;
+        }
+        errors.push_back(walked / pair.exact - 1);
+    }
+    Row row = row_of_times(name, "step of a walk", times);
+    add_errors(errors, row);
+    return row;
+}
+
 Row field_row(const Subject& on, bool at_vertices) {
     std::mt19937_64 random(SEED);
     std::vector<double> times;
@@ -174,13 +202,14 @@ void paths(const PathsArguments& arguments) {
         table.rows.push_back(measure(name, "path, exact", points, [&](const PointPair& pair) {
             return path_length(on, pair, GEOIDX_PATH_EXACT);
         }));
+        table.rows.push_back(walk_row(on, name, points));
     }
     for (const bool at_vertex : {true, false}) fields.rows.push_back(field_row(on, at_vertex));
     report.add(std::move(table));
     report.add(std::move(fields));
-    report.note(
-        "Each pair is timed once, right after it was asked once, on one thread. Errors are relative to "
-        "the exact distance.");
+    report.note("Each pair is timed once, right after it was asked once, on one thread; of walks each step "
+                "is. Errors "
+                "are relative to the exact distance, those of walks the errors of their lengths.");
 }
 
 }

@@ -518,7 +518,7 @@ GEOIDX_API geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_i
 
 /* A point of the surface: of triangle `triangle` of the caller's array, which must not be degenerate, with
  * the weights of its three corners: not negative, 1 in sum (to 1e-6; they are scaled to it). Weights of 0 put
- * it on an edge, a weight of 1 at a corner. */
+ * it on an edge, a weight of 1 at a corner; weights under 1e-12 count as 0. */
 typedef struct geoidx_surface_point {
     uint32_t triangle;
     uint32_t reserved; /* not read */
@@ -660,8 +660,9 @@ GEOIDX_API geoidx_status geoidx_query_farthest_points(geoidx_query* query, const
 GEOIDX_API geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t threads);
 
 /* Keeps what depends on the source, for geoidx_query_prepared, until the next call; one that fails for lack
- * of memory leaves no source prepared. GEOIDX_ENGINE_OVERLAY: 4 bytes of scratch a vertex, and about half the
- * time of MSAD. */
+ * of memory leaves no source prepared. GEOIDX_ENGINE_OVERLAY: 4 bytes of scratch a vertex. What is kept is
+ * made as targets need it, so that the first target in a part of the mesh takes longer than others there; for
+ * targets in all parts that comes to about half the time of MSAD. */
 GEOIDX_API geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t source);
 
 /* distances[i]: from the prepared source to targets[i]; GEOIDX_ERROR_INVALID_ARGUMENT without one. By
@@ -724,6 +725,23 @@ GEOIDX_API geoidx_status geoidx_query_path(geoidx_query* query, const geoidx_sur
  * from each point to the next one is the straight line, on the triangle of the first of them. */
 GEOIDX_API geoidx_status geoidx_query_path_points(const geoidx_query* query, geoidx_path_point* points,
                                                   uint64_t capacity, uint64_t* count);
+
+/* Keeps the target of geoidx_query_next_step until the next call. One that fails leaves none. */
+GEOIDX_API geoidx_status geoidx_query_prepare_target(geoidx_query* query, const geoidx_surface* surface,
+                                                     const geoidx_surface_point* target);
+
+/* The next step of whoever walks to the target that was prepared and asks on the way, wherever it is. `step`
+ * has room for two points on one triangle: step[0] is `from` on the triangle that the way crosses next, and
+ * step[1] is where the way leaves it, or the target, so that the direction leads from one position to the
+ * other. Steps that begin where the one before ended lead to the target as GEOIDX_PATH_STRAIGHT does; at the
+ * target both points are the same. *distance, how long the way is from `from` on, is 0 there; it may be NULL.
+ * The first step takes as long as a path, whose triangles are kept. From any point of these a step takes a
+ * few microseconds; from a point beside them a new path is found. GEOIDX_ERROR_NO_PATH if the target is in
+ * another component; GEOIDX_ERROR_INVALID_ARGUMENT if none was prepared. By GEOIDX_METRIC_EDGES steps lead
+ * from corner to corner. `surface` is the one of the target. */
+GEOIDX_API geoidx_status geoidx_query_next_step(geoidx_query* query, const geoidx_surface* surface,
+                                                const geoidx_surface_point* from, geoidx_path_point* step,
+                                                double* distance);
 
 /* ---- Distances without an index
  * ------------------------------------------------------------------------------ */

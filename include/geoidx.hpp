@@ -261,6 +261,12 @@ struct path {
     std::vector<geoidx_path_point> points;
 };
 
+// The next piece of a way, on one triangle, and how far the target is from its first point.
+struct step {
+    std::array<geoidx_path_point, 2> points{};
+    double distance = 0;
+};
+
 // One thread's scratch for queries on one index, which must outlive it.
 class query {
 public:
@@ -365,6 +371,20 @@ public:
         found.points.resize(count);
         check(geoidx_query_path_points(get(), found.points.data(), count, &count));
         return found;
+    }
+
+    // From then on next_step() leads there.
+    void prepare_target(const surface& on, const geoidx_surface_point& target) {
+        check(geoidx_query_prepare_target(get(), on.get(), &target));
+    }
+    // Nothing if the target lies in another component.
+    std::optional<step> next_step(const surface& on, const geoidx_surface_point& from) {
+        step next;
+        const geoidx_status status =
+            geoidx_query_next_step(get(), on.get(), &from, next.points.data(), &next.distance);
+        if (status == GEOIDX_ERROR_NO_PATH) return std::nullopt;
+        check(status);
+        return next;
     }
 
     geoidx_query* get() const noexcept { return handle_.get(); }

@@ -102,7 +102,8 @@ refuses_a_unity_package_without_libraries() {
 # An assembly that is left out on a platform takes the scripts that use it with it.
 compiles_everywhere() {
     local definition
-    for definition in Runtime/Geoidx Samples~/ColourByDistance/Geoidx.Samples.ColourByDistance; do
+    for definition in Runtime/Geoidx Samples~/ColourByDistance/Geoidx.Samples.ColourByDistance \
+        Samples~/WalkAlongSurface/Geoidx.Samples.WalkAlongSurface; do
         grep -q '"includePlatforms": \[\]' "$GEOIDX_UNITY_OUT/package/$definition.asmdef"
         grep -q '"excludePlatforms": \[\]' "$GEOIDX_UNITY_OUT/package/$definition.asmdef"
     done

@@ -13,6 +13,7 @@
 #include "src/mesh/intake.h"
 #include "src/metric/metric.h"
 #include "src/path/face_boxes.h"
+#include "src/path/next_step.h"
 #include "src/path/surface.h"
 #include "src/query/index.h"
 #include "src/query/query.h"
@@ -80,6 +81,10 @@ struct geoidx_query {
     const geodesic::Index& index;
     geodesic::Query query;
     std::vector<geoidx_path_point> path; // the latest one
+
+    // What geoidx_query_prepare_target keeps, and the size of its surface.
+    std::optional<geodesic::Walk> walk;
+    uint32_t walk_vertices = 0, walk_faces = 0;
 };
 
 struct geoidx_solver {

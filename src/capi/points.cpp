@@ -1,5 +1,6 @@
 #include "src/capi/points.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "format/error.h"
@@ -16,6 +17,19 @@ void check_weights(const geoidx_surface_point& point, double sum, const std::str
         refuse_argument(name + " has weights of " + std::to_string(sum) + " in sum");
 }
 
+// Weights that are rounding put a point on an edge, or at a corner. Points that the library gave come back
+// with the same bits.
+std::array<double, 3> scaled_weights(const geoidx_surface_point& point) {
+    constexpr double NEGLIGIBLE = 1e-12, ROUNDING = 1e-15;
+    std::array<double, 3> weights;
+    for (size_t k = 0; k < 3; ++k) weights[k] = point.weights[k] < NEGLIGIBLE ? 0 : point.weights[k];
+    const double sum = weights[0] + weights[1] + weights[2];
+    const bool is_at_corner = std::ranges::count(weights, 0.0) == 2;
+    if (is_at_corner || std::abs(sum - 1) > ROUNDING)
+        for (double& weight : weights) weight /= sum;
+    return weights;
+}
+
 }
 
 SurfacePoint checked_point(const TriangleFaces& faces, const geoidx_surface_point& point,
@@ -26,14 +40,14 @@ SurfacePoint checked_point(const TriangleFaces& faces, const geoidx_surface_poin
         refuse_argument(on + ", but the mesh has " + std::to_string(triangle_count));
     const uint32_t face = faces.face_of_triangle[point.triangle];
     if (face == NONE) refuse_argument(on + ", which is degenerate");
-    const double sum = point.weights[0] + point.weights[1] + point.weights[2];
-    check_weights(point, sum, name);
+    check_weights(point, point.weights[0] + point.weights[1] + point.weights[2], name);
     std::array<uint32_t, 3> corners{0, 1, 2};
     if (const auto found = faces.corners_of_duplicate.find(point.triangle);
         found != faces.corners_of_duplicate.end())
         corners = found->second;
+    const std::array<double, 3> weights = scaled_weights(point);
     SurfacePoint result{face, {}};
-    for (size_t k = 0; k < 3; ++k) result.weights[corners[k]] = point.weights[k] / sum;
+    for (size_t k = 0; k < 3; ++k) result.weights[corners[k]] = weights[k];
     return result;
 }
 

@@ -1,11 +1,13 @@
 // Questions to an index, by scratch of its own or by the handle of a query.
 #include <algorithm>
 
+#include "format/error.h"
 #include "geoidx.h"
 #include "src/base/numbers.h"
 #include "src/capi/handles.h"
 #include "src/capi/points.h"
 #include "src/capi/status.h"
+#include "src/path/next_step.h"
 #include "src/path/path.h"
 #include "src/path/point_queries.h"
 
@@ -304,5 +306,40 @@ geoidx_status geoidx_query_path_points(const geoidx_query* query, geoidx_path_po
         if (!points) return;
         require(*count <= capacity, "there are more points than capacity");
         std::ranges::copy(query->path, points);
+    });
+}
+
+geoidx_status geoidx_query_prepare_target(geoidx_query* query, const geoidx_surface* surface,
+                                          const geoidx_surface_point* target) {
+    if (query) query->walk.reset();
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(surface, "surface is NULL");
+        require(target, "target is NULL");
+        const Surface& on = surface->surface;
+        PointQueries(query->index, query->query, on).face_point_of(checked_point(on, *target, "target"));
+        query->walk = Walk{checked_point(on, *target, "target")};
+        query->walk_vertices = on.vertex_count();
+        query->walk_faces = on.face_count();
+    });
+}
+
+geoidx_status geoidx_query_next_step(geoidx_query* query, const geoidx_surface* surface,
+                                     const geoidx_surface_point* from, geoidx_path_point* step,
+                                     double* distance) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(surface, "surface is NULL");
+        require(from, "from is NULL");
+        require(step, "step is NULL");
+        require(query->walk.has_value(), "no target has been prepared");
+        const Surface& on = surface->surface;
+        if (on.vertex_count() != query->walk_vertices || on.face_count() != query->walk_faces)
+            throw Error(GEOIDX_ERROR_MESH_MISMATCH, "the target was prepared on another surface");
+        const Step next =
+            next_step(query->index, query->query, on, checked_point(on, *from, "from"), *query->walk);
+        const SurfacePoint ends[] = {next.from, next.to};
+        std::ranges::copy(callers_path(on, ends), step);
+        if (distance) *distance = next.distance;
     });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "src/base/plane.h"
 
@@ -25,6 +26,13 @@ Vector2d place_ahead(const Vector2d& left, const Vector2d& right, double to_left
     return right + foot * along + height * ahead;
 }
 
+// Of a share that is that of an end but for rounding, or beyond it, the share of that end: what begins there
+// begins in all faces at the vertex.
+double at_end_if_close(double share) {
+    constexpr double ROUNDING = 1e-12;
+    return share < ROUNDING ? 0 : share > 1 - ROUNDING ? 1 : share;
+}
+
 // A portal in the plane, its ends named as whoever goes through it sees them.
 struct Gate {
     uint32_t left_vertex, right_vertex;
@@ -41,8 +49,8 @@ public:
         pull_tight();
     }
 
-    // Where the path passes the i-th portal of the part, as a share of the way from its end a.
-    double share(size_t i, const Portal& portal) const;
+    // Adds where the path passes each of the portals, as a share of the way from its end a.
+    void add_shares(std::span<const Portal> portals, std::vector<double>& shares) const;
 
 private:
     // The path passes a vertex of the gate of this index, or it is an end, before or behind all gates.
@@ -58,6 +66,7 @@ private:
     void unfold(const Strip& strip, size_t first, size_t last, const SurfacePoint& from,
                 const SurfacePoint& to);
     void pull_tight();
+    double share(const Gate& gate, const Portal& portal, const Bend& before, const Bend& after) const;
 
     const Surface& surface_;
     std::vector<Gate> gates_;
@@ -78,6 +87,7 @@ void Unfolded::unfold(const Strip& strip, size_t first, size_t last, const Surfa
     corners[2] = place_ahead(corners[0], corners[1], distance(v[0], v[2]), distance(v[1], v[2]));
     from_ = weighted(corners, from.weights);
     std::array<uint32_t, 3> vertices = v;
+    gates_.reserve(last - first);
     for (size_t f = first; f < last; ++f) {
         const Portal& portal = strip.portals[f];
         size_t apex = 0;
@@ -98,57 +108,112 @@ void Unfolded::unfold(const Strip& strip, size_t first, size_t last, const Surfa
     to_ = weighted(corners, weights);
 }
 
-// Both sides of the funnel from the latest bend get narrower gate by gate; where one would pass the other,
-// the path bends there.
+// The shortest ways from the source to both ends of a gate: together up to the apex, from there along a chain
+// to each end. `points_` has the chain to the left end, from the end back to the apex, and then that to the
+// right end.
+class Funnel {
+public:
+    // So many points may be added. They are given by their positions among those that were added; -1 is the
+    // source.
+    Funnel(const Vector2d& source, size_t count) : source_(source) {
+        at_.reserve(count);
+        before_.reserve(count);
+        points_.resize(2 * count + 1);
+        left_ = apex_ = right_ = count;
+        points_[apex_] = -1;
+    }
+
+    // The next point that a side comes to. What the way there passes no more leaves the chain of its side;
+    // where that is all of it, the apex may move along the other chain.
+    void add_left(const Vector2d& at) {
+        while (left_ < apex_ && turns(points_[left_ + 1], points_[left_], at) <= 0) ++left_;
+        while (left_ == apex_ && apex_ < right_ && turns(points_[apex_], points_[apex_ + 1], at) < 0)
+            left_ = ++apex_;
+        points_[left_ - 1] = add(at, points_[left_]);
+        --left_;
+    }
+    void add_right(const Vector2d& at) {
+        while (right_ > apex_ && turns(points_[right_ - 1], points_[right_], at) >= 0) --right_;
+        while (right_ == apex_ && apex_ > left_ && turns(points_[apex_], points_[apex_ - 1], at) > 0)
+            right_ = --apex_;
+        points_[right_ + 1] = add(at, points_[right_]);
+        ++right_;
+    }
+
+    // The point before another one on the shortest way.
+    std::ptrdiff_t before(std::ptrdiff_t point) const { return before_[static_cast<size_t>(point)]; }
+
+private:
+    const Vector2d& position(std::ptrdiff_t point) const {
+        return point < 0 ? source_ : at_[static_cast<size_t>(point)];
+    }
+    // Over 0 if the way from `first` over `second` to a position turns left.
+    double turns(std::ptrdiff_t first, std::ptrdiff_t second, const Vector2d& at) const {
+        return cross(position(second) - position(first), at - position(first));
+    }
+    std::ptrdiff_t add(const Vector2d& at, std::ptrdiff_t before) {
+        at_.push_back(at);
+        before_.push_back(before);
+        return static_cast<std::ptrdiff_t>(at_.size()) - 1;
+    }
+
+    const Vector2d source_;
+    std::vector<Vector2d> at_;
+    std::vector<std::ptrdiff_t> before_;
+    std::vector<std::ptrdiff_t> points_;
+    size_t left_, apex_, right_; // in points_
+};
+
+// From each gate to the next one, one of its ends stays.
 void Unfolded::pull_tight() {
     const auto count = static_cast<std::ptrdiff_t>(gates_.size());
-    bends_.push_back({-1, NONE, from_});
-    for (;;) {
-        const Bend apex = bends_.back();
-        Bend left{apex.gate, apex.vertex, apex.at}, right = left;
-        const Bend* next = nullptr;
-        bool left_open = false, right_open = false; // whether a side has left the apex
-        for (std::ptrdiff_t i = apex.gate + 1; i <= count && !next; ++i) {
-            const Gate end{NONE, NONE, to_, to_};
-            const Gate& gate = i < count ? gates_[static_cast<size_t>(i)] : end;
-            const Vector2d to_right = gate.right - apex.at, to_left = gate.left - apex.at;
-            if (!right_open || cross(right.at - apex.at, to_right) >= 0) {
-                if (left_open && cross(left.at - apex.at, to_right) > 0) {
-                    next = &left;
-                    break;
-                }
-                right = {i, gate.right_vertex, gate.right};
-                right_open = i == count || gate.right_vertex != apex.vertex || apex.vertex == NONE;
-            }
-            if (!left_open || cross(left.at - apex.at, to_left) <= 0) {
-                if (right_open && cross(right.at - apex.at, to_left) < 0) {
-                    next = &right;
-                    break;
-                }
-                left = {i, gate.left_vertex, gate.left};
-                left_open = i == count || gate.left_vertex != apex.vertex || apex.vertex == NONE;
-            }
+    Funnel funnel(from_, gates_.size() + 2);
+    bends_.clear(); // first all points that the funnel comes to
+    const auto add = [&](std::ptrdiff_t gate, uint32_t vertex, const Vector2d& at) {
+        bends_.push_back({gate, vertex, at});
+    };
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+        const Gate& gate = gates_[static_cast<size_t>(i)];
+        const Gate* const before = i > 0 ? &gate - 1 : nullptr;
+        if (!before || before->left_vertex != gate.left_vertex) {
+            funnel.add_left(gate.left);
+            add(i, gate.left_vertex, gate.left);
         }
-        if (!next || next->gate >= count) break;
-        bends_.push_back(Bend(*next));
+        if (!before || before->right_vertex != gate.right_vertex) {
+            funnel.add_right(gate.right);
+            add(i, gate.right_vertex, gate.right);
+        }
     }
-    bends_.push_back({count, NONE, to_});
+    funnel.add_right(to_);
+    add(count, NONE, to_);
+    std::vector<Bend> way;
+    for (auto point = static_cast<std::ptrdiff_t>(bends_.size()) - 1; point >= 0;
+         point = funnel.before(point))
+        way.push_back(bends_[static_cast<size_t>(point)]);
+    way.push_back({-1, NONE, from_});
+    std::ranges::reverse(way);
+    bends_ = std::move(way);
 }
 
-double Unfolded::share(size_t i, const Portal& portal) const {
-    const auto gate_index = static_cast<std::ptrdiff_t>(i);
-    const auto behind = std::ranges::find_if(bends_, [&](const Bend& b) { return b.gate >= gate_index; });
-    const Bend &before = *(behind - 1), &after = *behind;
+void Unfolded::add_shares(std::span<const Portal> portals, std::vector<double>& shares) const {
+    size_t behind = 0;
+    for (size_t i = 0; i < portals.size(); ++i) {
+        while (bends_[behind].gate < static_cast<std::ptrdiff_t>(i)) ++behind;
+        shares.push_back(share(gates_[i], portals[i], bends_[behind - 1], bends_[behind]));
+    }
+}
+
+// Between two bends, of which the path passes one before or at the gate, and the other at the gate or behind.
+double Unfolded::share(const Gate& gate, const Portal& portal, const Bend& before, const Bend& after) const {
     for (const Bend* bend : {&before, &after})
         if (bend->vertex != NONE && portal.contains(bend->vertex)) return bend->vertex == portal.a ? 0 : 1;
-    const Gate& gate = gates_[i];
     const Vector2d along = after.at - before.at, across = gate.left - gate.right;
     const double denominator = cross(along, across);
     if (denominator == 0) { // all in one line: at the end that is nearer to the way
         const bool at_right = (gate.right - before.at).squaredNorm() <= (gate.left - before.at).squaredNorm();
         return (at_right ? gate.right_vertex : gate.left_vertex) == portal.a ? 0 : 1;
     }
-    const double from_right = std::clamp(cross(before.at - gate.right, along) / -denominator, 0.0, 1.0);
+    const double from_right = at_end_if_close(cross(before.at - gate.right, along) / -denominator);
     return gate.right_vertex == portal.a ? from_right : 1 - from_right;
 }
 
@@ -162,6 +227,7 @@ SurfacePoint at_vertex(const Surface& surface, uint32_t face, uint32_t vertex) {
 
 StripPath shortest_in_strip(const Surface& surface, const Strip& strip) {
     StripPath path;
+    path.shares.reserve(strip.portals.size());
     size_t first = 0;
     SurfacePoint from = strip.source;
     for (size_t i = 0; i <= strip.portals.size(); ++i) {
@@ -170,7 +236,7 @@ StripPath shortest_in_strip(const Surface& surface, const Strip& strip) {
         const SurfacePoint to =
             is_end ? strip.target : at_vertex(surface, strip.faces[i], strip.portals[i].a);
         const Unfolded part(surface, strip, first, i, from, to);
-        for (size_t k = first; k < i; ++k) path.shares.push_back(part.share(k - first, strip.portals[k]));
+        part.add_shares(std::span(strip.portals).subspan(first, i - first), path.shares);
         if (is_end) break;
         path.shares.push_back(0);
         first = i + 1;

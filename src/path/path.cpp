@@ -71,6 +71,7 @@ public:
           target_(target) {}
 
     SurfacePath find(PathQuality quality);
+    StraightPath find_straight();
 
 private:
     double distance(size_t end, uint32_t vertex) {
@@ -80,13 +81,7 @@ private:
     TargetDistances distances_from(size_t end) {
         return {[this, end](uint32_t vertex) { return distance(end, vertex); }, {}};
     }
-    struct Straight {
-        Strip strip;
-        StripPath path;
-    };
-
-    std::optional<Straight> led_by(size_t end);
-    Straight straight();
+    std::optional<StraightPath> led_by(size_t end);
     bool belongs(uint32_t vertex, double slack, double length);
 
     const Index& index_;
@@ -105,19 +100,21 @@ bool PathFinder::belongs(uint32_t vertex, double slack, double length) {
 }
 
 // Led by the distances from one end, from the other one on.
-std::optional<PathFinder::Straight> PathFinder::led_by(size_t end) {
+std::optional<StraightPath> PathFinder::led_by(size_t end) {
     const TargetDistances distances = distances_from(end);
     auto strip = end == 1 ? search_strip(surface_, source_, target_, distances)
                           : search_strip(surface_, target_, source_, distances);
     if (!strip) return std::nullopt;
     if (end == 0) turn_back(*strip);
     StripPath path = straighten(surface_, *strip);
-    return Straight{std::move(*strip), std::move(path)};
+    return StraightPath{std::move(*strip), std::move(path)};
 }
 
 // The errors of the two fields may lead to different ways around a bump.
-PathFinder::Straight PathFinder::straight() {
+StraightPath PathFinder::find_straight() {
     constexpr double SAME = 1e-9; // lengths of one way, as a share
+    query_.prepare_end(1, points_.face_point_of(target_));
+    query_.prepare_end(0, points_.face_point_of(source_));
     auto one = led_by(1);
     if (!one) no_path();
     auto other = led_by(0);
@@ -129,18 +126,16 @@ PathFinder::Straight PathFinder::straight() {
 }
 
 SurfacePath PathFinder::find(PathQuality quality) {
-    const FacePoint to = points_.face_point_of(target_), from = points_.face_point_of(source_);
     if (is_at(surface_, source_, target_) && points_.sssd(source_, target_) == 0)
         return path_of_points(surface_, {source_}, target_);
-    query_.prepare_end(1, to);
     if (!points_.unfolds()) {
+        query_.prepare_end(1, points_.face_point_of(target_));
         const TargetDistances distances = distances_from(1);
         const auto vertices = search_edges(surface_, source_, target_, distances);
         if (!vertices) no_path();
         return path_of_vertices(surface_, source_, *vertices, target_);
     }
-    query_.prepare_end(0, from);
-    auto [strip, path] = straight();
+    auto [strip, path] = find_straight();
     if (quality == PathQuality::EXACT && strip.faces.size() > 1) {
         const Corridor corridor =
             corridor_around(surface_, strip, [&, length = path.length](uint32_t vertex, double slack) {
@@ -156,6 +151,11 @@ SurfacePath PathFinder::find(PathQuality quality) {
 SurfacePath find_path(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
                       const SurfacePoint& target, PathQuality quality) {
     return PathFinder(index, query, surface, source, target).find(quality);
+}
+
+StraightPath find_straight_path(const Index& index, Query& query, const Surface& surface,
+                                const SurfacePoint& source, const SurfacePoint& target) {
+    return PathFinder(index, query, surface, source, target).find_straight();
 }
 
 }

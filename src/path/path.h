@@ -21,4 +21,12 @@ enum class PathQuality { STRAIGHT, EXACT };
 SurfacePath find_path(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
                       const SurfacePoint& target, PathQuality quality);
 
+// A path of STRAIGHT quality as its strip, for metrics that unfold.
+struct StraightPath {
+    Strip strip;
+    StripPath path;
+};
+StraightPath find_straight_path(const Index& index, Query& query, const Surface& surface,
+                                const SurfacePoint& source, const SurfacePoint& target);
+
 }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory_resource>
 #include <queue>
 #include <unordered_map>
+#include <unordered_set>
 
-#include "src/base/plane.h"
+#include "src/path/edge_crossing.h"
 #include "src/path/nearby.h"
 
 namespace geodesic {
@@ -13,35 +15,6 @@ namespace geodesic {
 namespace {
 
 using Eigen::Vector3d;
-
-// Where a way crosses an edge, and how long it is from there to the target.
-struct Crossing {
-    double share = 0;
-    double rest = UNREACHABLE;
-};
-
-// Over a piece of a line, from `begin` to `end`, whose ends have these distances from the target. The way
-// comes from a point at `foot` along the line and `height` off it.
-void cross_piece(double begin, double end, double from_begin, double from_end, double foot, double height,
-                 double& least, double& at, double& rest) {
-    const auto offer = [&](double x, double way_on) {
-        const double length = hypotenuse(x - foot, height) + way_on;
-        if (!(length < least)) return;
-        least = length;
-        at = x;
-        rest = way_on;
-    };
-    offer(begin, from_begin);
-    offer(end, from_end);
-    const double length = end - begin;
-    const double target = foot_of(length, from_begin, from_end);
-    const double square = (from_begin - target) * (from_begin + target);
-    if (!(length > 0) || !(square >= 0) || !(square < UNREACHABLE)) return;
-    const double off = std::sqrt(square), both = off + height;
-    if (!(both > 0)) return;
-    const double x = foot - begin + (target - foot + begin) * (height / both);
-    if (x > 0 && x < length) offer(begin + x, hypotenuse(x - target, off));
-}
 
 // What a search has open, by what is expected in all.
 template <class Node>
@@ -88,9 +61,11 @@ private:
     };
 
     double rest_from(uint32_t vertex);
-    Crossing cross_edge(uint32_t a, uint32_t b, const Vector3d& from);
+    EdgeCrossing cross_edge(uint32_t a, uint32_t b, const Vector3d& from);
     bool close(const Node& node);
     void leave_face(uint32_t index);
+    void pass_vertex(uint32_t index, uint32_t vertex);
+    void cross_to_next(uint32_t index, const Portal& portal, const EdgeCrossing& crossing);
     void leave_vertex(uint32_t index);
     Strip strip_to(uint32_t index) const;
 
@@ -98,10 +73,11 @@ private:
     const TargetDistances& distances_;
     const Vector3d target_position_;
     std::vector<SurfacePoint> sources_;
-    std::unordered_map<uint32_t, SurfacePoint> targets_; // by face
+    std::pmr::monotonic_buffer_resource memory_{1 << 14};
+    std::pmr::unordered_map<uint32_t, SurfacePoint> targets_{&memory_}; // by face
     Open<Node> open_;
-    std::unordered_map<uint32_t, double> rest_; // distances that have been asked for
-    std::unordered_map<uint32_t, bool> closed_faces_, closed_vertices_;
+    std::pmr::unordered_map<uint32_t, double> rest_{&memory_}; // distances that have been asked for
+    std::pmr::unordered_set<uint32_t> closed_faces_{&memory_}, closed_vertices_{&memory_};
 };
 
 double FaceSearch::rest_from(uint32_t vertex) {
@@ -110,25 +86,14 @@ double FaceSearch::rest_from(uint32_t vertex) {
     return found->second;
 }
 
-Crossing FaceSearch::cross_edge(uint32_t a, uint32_t b, const Vector3d& from) {
-    const Vector3d along = surface_.positions[b] - surface_.positions[a];
-    const double length = along.norm();
-    const auto [foot, height] = place_beside(surface_.positions[a], along / length, from);
+EdgeCrossing FaceSearch::cross_edge(uint32_t a, uint32_t b, const Vector3d& from) {
     const auto inside = distances_.inside_edge ? distances_.inside_edge(a, b) : std::span<const double>();
-    double least = UNREACHABLE, at = 0, last = rest_from(a), rest = UNREACHABLE;
-    const double piece = length / static_cast<double>(inside.size() + 1);
-    for (size_t i = 0; i <= inside.size(); ++i) {
-        const double next = i < inside.size() ? inside[i] : rest_from(b);
-        const double begin = static_cast<double>(i) * piece;
-        cross_piece(begin, begin + piece, last, next, foot, height, least, at, rest);
-        last = next;
-    }
-    return {std::clamp(at / length, 0.0, 1.0), rest};
+    return geodesic::cross_edge(surface_, a, b, from, rest_from(a), inside, rest_from(b));
 }
 
 bool FaceSearch::close(const Node& node) {
     auto& closed = node.kind == Kind::FACE ? closed_faces_ : closed_vertices_;
-    return closed.try_emplace(node.item, true).second;
+    return closed.insert(node.item).second;
 }
 
 void FaceSearch::leave_face(uint32_t index) {
@@ -137,24 +102,37 @@ void FaceSearch::leave_face(uint32_t index) {
         const double length = node.length + (target_position_ - node.at).norm();
         open_.push(length, {Kind::TARGET, node.item, {}, target_position_, length, index});
     }
+    const auto corners = surface_.faces[node.item];
+    std::array<bool, 3> is_passed{}; // corners that a way over an edge passes
     for (uint32_t k = 0; k < 3; ++k) {
-        const auto& corners = surface_.faces[node.item];
-        if (const double rest = rest_from(corners[k]); rest < UNREACHABLE) {
-            const Vector3d at = surface_.positions[corners[k]];
-            const double length = node.length + (at - node.at).norm();
-            open_.push(length + rest, {Kind::VERTEX, corners[k], {}, at, length, index});
-        }
-        const auto [a, b] = std::minmax(corners[(k + 1) % 3], corners[(k + 2) % 3]);
-        const Portal portal{a, b};
-        const Crossing crossing = cross_edge(a, b, node.at);
+        uint32_t first = (k + 1) % 3, second = (k + 2) % 3;
+        if (corners[second] < corners[first]) std::swap(first, second);
+        const Portal portal{corners[first], corners[second]};
+        const EdgeCrossing crossing = cross_edge(portal.a, portal.b, node.at);
         if (!(crossing.rest < UNREACHABLE)) continue;
-        const Vector3d at = position_at(surface_, portal, crossing.share);
-        const double length = node.length + (at - node.at).norm();
-        for_each_face_beyond(surface_, node.item, a, b, [&](uint32_t face) {
-            if (!closed_faces_.contains(face))
-                open_.push(length + crossing.rest, {Kind::FACE, face, portal, at, length, index});
-        });
+        is_passed[first] = is_passed[first] || crossing.share == 0;
+        is_passed[second] = is_passed[second] || crossing.share == 1;
+        cross_to_next(index, portal, crossing);
     }
+    for (uint32_t k = 0; k < 3; ++k)
+        if (is_passed[k]) pass_vertex(index, corners[k]);
+}
+
+void FaceSearch::pass_vertex(uint32_t index, uint32_t vertex) {
+    const double rest = rest_from(vertex);
+    if (closed_vertices_.contains(vertex) || !(rest < UNREACHABLE)) return;
+    const Vector3d at = surface_.positions[vertex];
+    const double length = open_[index].length + (at - open_[index].at).norm();
+    open_.push(length + rest, {Kind::VERTEX, vertex, {}, at, length, index});
+}
+
+void FaceSearch::cross_to_next(uint32_t index, const Portal& portal, const EdgeCrossing& crossing) {
+    const Vector3d at = position_at(surface_, portal, crossing.share);
+    const double length = open_[index].length + (at - open_[index].at).norm();
+    for_each_face_beyond(surface_, open_[index].item, portal.a, portal.b, [&](uint32_t face) {
+        if (!closed_faces_.contains(face))
+            open_.push(length + crossing.rest, {Kind::FACE, face, portal, at, length, index});
+    });
 }
 
 void FaceSearch::leave_vertex(uint32_t index) {

@@ -16,28 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The points of a path are numbered: its source, where it passes each portal of its strip, its target. Face i
-// lies between points i and i + 1. A range of points stands for the faces between its ends.
-struct Range {
-    size_t first, last;
-};
-
-std::ptrdiff_t offset(size_t i) { return static_cast<std::ptrdiff_t>(i); }
-
-// The strip between two points of its path.
-Strip part_of(const Surface& surface, const Strip& strip, const StripPath& path, Range range) {
-    const auto [first, last] = range;
-    Strip part{strip.source, strip.target, {}, {}};
-    part.faces.assign(strip.faces.begin() + offset(first), strip.faces.begin() + offset(last));
-    part.portals.assign(strip.portals.begin() + offset(first), strip.portals.begin() + offset(last) - 1);
-    const auto portal_point = [&](size_t face, size_t portal) {
-        return point_at(surface, strip.faces[face], strip.portals[portal], path.shares[portal]);
-    };
-    if (first > 0) part.source = portal_point(first, first - 1);
-    if (last <= strip.portals.size()) part.target = portal_point(last - 1, last - 1);
-    return part;
-}
-
 class OtherSides {
 public:
     OtherSides(const Surface& surface, Strip& strip, StripPath& path)
@@ -60,13 +38,13 @@ private:
                (portal == 0 || !strip_.portals[portal - 1].contains(vertex));
     }
     double angle_around(uint32_t vertex);
-    double length(Range range) const { return points_[range.last].along - points_[range.first].along; }
-    double angle_at(const Place& beside, Range range) const;
+    double length(PointRange range) const { return points_[range.last].along - points_[range.first].along; }
+    double angle_at(const Place& beside, PointRange range) const;
     std::optional<Place> beside(const Pass& pass) const;
-    Range piece_around(const Pass& pass) const;
-    Range with_next_pieces(Range range) const;
+    PointRange piece_around(const Pass& pass) const;
+    PointRange with_next_pieces(PointRange range) const;
     std::optional<Turn::Fan> other_side(const Pass& pass);
-    bool take(const Pass& pass, const Turn::Fan& fan, Range range);
+    bool take(const Pass& pass, const Turn::Fan& fan, PointRange range);
     std::optional<size_t> try_at(const Pass& pass);
     bool sweep();
 
@@ -110,7 +88,7 @@ double OtherSides::angle_around(uint32_t vertex) {
 }
 
 // The angle at which the straight path between two points is seen.
-double OtherSides::angle_at(const Place& beside, Range range) const {
+double OtherSides::angle_at(const Place& beside, PointRange range) const {
     return std::atan2(beside.foot - points_[range.first].along, beside.height) +
            std::atan2(points_[range.last].along - beside.foot, beside.height);
 }
@@ -131,14 +109,14 @@ std::optional<Place> OtherSides::beside(const Pass& pass) const {
 }
 
 // Between the bends before and after it.
-Range OtherSides::piece_around(const Pass& pass) const {
-    Range piece{pass.first, pass.last + 2};
+PointRange OtherSides::piece_around(const Pass& pass) const {
+    PointRange piece{pass.first, pass.last + 2};
     while (piece.first > 0 && points_[piece.first].vertex == NONE) --piece.first;
     while (piece.last + 1 < points_.size() && points_[piece.last].vertex == NONE) ++piece.last;
     return piece;
 }
 
-Range OtherSides::with_next_pieces(Range range) const {
+PointRange OtherSides::with_next_pieces(PointRange range) const {
     auto& [first, last] = range;
     for (const uint32_t v = points_[first].vertex; first > 0 && points_[first].vertex == v;) --first;
     while (first > 0 && points_[first].vertex == NONE) --first;
@@ -169,13 +147,12 @@ std::optional<Turn::Fan> OtherSides::other_side(const Pass& pass) {
                       to);
 }
 
-bool OtherSides::take(const Pass& pass, const Turn::Fan& fan, Range range) {
+bool OtherSides::take(const Pass& pass, const Turn::Fan& fan, PointRange range) {
     constexpr double SHORTER = 1e-12; // as a share: less is rounding
     Strip other = with_fan(part_of(surface_, strip_, path_, range),
                            {pass.first - range.first, pass.last - range.first, pass.vertex}, fan);
     if (!(straighten(surface_, other).length < length(range) * (1 - SHORTER))) return false;
-    Strip whole = with_part(strip_, {range.first, range.last}, other.faces, {range.first, range.last - 1},
-                            other.portals);
+    Strip whole = with_part(strip_, range, other);
     StripPath shorter = straighten(surface_, whole);
     if (!(shorter.length < path_.length * (1 - SHORTER))) return false;
     strip_ = std::move(whole);
@@ -188,7 +165,7 @@ bool OtherSides::take(const Pass& pass, const Turn::Fan& fan, Range range) {
 std::optional<size_t> OtherSides::try_at(const Pass& pass) {
     const auto fan = other_side(pass);
     if (!fan) return std::nullopt;
-    const Range range = with_next_pieces(piece_around(pass));
+    const PointRange range = with_next_pieces(piece_around(pass));
     const uint64_t key = std::bit_cast<uint64_t>(length(range)) ^ (uint64_t{pass.vertex} << 32);
     if (failed_.contains(key)) return std::nullopt;
     ++tries_;

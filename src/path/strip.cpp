@@ -56,6 +56,25 @@ Strip with_part(const Strip& strip, Replaced faces, const std::vector<uint32_t>&
     return whole;
 }
 
+Strip part_of(const Surface& surface, const Strip& strip, const StripPath& path, PointRange range) {
+    const auto [first, last] = range;
+    const auto offset = [](size_t i) { return static_cast<std::ptrdiff_t>(i); };
+    Strip part{strip.source, strip.target, {}, {}};
+    part.faces.assign(strip.faces.begin() + offset(first), strip.faces.begin() + offset(last));
+    part.portals.assign(strip.portals.begin() + offset(first), strip.portals.begin() + offset(last) - 1);
+    const auto portal_point = [&](size_t face, size_t portal) {
+        return point_at(surface, strip.faces[face], strip.portals[portal], path.shares[portal]);
+    };
+    if (first > 0) part.source = portal_point(first, first - 1);
+    if (last <= strip.portals.size()) part.target = portal_point(last - 1, last - 1);
+    return part;
+}
+
+Strip with_part(const Strip& strip, PointRange range, const Strip& part) {
+    return with_part(strip, {range.first, range.last}, part.faces, {range.first, range.last - 1},
+                     part.portals);
+}
+
 void turn_back(Strip& strip) {
     std::swap(strip.source, strip.target);
     std::ranges::reverse(strip.faces);

@@ -54,6 +54,18 @@ struct Replaced {
 Strip with_part(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces, Replaced portals,
                 const std::vector<Portal>& new_portals);
 
+// The points of a path are numbered: its source, where it passes each portal of its strip, its target. Face i
+// lies between points i and i + 1. A range of points stands for the faces between its ends.
+struct PointRange {
+    size_t first, last;
+};
+
+// The strip between two points of its path.
+Strip part_of(const Surface& surface, const Strip& strip, const StripPath& path, PointRange range);
+
+// The strip with another one, with the same ends, in the place of such a part.
+Strip with_part(const Strip& strip, PointRange range, const Strip& part);
+
 // From its target to its source.
 void turn_back(Strip& strip);
 

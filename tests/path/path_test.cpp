@@ -159,6 +159,22 @@ TEST_CASE("path: from a point to itself, and within one triangle") {
     }
 }
 
+// A share of a triangle that is rounding makes no other point: here the way turns around a vertex right
+// there.
+TEST_CASE("path: from a point that is at a vertex but for rounding") {
+    const PathCase on(cone(saddle_rays(10, 0.9), 4));
+    std::mt19937_64 random(8);
+    for (uint32_t t = 0; t < on.soup.triangles.size(); ++t)
+        for (size_t k = 0; k < 3; ++k) {
+            const auto from = corner(t, k), to = random_point(on.soup, random, k);
+            auto near = from;
+            near.weights[k] = 1 - 2e-16;
+            near.weights[(k + 1) % 3] = 1e-16;
+            for (const uint32_t quality : {GEOIDX_PATH_STRAIGHT, GEOIDX_PATH_EXACT})
+                CHECK(path_length(on, near, to, quality) == path_length(on, from, to, quality));
+        }
+}
+
 TEST_CASE("path: bad input is refused by name") {
     const PathCase on(torus(10, 8, 1, 0.4)), other(torus(10, 8, 1, 0.5));
     const auto fine = corner(0, 0);

@@ -37,6 +37,7 @@ namespace Geoidx.Tests
             using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
             using GeodesicQuery query = index.CreateQuery();
             using var solver = new GeodesicSolver(Shapes.Square());
+            using var surface = new GeodesicSurface(Shapes.Square());
             Action[] calls =
             {
                 () => index.Distance(0, 4),
@@ -64,6 +65,8 @@ namespace Geoidx.Tests
                 () => query.NearestTargets(0, new[] { 4 }, new int[1]),
                 () => query.FarthestPoints(new int[0], new int[2]),
                 () => query.FarthestPoints(new[] { 0 }, new int[2], new float[1]),
+                () => query.PrepareTarget(surface, new SurfacePoint(2, 1, 0, 0)),
+                () => query.TryNextStep(surface, new SurfacePoint(0, 1, 0, 0), out _, out _, out _),
                 () => solver.Distance(0, 4),
             };
             foreach (Action call in calls) Fails<GeodesicArgumentException>(GeodesicStatus.InvalidArgument, "", call);
@@ -77,6 +80,7 @@ namespace Geoidx.Tests
             using GeodesicIndex index = GeodesicIndex.Build(Shapes.Square());
             using GeodesicQuery query = index.CreateQuery();
             using var solver = new GeodesicSolver(Shapes.Square());
+            using var surface = new GeodesicSurface(Shapes.Square());
             var onNoTriangle = new[] { new SurfacePoint(-1, 1, 0, 0) };
             var negativeCorner = GeodesicMesh.From(new float[9], new[] { 0, 1, -1 });
             var edgeCost = new BuildOptions
@@ -112,6 +116,15 @@ namespace Geoidx.Tests
                 GeodesicStatus.InvalidArgument,
                 "triangle -1",
                 () => solver.PointDistances(onNoTriangle, onNoTriangle, new double[1]));
+            Fails<GeodesicArgumentException>(
+                GeodesicStatus.InvalidArgument,
+                "target is on triangle -1",
+                () => query.PrepareTarget(surface, onNoTriangle[0]));
+            query.PrepareTarget(surface, new SurfacePoint(0, 1, 0, 0));
+            Fails<GeodesicArgumentException>(
+                GeodesicStatus.InvalidArgument,
+                "from is on triangle -1",
+                () => query.TryNextStep(surface, onNoTriangle[0], out _, out _, out _));
             Fails<GeodesicMeshException>(
                 GeodesicStatus.BadMesh, "vertex -1", () => GeodesicIndex.Build(negativeCorner));
         }
@@ -170,6 +183,7 @@ namespace Geoidx.Tests
             ("distances.Length is 1", () => WithQuery(query => query.Within(new int[1], 1, new int[2], new float[1]))),
             ("distances.Length is 1",
                 () => WithQuery(query => query.NearestTargets(0, new int[2], new int[2], new float[1]))),
+            ("no target has been prepared", () => WithQuery(NextStep)),
             ("distances.Length is 3", () => WithSolver(solver => solver.FromSources(new[] { 0 }, new double[3]))),
             ("sources is empty", () => WithSolver(solver => solver.FromSources(default, new double[4]))),
         };
@@ -188,6 +202,12 @@ namespace Geoidx.Tests
                 using GeodesicQuery query = index.CreateQuery();
                 use(query);
             });
+
+        private static void NextStep(GeodesicQuery query)
+        {
+            using var surface = new GeodesicSurface(Shapes.Square());
+            query.TryNextStep(surface, new SurfacePoint(0, 1, 0, 0), out _, out _, out _);
+        }
 
         private static void WithSolver(Action<GeodesicSolver> use)
         {

@@ -57,6 +57,8 @@ namespace Geoidx.Tests
             query.Dispose();
             index.Dispose();
             solver.Dispose();
+            using var surface = new GeodesicSurface(Shapes.Square());
+            var point = new SurfacePoint(0, 1, 0, 0);
             var floats = new float[4];
             var doubles = new double[1];
             Action[] calls =
@@ -73,6 +75,8 @@ namespace Geoidx.Tests
                 () => query.Prepare(0),
                 () => query.FromPrepared(0),
                 () => query.SetThreads(1),
+                () => query.PrepareTarget(surface, point),
+                () => query.TryNextStep(surface, point, out _, out _, out _),
                 () => solver.Distance(0, 1),
                 () => solver.FromSources(0),
                 () => solver.Distances(new[] { 0 }, new[] { 1 }, doubles),

@@ -106,6 +106,9 @@ namespace Geoidx.Tests
             VertexPair[] pairs = { (0, 100), (7, 600) };
             int[] sources = { 0, 77 };
             var found = new int[query.VertexCount];
+            using var surface = new GeodesicSurface(Shapes.Plane(Side));
+            SurfacePoint from = surface.ClosestPoint(3.3, 4.4, 0), to = surface.ClosestPoint(20.7, 25.2, 0);
+            var points = new PathPoint[4 * Side];
             void Ask()
             {
                 query.Distance(3, 500);
@@ -118,6 +121,11 @@ namespace Geoidx.Tests
                 query.NearestTargets(3, sources, found, distances);
                 query.Prepare(3);
                 query.FromPrepared(500);
+                query.Distance(surface, from, to);
+                query.TryFindPath(surface, from, to, out _);
+                query.PathPoints(points);
+                query.PrepareTarget(surface, to);
+                query.TryNextStep(surface, from, out _, out _, out _);
                 index.Distances(pairs, distances.AsSpan(0, 2));
                 index.FromSources(sources, distances);
                 index.Matrix(sources, sources, distances.AsSpan(0, 4));

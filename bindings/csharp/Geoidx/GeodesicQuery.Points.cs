@@ -96,6 +96,67 @@ namespace Geoidx
             return (int)count;
         }
 
+        /// <summary>
+        /// Keeps the target of <see cref="TryNextStep"/> until the next call of this. One that the native library
+        /// refuses leaves none.
+        /// </summary>
+        /// <param name="surface">Of the index's mesh.</param>
+        /// <param name="target">Where steps lead to.</param>
+        /// <exception cref="GeodesicArgumentException">
+        /// The point is not on the surface, or the index has another metric than lengths.
+        /// </exception>
+        /// <exception cref="GeodesicMeshMismatchException">The surface is that of another mesh.</exception>
+        public unsafe void PrepareTarget(GeodesicSurface surface, SurfacePoint target)
+        {
+            using SingleUse.Scope scope = use.Begin();
+            NativeMethods.geoidx_query_prepare_target(handle, HandleOf(surface), &target).ThrowIfError();
+        }
+
+        /// <summary>
+        /// The next step of whoever walks to the target that was prepared and asks on the way, wherever it is. Steps
+        /// that begin where the one before ended lead to the target as a path of
+        /// <see cref="PathQuality.Straight"/> does.
+        /// </summary>
+        /// <remarks>
+        /// The first step takes as long as a path, whose triangles are kept. From any point of these a step takes a few
+        /// microseconds; from a point beside them a new path is found. With <see cref="MetricKind.Edges"/> steps lead
+        /// from corner to corner.
+        /// </remarks>
+        /// <param name="surface">That of the target.</param>
+        /// <param name="from">Where the step begins.</param>
+        /// <param name="start">Takes that point on the triangle that the way crosses next.</param>
+        /// <param name="end">
+        /// Takes where the way leaves this triangle, or the target: the way leads there straight. At the target it is
+        /// the same as <paramref name="start"/>.
+        /// </param>
+        /// <param name="distance">
+        /// Takes how long the way is from <paramref name="from"/> on, in the mesh's unit: 0 at the target, infinite if
+        /// there is no way.
+        /// </param>
+        /// <returns>Whether there is a way: not if the target is in another component.</returns>
+        /// <exception cref="GeodesicArgumentException">
+        /// The point is not on the surface, or no target is prepared.
+        /// </exception>
+        /// <exception cref="GeodesicMeshMismatchException">The surface is that of another mesh.</exception>
+        public unsafe bool TryNextStep(
+            GeodesicSurface surface, SurfacePoint from, out PathPoint start, out PathPoint end, out double distance)
+        {
+            using SingleUse.Scope scope = use.Begin();
+            PathPoint* step = stackalloc PathPoint[2];
+            GeodesicStatus status = NativeMethods.geoidx_query_next_step(
+                handle, HandleOf(surface), &from, step, out distance);
+            if (status == GeodesicStatus.NoPath)
+            {
+                start = end = default;
+                distance = double.PositiveInfinity;
+                return false;
+            }
+            status.ThrowIfError();
+            start = step[0];
+            end = step[1];
+            return true;
+        }
+
         private static SurfaceHandle HandleOf(GeodesicSurface surface) =>
             (surface ?? throw new ArgumentNullException(nameof(surface))).Handle;
     }

@@ -261,8 +261,10 @@ class UseAfterClose(unittest.TestCase):
 
     def test_query(self):
         query = geoidx.Index.build(*SQUARE).query()
+        surface, point = geoidx.Surface(*SQUARE), geoidx.surface_points(0, [1, 0, 0])
         with query:
             query.prepare(0)
+            query.prepare_target(surface, point)
         for call in (
             lambda: query.sssd(0, 1),
             lambda: query.msad(0),
@@ -275,6 +277,8 @@ class UseAfterClose(unittest.TestCase):
             lambda: query.farthest_points(1),
             lambda: query.prepare(0),
             lambda: query.prepared([0]),
+            lambda: query.prepare_target(surface, point),
+            lambda: query.next_step(surface, point),
             lambda: query.threads,
             lambda: setattr(query, "threads", 2),
         ):

@@ -4,7 +4,7 @@ import math
 import unittest
 
 import numpy as np
-from meshes import plane
+from meshes import hills, plane
 
 import geoidx
 
@@ -52,7 +52,80 @@ class Paths(unittest.TestCase):
         query, surface = geoidx.Index.build(vertices, faces).query(), geoidx.Surface(vertices, faces)
         a, b = (geoidx.surface_points(t, [1, 0, 0]) for t in (0, 1))
         self.assertIsNone(query.path(surface, a, b))
+        query.prepare_target(surface, b)
+        self.assertIsNone(query.next_step(surface, a))
         self.assertEqual(query.point_sssd(surface, a, b), math.inf)
+
+    def position(self, mesh, point):
+        return point["weights"] @ mesh[0][mesh[1][point["triangle"]]]
+
+    def walk(self, query, surface, point):
+        """The steps from the point to the prepared target. Asks the query for something else after each of them."""
+        steps = [query.next_step(surface, point)]
+        while math.dist(*steps[-1].positions) > 0 and len(steps) < 1000:
+            query.path(surface, point, steps[-1].points[1:])
+            steps.append(query.next_step(surface, steps[-1].points[1:]))
+        return steps
+
+    def assert_leads(self, steps, start, end):
+        """The steps are a way from one place to another. Returns its length."""
+        for step in steps:
+            self.assertEqual((step.points.dtype, step.points.shape), (geoidx.SURFACE_POINT, (2,)))
+            self.assertEqual(step.points["triangle"][0], step.points["triangle"][1])
+            self.assertEqual((step.positions.dtype, step.positions.shape), (np.float64, (2, 3)))
+        np.testing.assert_allclose(steps[0].positions[0], start, atol=1e-9)
+        for before, after in zip(steps, steps[1:]):
+            np.testing.assert_allclose(after.positions[0], before.positions[1], atol=1e-9)
+        np.testing.assert_allclose(steps[-1].positions, [end, end], atol=1e-9)
+        self.assertEqual(steps[-1].distance, 0)
+        return sum(math.dist(*step.positions) for step in steps)
+
+    def test_steps_lead_to_the_target(self):
+        mesh = hills(30, 26)
+        surface, query = geoidx.Surface(*mesh), geoidx.Index.build(*mesh).query()
+        target = geoidx.surface_points(len(mesh[1]) - 70, [0.2, 0.3, 0.5])
+        query.prepare_target(surface, target)
+        starts = geoidx.surface_points([3, 300, 700], [[0.5, 0.2, 0.3], [1, 0, 0], [0, 0.4, 0.6]])
+        solver = geoidx.Solver(*mesh)
+        for start in starts:
+            with self.subTest(start=start):
+                steps = self.walk(query, surface, start)
+                length = self.assert_leads(steps, self.position(mesh, start), self.position(mesh, target[0]))
+                exact = solver.point_distances(start, target)[0]
+                self.assertGreater(length, exact * (1 - 1e-9))
+                self.assertLess(length, 1.03 * exact)
+                self.assertLess(abs(steps[0].distance - exact), 0.02 * exact)
+
+    def test_steps_along_edges_lead_from_corner_to_corner(self):
+        mesh = hills(12, 10)
+        query = geoidx.Index.build(*mesh, metric=geoidx.Edges()).query()
+        surface = geoidx.Surface(*mesh)
+        query.prepare_target(surface, geoidx.surface_points(len(mesh[1]) - 1, [0, 1, 0]))
+        steps = self.walk(query, surface, geoidx.surface_points(0, [1, 0, 0]))
+        ends = mesh[1][0][0], mesh[1][-1][1]
+        length = self.assert_leads(steps, *mesh[0][list(ends)])
+        exact = geoidx.Solver(*mesh, metric=geoidx.Edges()).distances(*ends)
+        self.assertGreater(length, exact * (1 - 1e-9))
+        self.assertLess(length, 1.03 * exact)
+        for step in steps:
+            np.testing.assert_array_equal(step.points["weights"].max(axis=1), [1, 1])
+
+    def test_steps_to_no_target_are_refused(self):
+        point = geoidx.surface_points(0, [1, 0, 0])
+        query = self.index.query()
+        with self.assertRaisesRegex(geoidx.InvalidArgumentError, "no target"):
+            query.next_step(self.surface, point)
+        other = geoidx.Surface(*plane(5, 4))
+        with self.assertRaises(geoidx.MeshMismatchError):
+            query.prepare_target(other, point)
+        query.prepare_target(self.surface, point)
+        with self.assertRaises(geoidx.MeshMismatchError):
+            query.next_step(other, point)
+        for bad in (geoidx.surface_points(0, [2, 0, 0]), geoidx.surface_points([0, 0], np.eye(3)[:2])):
+            with self.assertRaises(geoidx.InvalidArgumentError):
+                query.next_step(self.surface, bad)
+            with self.assertRaises(geoidx.InvalidArgumentError):
+                query.prepare_target(self.surface, bad)
 
     def test_what_is_wrong_is_refused(self):
         point = geoidx.surface_points(0, [1, 0, 0])

@@ -39,6 +39,13 @@ def ask(vertices: NDArray[np.float32], faces: NDArray[np.int64]) -> None:
             way: geoidx.Path | None = query.path(surface, foot, foot, quality="exact")
             if way is not None:
                 distances = query.point_msad(surface, way.points, offsets=[height])
+            query.prepare_target(surface, foot)
+            step: geoidx.Step | None = query.next_step(surface, foot)
+            if step is not None:
+                height = step.distance
+                ends: NDArray[np.float64] = step.positions
+                step = query.next_step(surface, step.points[1:])
+                print(ends)
             distances = query.matrix(ids, order)
             owners = query.nearest(3)
             ids, distances = query.within(3, 1)

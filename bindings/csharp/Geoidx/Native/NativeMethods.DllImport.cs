@@ -198,6 +198,14 @@ namespace Geoidx
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_query_path_points(
             QueryHandle query, PathPoint* points, ulong capacity, out ulong count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_prepare_target(
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* target);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_query_next_step(
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* from, PathPoint* step, out double distance);
     }
 }
 #endif

@@ -196,6 +196,14 @@ namespace Geoidx
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_query_path_points(
             QueryHandle query, PathPoint* points, ulong capacity, out ulong count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_prepare_target(
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* target);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_next_step(
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* from, PathPoint* step, out double distance);
     }
 }
 #endif

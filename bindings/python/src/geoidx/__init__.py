@@ -46,7 +46,7 @@ from ._options import Codec, Engine
 from ._query import Query
 from ._sections import Coding, Section
 from ._solver import Solver
-from ._surface import SURFACE_POINT, Path, Surface, surface_points
+from ._surface import SURFACE_POINT, Path, Step, Surface, surface_points
 from ._verify import Issue, IssueNumber, verify
 
 __version__ = version_text(HEADER_VERSION)
@@ -95,6 +95,7 @@ __all__ = [
     "Section",
     "Solver",
     "Status",
+    "Step",
     "Surface",
     "TruncatedError",
     "UnsupportedVersionError",

@@ -257,6 +257,8 @@ FUNCTIONS = {
         [c_void_p, c_void_p, c_void_p, c_void_p, c_uint32, c_void_p],
     ),
     "geoidx_query_path_points": (c_int32, [c_void_p, c_void_p, c_uint64, POINTER(c_uint64)]),
+    "geoidx_query_prepare_target": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "geoidx_query_next_step": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
     "geoidx_solver_create": (c_int32, [POINTER(Mesh), POINTER(BuildOptions), _HANDLE_OUT]),
     "geoidx_solver_close": (None, [c_void_p]),
     "geoidx_solver_distances": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_uint32, c_void_p]),

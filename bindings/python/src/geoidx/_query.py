@@ -28,7 +28,7 @@ from ._fields import Distances
 from ._handle import Closable, Handle, OneThread
 from ._matrix import matrix
 from ._native import PathPoint, library
-from ._surface import Path, Surface, SurfacePoints, one_point, point_list
+from ._surface import Path, Step, Surface, SurfacePoints, one_point, point_list
 
 PATH_QUALITIES = ("straight", "exact")
 
@@ -288,3 +288,33 @@ class Query(Closable):
             points: NDArray[Any] = np.zeros(count.value, np.dtype(PathPoint))
             check(library.geoidx_query_path_points(self._handle, address(points), count, byref(count)))
         return Path(length.value, points["point"].copy(), points["position"].copy())
+
+    def prepare_target(self, surface: Surface, target: SurfacePoints) -> None:
+        """Keeps the target of `next_step` until the next call."""
+        point = one_point(target, "target")
+        with self._one_thread:
+            check(library.geoidx_query_prepare_target(self._handle, surface.handle, address(point)))
+
+    def next_step(self, surface: Surface, point: SurfacePoints) -> Step | None:
+        """The next step to the prepared target from any point; None if they lie in different components.
+
+        Steps that begin where the one before ended, at its `points[1:]`, lead to the target as a straight `path` does;
+        there the distance is 0. By the metric Edges they lead from corner to corner.
+
+        The first step takes as long as a path, whose triangles are kept. From any point of these a step takes a few
+        microseconds in the library; from a point beside them a new path is found.
+
+        surface: as for the target.
+        InvalidArgumentError without a prepared target.
+        """
+        begin = one_point(point, "point")
+        ends: NDArray[Any] = np.zeros(2, np.dtype(PathPoint))
+        distance = c_double()
+        with self._one_thread:
+            status = library.geoidx_query_next_step(
+                self._handle, surface.handle, address(begin), address(ends), byref(distance)
+            )
+        if status == Status.NO_PATH:
+            return None
+        check(status)
+        return Step(ends["point"].copy(), ends["position"].copy(), distance.value)

@@ -62,6 +62,18 @@ class Path:
     """(k, 3), in space."""
 
 
+@dataclass(frozen=True)
+class Step:
+    """The next step of a walk to a target: a straight piece on one triangle, whose ends are equal at the target."""
+
+    points: SurfacePoints
+    """(2,) `surface_points` on the same triangle: where the step begins, and where it leaves the triangle or ends."""
+    positions: Doubles
+    """(2, 3), in space: the direction leads from one to the other."""
+    distance: float
+    """How long the way to the target is from where the step begins; 0 at the target."""
+
+
 class Surface(Closable):
     """A mesh with its adjacency, for points of the surface: immutable, shared by threads.
 

@@ -9,7 +9,7 @@ using Unity.Collections;
 using UnityEditor;
 using UnityEngine;
 
-/// <summary>Uses the package as Unity would: the editor builds an index, the sample colours by it.</summary>
+/// <summary>Uses the package as Unity would: the editor builds an index, the samples colour and walk by it.</summary>
 internal static class Program
 {
     private sealed class BytesAsset : TextAsset
@@ -38,6 +38,10 @@ internal static class Program
             AUserCancels();
             TheSampleColours(index);
             TheSampleColours(null);
+            TheSampleWalks(index);
+            TheSampleWalks(null);
+            TheSampleWaitsForATarget();
+            TheSampleStaysWhereNoWayLeads();
             AnUnreadableMeshIsRefused();
             NothingIsRefusedByName();
             TheMenuTakesASkinnedMesh();
@@ -123,6 +127,71 @@ internal static class Program
         Check(colors[8].Equals(sample.unreachable), "an unused vertex is unreachable");
         Call(typeof(ColourByDistance), sample, "OnDestroy");
     }
+
+    // A corner of the strip lies at (10, 0, 0) of the world, the opposite one at (12, 6, 0).
+    private static void TheSampleWalks(byte[]? index)
+    {
+        WalkAlongSurface sample = WalkerOn(Strip());
+        sample.indexAsset = index == null ? null : new BytesAsset(index);
+        sample.target = new GameObject().transform;
+        sample.target.position = new Vector3(12, 6, 0);
+        Call(typeof(WalkAlongSurface), sample, "Start");
+        int frames = 0;
+        for (Vector3 from = sample.transform.position; Apart(from, sample.target.position) > 1e-6; frames++)
+        {
+            Call(typeof(WalkAlongSurface), sample, "Update");
+            Vector3 to = sample.transform.position;
+            double left = Apart(to, sample.target.position), way = Apart(from, to);
+            Check(way <= 0.2 + 1e-5 && (way > 0.19 || left < 1e-6), "the walk goes on at its speed");
+            Check(left < Apart(from, sample.target.position), "the walk leads nearer");
+            from = to;
+        }
+        Check(Math.Abs(frames - Math.Sqrt(10) / 0.1) < 1.5, "the walk is about as long as the straight line");
+        Call(typeof(WalkAlongSurface), sample, "Update");
+        Check(Apart(sample.transform.position, sample.target.position) < 1e-6, "the walk ends at the target");
+        Call(typeof(WalkAlongSurface), sample, "OnDestroy");
+    }
+
+    private static void TheSampleWaitsForATarget()
+    {
+        WalkAlongSurface sample = WalkerOn(Strip());
+        Call(typeof(WalkAlongSurface), sample, "Update");
+        Call(typeof(WalkAlongSurface), sample, "Start");
+        Call(typeof(WalkAlongSurface), sample, "Update");
+        Check(sample.transform.position.Equals(new Vector3(10, 0, 0)), "without a target the walk does not begin");
+        sample.WalkTo(new Vector3(10, 6, 1));
+        Call(typeof(WalkAlongSurface), sample, "Update");
+        Check(Apart(sample.transform.position, new Vector3(10, 0.2f, 0)) < 1e-6, "it leads along a side");
+        Call(typeof(WalkAlongSurface), sample, "OnDestroy");
+        Call(typeof(WalkAlongSurface), new WalkAlongSurface(), "OnDestroy");
+    }
+
+    private static void TheSampleStaysWhereNoWayLeads()
+    {
+        Mesh mesh = Strip();
+        mesh.triangles = mesh.triangles.Take(6).Concat(mesh.triangles.Skip(12)).ToArray();
+        WalkAlongSurface sample = WalkerOn(mesh);
+        Call(typeof(WalkAlongSurface), sample, "Start");
+        sample.WalkTo(new Vector3(12, 6, 0));
+        Call(typeof(WalkAlongSurface), sample, "Update");
+        Check(sample.transform.position.Equals(new Vector3(10, 0, 0)), "no way leads to another component");
+        Call(typeof(WalkAlongSurface), sample, "OnDestroy");
+    }
+
+    // A frame is a tenth of a second, and the mesh twice as large in the world.
+    private static WalkAlongSurface WalkerOn(Mesh mesh)
+    {
+        Time.deltaTime = 0.1f;
+        var filter = new MeshFilter { mesh = mesh, gameObject = ObjectWith() };
+        filter.transform.position = new Vector3(10, 0, 0);
+        filter.transform.localScale = new Vector3(2, 2, 2);
+        var sample = new WalkAlongSurface { ground = filter, gameObject = ObjectWith() };
+        sample.transform.position = new Vector3(10, 0, 0);
+        return sample;
+    }
+
+    private static double Apart(Vector3 a, Vector3 b) =>
+        Math.Sqrt(Math.Pow(a.x - b.x, 2) + Math.Pow(a.y - b.y, 2) + Math.Pow(a.z - b.z, 2));
 
     private static GameObject ObjectWith(params Component[] components) =>
         new GameObject { Components = components };

@@ -68,6 +68,8 @@ namespace UnityEngine
 
     public sealed class GameObject : Object
     {
+        public Transform transform { get; } = new Transform();
+
         public Component[] Components { get; set; } = { };
 
         public T GetComponentInChildren<T>() => Components.OfType<T>().FirstOrDefault();
@@ -77,7 +79,34 @@ namespace UnityEngine
     {
         public GameObject gameObject { get; set; }
 
+        public Transform transform => gameObject.transform;
+
         public T GetComponent<T>() => gameObject.GetComponentInChildren<T>();
+    }
+
+    // Without rotations and parents.
+    public class Transform : Component
+    {
+        public Vector3 position { get; set; }
+
+        public Vector3 localScale { get; set; } = new Vector3(1, 1, 1);
+
+        public Vector3 TransformPoint(Vector3 position) =>
+            new Vector3(
+                this.position.x + localScale.x * position.x,
+                this.position.y + localScale.y * position.y,
+                this.position.z + localScale.z * position.z);
+
+        public Vector3 InverseTransformPoint(Vector3 position) =>
+            new Vector3(
+                (position.x - this.position.x) / localScale.x,
+                (position.y - this.position.y) / localScale.y,
+                (position.z - this.position.z) / localScale.z);
+    }
+
+    public class Time
+    {
+        public static float deltaTime { get; set; }
     }
 
     public class Behaviour : Component

@@ -1,0 +1,196 @@
+// Walks to a target, step by step, compared with the exact metric.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "tests/capi/refusals.h"
+#include "tests/path/path_cases.h"
+#include "tests/support/stress_meshes.h"
+
+using namespace geodesic::test;
+
+namespace {
+
+constexpr double CLOSE = 1e-9;
+
+struct Step {
+    std::array<geoidx_path_point, 2> points;
+    double distance = -1;
+};
+
+Step step_from(const PathCase& on, const geoidx_surface_point& from) {
+    Step step;
+    require_success(
+        geoidx_query_next_step(on.query.get(), on.surface.get(), &from, step.points.data(), &step.distance));
+    return step;
+}
+
+void prepare(const PathCase& on, const geoidx_surface_point& target) {
+    require_success(geoidx_query_prepare_target(on.query.get(), on.surface.get(), &target));
+}
+
+// That it lies on one triangle, from where it was asked for.
+double check_step(const PathCase& on, const geoidx_surface_point& from, const Step& step) {
+    CHECK(step.points[0].point.triangle == step.points[1].point.triangle);
+    CHECK((on.position(from) - on.position(step.points[0].point)).norm() < CLOSE);
+    for (const auto& [point, position] : step.points) {
+        double weights = 0;
+        for (const double weight : point.weights) {
+            CHECK(weight >= 0);
+            weights += weight;
+        }
+        CHECK(weights == doctest::Approx(1).epsilon(1e-12));
+        CHECK((on.position(point) - Eigen::Vector3d(position[0], position[1], position[2])).norm() < CLOSE);
+    }
+    return (on.position(step.points[1].point) - on.position(step.points[0].point)).norm();
+}
+
+// The length of the whole way. Where `share` is less than 1, whoever walks asks again before the end of each
+// step.
+double walk(const PathCase& on, geoidx_surface_point from, const geoidx_surface_point& target,
+            double share = 1) {
+    prepare(on, target);
+    const size_t most = static_cast<size_t>(static_cast<double>(200 + 20 * on.soup.triangles.size()) / share);
+    double length = 0;
+    for (size_t steps = 0;; ++steps) {
+        REQUIRE(steps < most);
+        const Step step = step_from(on, from);
+        length += check_step(on, from, step) * (share < 1 && steps % 3 != 2 ? share : 1);
+        if (step.distance == 0) break;
+        from = step.points[1].point;
+        if (share < 1 && steps % 3 != 2)
+            for (size_t k = 0; k < 3; ++k)
+                from.weights[k] = (1 - share) * step.points[0].point.weights[k] + share * from.weights[k];
+    }
+    CHECK((on.position(from) - on.position(target)).norm() < CLOSE);
+    return length;
+}
+
+// Whoever follows the steps goes along the straight path, or a shorter one; whoever asks again within
+// triangles, too.
+void check_walks(const PathCase& on, size_t count) {
+    std::mt19937_64 random(4);
+    for (size_t i = 0; i < count; ++i) {
+        const auto from = random_point(on.soup, random, i), target = random_point(on.soup, random, i / 4);
+        const double exact = on.exact(from, target);
+        CAPTURE(i);
+        CAPTURE(exact);
+        if (exact == std::numeric_limits<double>::infinity()) {
+            prepare(on, target);
+            Step step;
+            check_refused(geoidx_query_next_step(on.query.get(), on.surface.get(), &from, step.points.data(),
+                                                 &step.distance),
+                          GEOIDX_ERROR_NO_PATH, "component");
+            continue;
+        }
+        double straight = 0;
+        require_success(geoidx_query_path(on.query.get(), on.surface.get(), &from, &target,
+                                          GEOIDX_PATH_STRAIGHT, &straight));
+        for (const double share : {1.0, 0.6}) {
+            const double length = walk(on, from, target, share);
+            CHECK(length >= exact * (1 - 1e-9) - CLOSE);
+            CHECK(length <= straight * (1 + 1e-9) + CLOSE);
+        }
+    }
+}
+
+geoidx_surface_point corner(uint32_t triangle, size_t k) {
+    geoidx_surface_point point{};
+    point.triangle = triangle;
+    point.weights[k] = 1;
+    return point;
+}
+
+}
+
+TEST_CASE("next step: walks end at the target, and are little longer than the shortest") {
+    size_t number = 0;
+    for (const Soup& soup : path_soups()) {
+        ++number;
+        CAPTURE(number);
+        check_walks(PathCase(soup), 40);
+    }
+}
+
+TEST_CASE("next step: by the graph engine, too") {
+    check_walks(PathCase(joined(torus(12, 8, 1, 0.4), comb(1)), path_options(GEOIDX_ENGINE_GRAPH)), 24);
+}
+
+TEST_CASE("next step: walks on stress meshes end at the target") {
+    std::mt19937_64 random(11);
+    for (const auto& families : {stress_families(), unorientable_families()})
+        for (const StressFamily& family : families) {
+            CAPTURE(std::string(family.name));
+            check_walks(PathCase(family.draw(random)), 12);
+        }
+}
+
+TEST_CASE("next step: the distance is that of the index, and other questions do not disturb it") {
+    const PathCase on(bumpy_sphere(3, 5));
+    std::mt19937_64 random(6);
+    for (size_t i = 0; i < 30; ++i) {
+        const auto from = random_point(on.soup, random, i), target = random_point(on.soup, random, i / 4),
+                   other = random_point(on.soup, random, i);
+        prepare(on, target);
+        const Step before = step_from(on, from);
+        CHECK(before.distance == doctest::Approx(on.exact(from, target)).epsilon(0.02));
+        double length = 0;
+        require_success(
+            geoidx_query_path(on.query.get(), on.surface.get(), &other, &from, GEOIDX_PATH_EXACT, &length));
+        on.sssd(other, from);
+        const Step after = step_from(on, from);
+        CHECK(after.distance == doctest::Approx(before.distance).epsilon(1e-12));
+        CHECK(after.points[1].point.triangle == before.points[1].point.triangle);
+        for (size_t k = 0; k < 3; ++k)
+            CHECK(after.points[1].point.weights[k] ==
+                  doctest::Approx(before.points[1].point.weights[k]).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("next step: from corner to corner where edges are the metric") {
+    for (const uint32_t engine : {GEOIDX_ENGINE_OVERLAY, GEOIDX_ENGINE_GRAPH}) {
+        const PathCase on(jittered_grid(9, 2), path_options(engine, GEOIDX_METRIC_EDGES));
+        for (uint32_t t = 0; t < on.soup.triangles.size(); t += 7) {
+            const uint32_t source = on.soup.triangles[3][0], target = on.soup.triangles[t][1];
+            double exact = 0;
+            REQUIRE(geoidx_solver_distances(on.solver.get(), &source, 1, &target, 1, &exact) == GEOIDX_OK);
+            const double length = walk(on, corner(3, 0), corner(t, 1));
+            CHECK(length >= exact - CLOSE);
+            CHECK(length <= exact * 1.01 + CLOSE);
+        }
+    }
+}
+
+TEST_CASE("next step: bad input is refused by name") {
+    const PathCase on(torus(10, 8, 1, 0.4)), other(torus(10, 8, 1, 0.5));
+    const auto fine = corner(0, 0);
+    auto bad = fine;
+    bad.weights[1] = -0.5;
+    Step step;
+    geoidx_query* const query = on.query.get();
+    const geoidx_surface* const surface = on.surface.get();
+    const auto refused = [](geoidx_status status, const char* what) {
+        check_refused(status, GEOIDX_ERROR_INVALID_ARGUMENT, what);
+    };
+    geoidx_path_point* const points = step.points.data();
+    refused(geoidx_query_next_step(query, surface, &fine, points, nullptr), "no target");
+    refused(geoidx_query_prepare_target(nullptr, surface, &fine), "query is NULL");
+    refused(geoidx_query_prepare_target(query, nullptr, &fine), "surface is NULL");
+    refused(geoidx_query_prepare_target(query, surface, nullptr), "target is NULL");
+    refused(geoidx_query_prepare_target(query, surface, &bad), "target has the weight");
+    check_refused(geoidx_query_prepare_target(query, other.surface.get(), &fine), GEOIDX_ERROR_MESH_MISMATCH,
+                  "another mesh");
+    prepare(on, corner(70, 1));
+    refused(geoidx_query_next_step(nullptr, surface, &fine, points, nullptr), "query is NULL");
+    refused(geoidx_query_next_step(query, nullptr, &fine, points, nullptr), "surface is NULL");
+    refused(geoidx_query_next_step(query, surface, nullptr, points, nullptr), "from is NULL");
+    refused(geoidx_query_next_step(query, surface, &fine, nullptr, nullptr), "step is NULL");
+    refused(geoidx_query_next_step(query, surface, &bad, points, nullptr), "from has the weight");
+    check_refused(geoidx_query_next_step(query, other.surface.get(), &fine, points, nullptr),
+                  GEOIDX_ERROR_MESH_MISMATCH, "another mesh");
+    require_success(geoidx_query_next_step(query, surface, &fine, points, nullptr));
+    // One that fails leaves none.
+    refused(geoidx_query_prepare_target(query, surface, &bad), "target has the weight");
+    refused(geoidx_query_next_step(query, surface, &fine, points, nullptr), "no target");
+}
