@@ -299,6 +299,51 @@ class Outputs(unittest.TestCase):
         self.assertEqual((problem["number"], problem["byte"]), (5, cut.stat().st_size))  # ends too early, there
         self.assertIn(f"issue 5, byte {cut.stat().st_size}: ", run("verify", cut).stdout.decode())
 
+    def path(self, *arguments):
+        return output_of("path", self.index, self.mesh, "0", "6", *arguments).decode().splitlines()
+
+    def test_path(self):
+        for quality in ("straight", "exact"):
+            length, *points = self.path("--quality", quality)
+            self.assertAlmostEqual(float(length), math.sqrt(5), places=7)
+            points = numpy.array([line.split() for line in points], float)
+            numpy.testing.assert_allclose(points[[0, -1]], [CORNERS[0], CORNERS[6]], atol=1e-7)
+            self.assertAlmostEqual(numpy.linalg.norm(numpy.diff(points, axis=0), axis=1).sum(), math.sqrt(5), places=6)
+        shown = strict_json(output_of("path", self.index, self.mesh, "0", "6", "--json"))
+        self.assertEqual((shown["source"], shown["target"], shown["points"]), (0, 6, len(points)))
+
+    def test_files_of_a_path(self):
+        for name in ("way.obj", "way.ply", "way.csv"):
+            self.assertEqual(len(self.path("-o", self.folder / name)), 1)
+        obj = (self.folder / "way.obj").read_text().splitlines()
+        count = sum(line.startswith("v ") for line in obj)
+        self.assertEqual(obj[-1].split(), ["l", *map(str, range(1, count + 1))])
+        rows = list(csv.DictReader((self.folder / "way.csv").open(newline="")))
+        self.assertEqual(len(rows), count)
+        self.assertAlmostEqual(float(rows[0]["x"]), CORNERS[0][0])
+        self.assertIn(f"element vertex {count}\n", (self.folder / "way.ply").read_text())
+
+    def test_picture_of_a_path(self):
+        picture, plain = self.folder / "way.png", self.folder / "plain.png"
+        self.assertEqual(self.path("--png", picture, "--size", "80x60"), self.path())
+        output_of("msad", self.index, "0", "6", "--mesh", self.mesh, "--png", plain, "--size", "80x60")
+        for file in (picture, plain):
+            self.assertEqual(file.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertNotEqual(picture.read_bytes(), plain.read_bytes())
+
+    def test_what_is_wrong_with_a_path(self):
+        asked = ["path", self.index, self.mesh, "0"]
+        done = run(*asked, "8")  # on the other box
+        self.assertEqual((done.returncode, done.stdout), (1, b""))
+        self.assertIn(b"component", done.stderr)
+        self.assertEqual(run(*asked, "6", "--png", "-").returncode, 2)
+        self.assertEqual(run(*asked, "6", "--png", "x.png", "--size", "7x7").returncode, 2)
+        self.assertEqual(run(*asked, "6", "-o", "way.txt").returncode, 2)
+        same = self.folder / "same.csv"
+        self.assertEqual(run(*asked, "6", "--png", same, "-o", same).returncode, 1)
+        self.assertEqual(run(*asked, "6", "--png", self.mesh).returncode, 1)
+        self.assertFalse(same.exists())
+
     def test_json_of_bench(self):
         shown = strict_json(output_of("bench", self.index, "--queries", "3", "--seed", "9", "--json"))
         self.assertEqual((shown["queries"], shown["seed"], shown["vertex_count"]), (3, 9, 16))

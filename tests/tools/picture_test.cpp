@@ -138,6 +138,41 @@ TEST_CASE("picture: the source is marked and turned to the viewer") {
     }
 }
 
+TEST_CASE("picture: a path is a bright line with a dark rim, and what hides it hides it") {
+    TriangleMesh mesh = plane(4);
+    const std::vector<float> distances(mesh.vertex_count(), 0.5f);
+    // Over the triangle (0, 0), (1/4, 0), (1/4, 1/4) and its neighbours along y = 1/8: straight to the right.
+    std::vector<WayPoint> way;
+    for (uint32_t x = 0; x < 4; ++x) {
+        const std::array corners{x, x + 1, x + 6};
+        way.push_back({corners, {0.5, 0, 0.5}});
+        way.push_back({corners, {0, 0.5, 0.5}});
+    }
+    const PictureOptions options = front_view(800, 0);
+    const Image bare = render_field(mesh, distances, {}, options);
+    const Image image = render_field(mesh, distances, {}, options, way);
+    const DrawnSurface surface = drawn_surface(mesh);
+    const Camera camera = fitted_camera(surface, *options.view, 800, 800, 0.06);
+    const ScreenPoint left = camera.project(mix(surface.positions[0], surface.positions[6], 0.5)),
+                      right = camera.project(mix(surface.positions[4], surface.positions[9], 0.5));
+    const int y = static_cast<int>(left.y);
+    for (int x = static_cast<int>(left.x) + 6; x < static_cast<int>(right.x) - 6; ++x) {
+        CHECK(brightness(image.pixel(x, y)) > 600);
+        CHECK(brightness(image.pixel(x, y)) > brightness(bare.pixel(x, y)));
+        int rim = brightness(bare.pixel(x, y));
+        for (int beside = 2; beside <= 6; ++beside)
+            rim = std::min(rim, brightness(image.pixel(x, y - beside)));
+        CHECK(rim < brightness(bare.pixel(x, y)) * 3 / 4);
+        CHECK(brightness(image.pixel(x, y - 20)) == brightness(bare.pixel(x, y - 20)));
+    }
+    // A wall in front of all of it.
+    const auto first = static_cast<uint32_t>(mesh.vertex_count());
+    mesh.positions.insert(mesh.positions.end(), {-1, -1, 1, 3, -1, 1, -1, 3, 1});
+    mesh.triangles.insert(mesh.triangles.end(), {first, first + 1, first + 2});
+    const std::vector<float> all(mesh.vertex_count(), 0.5f);
+    CHECK(render_field(mesh, all, {}, options, way).pixels == render_field(mesh, all, {}, options).pixels);
+}
+
 TEST_CASE("picture: no distance, no size and no shape makes it fail") {
     TriangleMesh mesh;
     mesh.positions = {0, 0, 0, 0, 0, 0, 0, 0, 0};

@@ -1,44 +1,15 @@
 #include "tools/commands/field_output.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "tools/commands/field_format.h"
 #include "tools/failure.h"
 #include "tools/output_file.h"
-#include "tools/picture/png.h"
-#include "tools/picture/render.h"
 
 namespace geodesic::tools {
 
 namespace {
-
-bool parse_side(std::string_view word, int& side) {
-    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), side);
-    return error == std::errc{} && stop == word.data() + word.size() && side >= 16 && side <= 16384;
-}
-
-PictureOptions picture_options(const FieldOutput& output) {
-    PictureOptions options;
-    const std::string_view size = output.size;
-    const size_t cross = size.find('x');
-    if (cross == std::string_view::npos || !parse_side(size.substr(0, cross), options.width) ||
-        !parse_side(size.substr(cross + 1), options.height))
-        throw CLI::ValidationError("--size: '" + output.size +
-                                   "' is not WIDTHxHEIGHT with sides of 16 to 16384");
-    options.isolines = output.isolines;
-    options.up = output.up == "x" ? UpAxis::x : output.up == "z" ? UpAxis::z : UpAxis::y;
-    return options;
-}
-
-std::vector<unsigned char> encode(const FieldOutput& output, const Image& image) {
-    try {
-        return encode_png(image);
-    } catch (const std::runtime_error& error) {
-        throw Failure(output.picture + ": " + error.what());
-    }
-}
 
 // What the name of the file says, or --format where it says nothing.
 FieldFormat format_of(const FieldOutput& output) {
@@ -54,15 +25,16 @@ FieldFormat format_of(const FieldOutput& output) {
 }
 
 void require_one_on_standard_output(const FieldOutput& output) {
-    const int count = (output.numbers == STANDARD_OUTPUT) + (output.picture == STANDARD_OUTPUT) + output.json;
+    const int count =
+        (output.numbers == STANDARD_OUTPUT) + (output.picture.file == STANDARD_OUTPUT) + output.json;
     if (count > 1)
         throw CLI::ValidationError("standard output is for one of -o, --png and --json, not for several");
 }
 
 void require_sound(const FieldOutput& output, bool has_mesh) {
-    picture_options(output);
+    picture_options(output.picture);
     require_one_on_standard_output(output);
-    if (output.numbers.empty() && output.picture.empty() && !output.json)
+    if (output.numbers.empty() && output.picture.file.empty() && !output.json)
         throw CLI::ValidationError("one of -o, --png and --json is required");
     if (!output.numbers.empty() && format_of(output) == FieldFormat::ply && !has_mesh)
         throw CLI::ValidationError(output.numbers + ": a ply file holds the mesh, so it needs --mesh");
@@ -94,8 +66,8 @@ void print_object(const FieldOutput& output, std::span<const float> distances,
                   std::span<const uint32_t> sources, JsonObject& object) {
     object.json("sources", json_array(sources, [](uint32_t source) { return std::to_string(source); }));
     describe(distances, object);
-    object.json("output", name_or_null(output.numbers)).json("picture", name_or_null(output.picture));
-    if (output.numbers.empty() && output.picture.empty())
+    object.json("output", name_or_null(output.numbers)).json("picture", name_or_null(output.picture.file));
+    if (output.numbers.empty() && output.picture.file.empty())
         object.json("distances", json_array(distances, [](float distance) { return json_number(distance); }));
     object.print();
 }
@@ -108,18 +80,7 @@ CLI::Option* add_field_options(CLI::App& command, FieldOutput& output) {
     command.add_option("--format", output.format, "of the output where its name does not say it; - is csv")
         ->needs(numbers)
         ->check(CLI::IsMember(FIELD_FORMAT_NAMES));
-    CLI::Option* png = command.add_option("--png", output.picture, "picture of the distances to write");
-    command.add_option("--size", output.size, "of the picture, WIDTHxHEIGHT")
-        ->needs(png)
-        ->capture_default_str();
-    command.add_option("--isolines", output.isolines, "number of lines of equal distance in the picture")
-        ->needs(png)
-        ->check(CLI::Range(0, 10000))
-        ->capture_default_str();
-    command.add_option("--up", output.up, "axis that points up in the picture")
-        ->needs(png)
-        ->check(CLI::IsMember({"x", "y", "z"}))
-        ->capture_default_str();
+    CLI::Option* png = add_picture_options(command, output.picture);
     command.add_flag("--json", output.json,
                      "print a JSON object, which holds the distances if nothing else is to be written");
     return png;
@@ -131,11 +92,11 @@ void require_writable(const FieldOutput& output, bool has_mesh, std::span<const 
         require_writable(output.numbers, inputs);
         if (format_of(output) != FieldFormat::csv) require_no_terminal(output.numbers);
     }
-    if (output.picture.empty()) return;
-    require_writable(output.picture, inputs);
-    require_no_terminal(output.picture);
-    if (is_same_path(output.picture, output.numbers))
-        throw Failure(output.picture + ": is both -o and --png");
+    if (output.picture.file.empty()) return;
+    require_writable(output.picture.file, inputs);
+    require_no_terminal(output.picture.file);
+    if (is_same_path(output.picture.file, output.numbers))
+        throw Failure(output.picture.file + ": is both -o and --png");
 }
 
 // Standard output comes last: it may be closed early, which ends the program.
@@ -144,9 +105,10 @@ void write_field(const FieldOutput& output, std::span<const float> distances, co
     std::vector<std::pair<std::string, std::vector<unsigned char>>> files;
     if (!output.numbers.empty())
         files.emplace_back(output.numbers, encode_field(format_of(output), distances, mesh));
-    if (mesh && !output.picture.empty())
-        files.emplace_back(output.picture,
-                           encode(output, render_field(*mesh, distances, sources, picture_options(output))));
+    if (mesh && !output.picture.file.empty())
+        files.emplace_back(output.picture.file,
+                           encode_picture(output.picture, render_field(*mesh, distances, sources,
+                                                                       picture_options(output.picture))));
     std::stable_partition(files.begin(), files.end(),
                           [](const auto& file) { return file.first != STANDARD_OUTPUT; });
     for (const auto& [path, bytes] : files) write_file(path, bytes);

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/commands/picture_output.h"
 #include "tools/json.h"
 #include "tools/mesh_io/triangle_mesh.h"
 
@@ -16,10 +17,7 @@ namespace geodesic::tools {
 struct FieldOutput {
     std::string numbers;
     std::string format; // of the numbers; empty: by the name
-    std::string picture;
-    std::string size = "1200x1000";
-    uint32_t isolines = 24;
-    std::string up = "y";
+    PictureOutput picture;
     bool json = false;
 };
 

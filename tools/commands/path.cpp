@@ -5,6 +5,7 @@
 
 #include "tools/commands/arguments.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/picture_output.h"
 #include "tools/failure.h"
 #include "tools/json.h"
 #include "tools/library.h"
@@ -20,6 +21,7 @@ struct PathArguments {
     std::vector<std::string> ids;
     std::string quality = "straight";
     std::string output;
+    PictureOutput picture;
     double weld_tolerance = 0;
     bool json = false;
 };
@@ -109,10 +111,37 @@ Writer writer_of(const std::string& output) {
     throw CLI::ValidationError("--output must end with .obj, .ply or .csv: " + output);
 }
 
+// The path on the mesh, which is coloured by the distances from the first vertex.
+void write_picture(const PictureOutput& output, const geoidx& index, const TriangleMesh& mesh, const Way& way,
+                   std::span<const uint32_t> ends) {
+    std::vector<float> distances(mesh.vertex_count());
+    require_ok(geoidx_msad(&index, ends.data(), 1, distances.data(), static_cast<uint32_t>(distances.size())),
+               output.file);
+    std::vector<WayPoint> points;
+    for (const auto& [point, position] : way.points) {
+        const uint32_t* const corners = mesh.triangles.data() + 3 * size_t{point.triangle};
+        points.push_back(
+            {{corners[0], corners[1], corners[2]}, {point.weights[0], point.weights[1], point.weights[2]}});
+    }
+    write_file(output.file,
+               encode_picture(output, render_field(mesh, distances, ends, picture_options(output), points)));
+}
+
+void require_outputs(const PathArguments& arguments) {
+    const std::array inputs{arguments.index, arguments.mesh};
+    const std::string& picture = arguments.picture.file;
+    picture_options(arguments.picture);
+    if (picture == STANDARD_OUTPUT) throw CLI::ValidationError("--png: standard output is for the length");
+    if (!arguments.output.empty()) require_writable(arguments.output, inputs);
+    if (picture.empty()) return;
+    require_writable(picture, inputs);
+    if (is_same_path(picture, arguments.output)) throw Failure(picture + ": is both -o and --png");
+}
+
 void path(const PathArguments& arguments) {
     const std::vector<uint32_t> ids = vertex_ids(arguments.ids);
     const Writer writer = arguments.output.empty() ? nullptr : writer_of(arguments.output);
-    if (writer) require_writable(arguments.output, std::array{arguments.index, arguments.mesh});
+    require_outputs(arguments);
     const TriangleMesh mesh = read_mesh(arguments.mesh);
     const Index index = open_index(arguments.index, &mesh);
     const Way way = way_between(*index, mesh, arguments, ids[0], ids[1]);
@@ -120,6 +149,7 @@ void path(const PathArguments& arguments) {
         const std::string text = writer(way);
         write_file(arguments.output, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
     }
+    if (!arguments.picture.file.empty()) write_picture(arguments.picture, *index, mesh, way, ids);
     if (arguments.json) {
         JsonObject()
             .text("index", arguments.index)
@@ -151,6 +181,8 @@ void add_path(CLI::App& app) {
         ->capture_default_str();
     command->add_option("-o,--output", arguments->output,
                         "write the points to a file, .obj, .ply or .csv, and print the length only");
+    add_picture_options(*command, arguments->picture)
+        ->description("picture of the path to write, on the distances from A");
     command->add_option("--weld-tolerance", arguments->weld_tolerance, "that the index was built with");
     command->add_flag("--json", arguments->json, "print a JSON object");
     command->callback([arguments] { path(*arguments); });

@@ -72,7 +72,8 @@ Isolines isolines_of(const PictureOptions& options, double max_distance) {
 }
 
 Image render_field(const TriangleMesh& mesh, std::span<const float> distances,
-                   std::span<const uint32_t> sources, const PictureOptions& options) {
+                   std::span<const uint32_t> sources, const PictureOptions& options,
+                   std::span<const WayPoint> way) {
     const DrawnSurface surface = drawn_surface(mesh);
     const auto first_source = sources.empty() ? std::nullopt : std::optional(sources[0]);
     const View view = options.view ? *options.view : view_of_source(surface, first_source, options.up);
@@ -87,6 +88,7 @@ Image render_field(const TriangleMesh& mesh, std::span<const float> distances,
     Image image{options.width, options.height, {}};
     image.pixels.resize(3 * static_cast<size_t>(options.width) * static_cast<size_t>(options.height));
     draw(scene, image);
+    draw_way(surface, view, camera, way, image);
     draw_source_marks(surface, view, camera, sources, image);
     return image;
 }

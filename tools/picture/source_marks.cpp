@@ -1,6 +1,6 @@
 #include "tools/picture/source_marks.h"
 
-#include "tools/picture/colour_map.h"
+#include "tools/picture/blend.h"
 
 namespace geodesic::tools {
 
@@ -18,14 +18,6 @@ double mark_radius(const Image& image, size_t mark_count) {
 Colour ball_colour(double dx, double dy, double distance, double radius) {
     const double light = 0.80 + 0.20 * std::clamp((-dx - dy) / radius, -1.0, 1.0);
     return mix({light, light, light}, RIM, smooth_step(0.68 * radius - 0.5, 0.68 * radius + 0.5, distance));
-}
-
-void blend(uint8_t* pixel, Colour colour, double opacity) {
-    const Colour under = linear_from_srgb({pixel[0] / 255.0, pixel[1] / 255.0, pixel[2] / 255.0});
-    const Colour srgb = srgb_from_linear(mix(under, colour, opacity));
-    pixel[0] = static_cast<uint8_t>(std::lround(255 * srgb.x));
-    pixel[1] = static_cast<uint8_t>(std::lround(255 * srgb.y));
-    pixel[2] = static_cast<uint8_t>(std::lround(255 * srgb.z));
 }
 
 void draw_mark(const ScreenPoint& centre, double radius, Image& image) {
