@@ -151,7 +151,8 @@ bool OtherSides::take(const Pass& pass, const Turn::Fan& fan, PointRange range) 
     constexpr double SHORTER = 1e-12; // as a share: less is rounding
     Strip other = with_fan(part_of(surface_, strip_, path_, range),
                            {pass.first - range.first, pass.last - range.first, pass.vertex}, fan);
-    if (!(straighten(surface_, other).length < length(range) * (1 - SHORTER))) return false;
+    const double limit = length(range) * (1 - SHORTER);
+    if (!(straighten(surface_, other, limit).length < limit)) return false;
     Strip whole = with_part(strip_, range, other);
     StripPath shorter = straighten(surface_, whole);
     if (!(shorter.length < path_.length * (1 - SHORTER))) return false;

@@ -34,7 +34,7 @@ public:
     Straightening(const Surface& surface, Strip& strip)
         : surface_(surface), strip_(strip), path_(shortest_in_strip(surface, strip)) {}
 
-    StripPath run();
+    StripPath run(double limit);
 
 private:
     static constexpr double SHORTER = 1e-13; // as a share of the path: less is rounding
@@ -147,8 +147,8 @@ bool Straightening::turn_all() {
 
 // Parts that are as short as can be make a path that is, but for a bend that the last turn beside it allows
 // to be pulled tight.
-StripPath Straightening::run() {
-    while (turn_all()) {
+StripPath Straightening::run(double limit) {
+    while (turn_all() && path_.length < limit) {
         StripPath whole = shortest_in_strip(surface_, strip_);
         const bool is_shorter = whole.length < path_.length * (1 - SHORTER);
         path_ = std::move(whole);
@@ -168,6 +168,8 @@ Strip with_fan(const Strip& strip, const Pass& pass, const Turn::Fan& fan) {
                      {pass.first, pass.last + 1}, portals);
 }
 
-StripPath straighten(const Surface& surface, Strip& strip) { return Straightening(surface, strip).run(); }
+StripPath straighten(const Surface& surface, Strip& strip, double limit) {
+    return Straightening(surface, strip).run(limit);
+}
 
 }

@@ -46,8 +46,8 @@ std::span<const Query::Found> Query::within(std::span<const uint32_t> source_ids
     for (const uint32_t id : source_ids)
         if (number_of(id) == NONE) ranked_.push_back({0, id});
     std::ranges::sort(ranked_);
-    const auto repeated = std::ranges::unique(ranked_); // sources that no triangle uses
-    ranked_.erase(repeated.begin(), repeated.end());
+    // A source that no triangle uses may have been given twice.
+    ranked_.erase(std::unique(ranked_.begin(), ranked_.end()), ranked_.end());
     return ranked_;
 }
 
@@ -56,8 +56,8 @@ void Query::keep_least() {
     std::ranges::sort(ranked_, [](const Found& a, const Found& b) {
         return a.which < b.which || (a.which == b.which && a.distance < b.distance);
     });
-    const auto farther = std::ranges::unique(ranked_, {}, &Found::which);
-    ranked_.erase(farther.begin(), farther.end());
+    const auto is_same = [](const Found& a, const Found& b) { return a.which == b.which; };
+    ranked_.erase(std::unique(ranked_.begin(), ranked_.end(), is_same), ranked_.end());
 }
 
 // Replaces numbers by ids: more where vertices were welded, none for an added vertex.
