@@ -580,8 +580,9 @@ GEOIDX_API geoidx_status geoidx_ssad_batch(const geoidx* index, const uint32_t* 
 
 /* The distance from every source to every target: distances[i * target_count + j] is that from sources[i] to
  * targets[j]. distance_count must be source_count times target_count. Each is as geoidx_sssd gives it, or as
- * geoidx_ssad_batch gives it from the source or from the target, whichever takes least time for all of them;
- * they differ by the error of the index. When a vertex is out of range, nothing is written. */
+ * geoidx_ssad_batch gives it from the source or from the target, whichever takes least time for all of them.
+ * Answers of these kinds differ by the error of the index; of fields, a matrix of vertices to themselves is
+ * symmetric to that error only. When a vertex is out of range, nothing is written. */
 GEOIDX_API geoidx_status geoidx_matrix(const geoidx* index, const uint32_t* sources, uint32_t source_count,
                                        const uint32_t* targets, uint32_t target_count, float* distances,
                                        uint64_t distance_count);
@@ -611,10 +612,10 @@ GEOIDX_API geoidx_status geoidx_query_matrix(geoidx_query* query, const uint32_t
                                              uint64_t distance_count);
 
 /* The nearest source to each vertex: nearest[v] is its position in `sources`, and GEOIDX_NO_SOURCE where no
- * source is reached. Of several that are as near, it is one whose choice depends on the index alone; of a
- * vertex that is repeated, the first. vertex_count must be the mesh's. distances[v] are the same bits as
- * those of geoidx_query_msad; `distances` may be NULL. A source that is nearer than every other one by more
- * than the error of the index is the one that is found. */
+ * source is reached. A source that is nearer than every other one by more than the error of the index is the
+ * one that is found. Of several that are as near, it is one whose choice depends on the index and on the set
+ * of sources, not on their order; of a vertex that is repeated or welded, the first. vertex_count must be the
+ * mesh's. distances[v] are the same bits as those of geoidx_query_msad; `distances` may be NULL. */
 #define GEOIDX_NO_SOURCE 0xffffffffu
 GEOIDX_API geoidx_status geoidx_query_nearest_sources(geoidx_query* query, const uint32_t* sources,
                                                       uint32_t source_count, uint32_t* nearest,
@@ -626,16 +627,18 @@ GEOIDX_API geoidx_status geoidx_query_nearest_sources(geoidx_query* query, const
  * have room for. distances may be NULL, and so may both if capacity is 0. From one source the distances are
  * the same bits as those of geoidx_query_msad_within; from several they are the least of those from each.
  * GEOIDX_ENGINE_OVERLAY looks only into patches within the radius of each source, and takes time in
- * proportion to that; its scratch is 4 bytes a vertex, and 4 to 8 more for the ids. */
+ * proportion to that; its scratch is 4 bytes a vertex, 4 to 8 more for the ids, and some 20 for each vertex
+ * that is found. */
 GEOIDX_API geoidx_status geoidx_query_within(geoidx_query* query, const uint32_t* sources,
                                              uint32_t source_count, float radius, uint32_t* vertices,
                                              float* distances, uint32_t capacity, uint32_t* count);
 
-/* The nearest of some targets: positions[i] are positions in `targets`, the nearest first, of those that are
- * as near the one that comes first. *count is set to how many are written: `capacity`, which `positions` and
- * `distances` have room for, unless fewer targets can be reached. distances may be NULL. Few targets are
- * asked for one by one, as by geoidx_query_sssd; with many GEOIDX_ENGINE_OVERLAY looks only into patches that
- * are little farther than the targets that it finds, as geoidx_query_within does. */
+/* The nearest of some targets: positions[i] are positions in `targets`, the nearest first; targets that are
+ * as near come in the order of `targets`. *count is set to how many are written: `capacity`, which
+ * `positions` and `distances` have room for, unless fewer targets can be reached. distances may be NULL. Few
+ * targets are asked for one by one, as by geoidx_query_sssd; with many GEOIDX_ENGINE_OVERLAY looks only into
+ * patches that are little farther than the targets that it finds, as geoidx_query_within does. The distances
+ * of these two kinds differ by the error of the index. */
 GEOIDX_API geoidx_status geoidx_query_nearest_targets(geoidx_query* query, uint32_t source,
                                                       const uint32_t* targets, uint32_t target_count,
                                                       uint32_t* positions, float* distances,
@@ -736,9 +739,9 @@ GEOIDX_API geoidx_status geoidx_query_prepare_target(geoidx_query* query, const 
  * other. Steps that begin where the one before ended lead to the target as GEOIDX_PATH_STRAIGHT does; at the
  * target both points are the same. *distance, how long the way is from `from` on, is 0 there; it may be NULL.
  * The first step takes as long as a path, whose triangles are kept. From any point of these a step takes a
- * few microseconds; from a point beside them a new path is found. GEOIDX_ERROR_NO_PATH if the target is in
- * another component; GEOIDX_ERROR_INVALID_ARGUMENT if none was prepared. By GEOIDX_METRIC_EDGES steps lead
- * from corner to corner. `surface` is the one of the target. */
+ * few microseconds (by GEOIDX_METRIC_EDGES from points of the path only); from elsewhere a new path is found.
+ * GEOIDX_ERROR_NO_PATH if the target is in another component; GEOIDX_ERROR_INVALID_ARGUMENT if none was
+ * prepared. By GEOIDX_METRIC_EDGES steps lead from corner to corner. `surface` is the one of the target. */
 GEOIDX_API geoidx_status geoidx_query_next_step(geoidx_query* query, const geoidx_surface* surface,
                                                 const geoidx_surface_point* from, geoidx_path_point* step,
                                                 double* distance);

@@ -1,5 +1,5 @@
-// MSAD finds the least sums of distances many at a time. Which sum it was is found afterwards, since it has
-// the very same bits.
+// MSAD lowers many distances at once. Which source a distance came from is found afterwards: from the sum
+// that has the same bits.
 #include "src/graph/query.h"
 
 namespace geodesic {
@@ -26,7 +26,7 @@ void GraphQuery::find_crossed_sources(uint32_t child) {
     }
 }
 
-// A vertex that keeps the source it has got its distance by a way that needs no sum, or is not reached.
+// A vertex whose source is not replaced here was reached without a sum, or not at all.
 void GraphQuery::find_sources_in_leaf(uint32_t leaf) {
     const auto border = numbering_.border_of(leaf);
     const uint32_t first = numbering_.first_internal(leaf), size = numbering_.internal_size(leaf);

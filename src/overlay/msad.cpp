@@ -60,7 +60,7 @@ void OverlayMsad::begin(const Field& field) {
     for (const uint32_t source : sources_.keys)
         sources_.for_each_way(index_, source, [&](uint32_t number, float way) {
             lower(field, number, {&way, 1}, source);
-            if (numbering_.is_border(number)) nearest_.add(number, {way, source});
+            if (numbering_.is_border(number)) add_way(number, way, source);
         });
 }
 

@@ -93,16 +93,19 @@ void fill_ways(const OverlayIndex& index, uint32_t leaf, const FacePoint& point,
 }
 
 // The codes that fill up the last block are those of vertices that are not reached.
-void fill_row(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, Array<uint16_t>& codes) {
+void fill_row(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, PointRow& row) {
     const PointInLeaf from(index, leaf, point);
     const uint32_t first = index.rings.begin[leaf], places = index.rings.size(leaf);
-    codes.assign(SourceCode::whole_blocks(places) + TableCode::PADDING, TableCode::UNREACHED);
-    for (uint32_t i = 0; i < index.numbering.border_size(leaf); ++i)
-        codes[own_place(index.rings, index.numbering, leaf, i) - first] =
-            TableCode::nearest_to(from.distance_to({i, NONE}), index.quantum[leaf]);
+    float longest = 0;
+    row.distances.clear();
+    for (uint32_t i = 0; i < index.numbering.border_size(leaf); ++i) {
+        row.distances.push_back(from.distance_to({i, NONE}));
+        if (row.distances[i] < INFINITE) longest = std::max(longest, row.distances[i]);
+    }
+    row.quantum = longest / float{TableCode::LARGEST};
+    row.codes.assign(SourceCode::whole_blocks(places) + TableCode::PADDING, TableCode::UNREACHED);
     for (uint32_t k = 0; k < places; ++k)
-        codes[k] =
-            codes[own_place(index.rings, index.numbering, leaf, index.rings.position[first + k]) - first];
+        row.codes[k] = TableCode::nearest_to(row.distances[index.rings.position[first + k]], row.quantum);
 }
 
 }

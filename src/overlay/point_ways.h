@@ -34,7 +34,15 @@ float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, const FacePoint
 void fill_ways(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, float offset,
                PointWays& ways);
 
-// The row of a point to the ring of its leaf, in codes of the leaf, as the inner table has it for vertices.
-void fill_row(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, Array<uint16_t>& codes);
+// The row of a point to the ring of its leaf, as the inner table has it for vertices, but in steps of its
+// own: the tables of the leaf may hold no distance that is as long, or none at all.
+struct PointRow {
+    explicit PointRow(std::pmr::memory_resource* memory) : distances(memory), codes(memory) {}
+
+    float quantum = 0;
+    Array<float> distances; // scratch: by position in the border
+    Array<uint16_t> codes;
+};
+void fill_row(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, PointRow& row);
 
 }

@@ -34,11 +34,11 @@ float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, const FacePoint
 
 }
 
-PathEnd OverlayQuery::end_of(const FacePoint& point, Array<uint16_t>& row) const {
+PathEnd OverlayQuery::end_of(const FacePoint& point, PointRow& row) const {
     if (point.vertex != NONE) return {point.vertex};
     const uint32_t leaf = leaf_of_face(index_.numbering, point.corners);
     fill_row(index_, leaf, point, row);
-    return {NONE, leaf, row.data()};
+    return {NONE, leaf, row.codes.data(), row.quantum};
 }
 
 float OverlayQuery::point_sssd(const FacePoint& first, const FacePoint& second) {

@@ -22,7 +22,7 @@ public:
     OverlayQuery(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : index_(index), memory_(memory), field_(index, memory), nearest_(index, memory),
           batch_(index, memory, FIELDS_AT_ONCE),
-          prepared_(index, memory), rows_{Array<uint16_t>(memory), Array<uint16_t>(memory)}, points_(memory),
+          prepared_(index, memory), rows_{PointRow(memory), PointRow(memory)}, points_(memory),
           keys_(memory), ends_{PreparedSource(index, memory), PreparedSource(index, memory)} {}
 
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    PathEnd end_of(const FacePoint& point, Array<uint16_t>& row) const;
+    PathEnd end_of(const FacePoint& point, PointRow& row) const;
     void add_point(const FacePoint& point, float offset);
 
     // The first pair of all makes the tables that pairs need, and the first one of this object its scratch.
@@ -105,8 +105,8 @@ private:
     OverlayMsad nearest_;
     OverlaySsad batch_;
     PreparedSource prepared_;
-    std::array<Array<uint16_t>, 2> rows_; // of the points of a pair
-    Array<PointWays> points_;             // of a sweep, or of the end that is prepared
+    std::array<PointRow, 2> rows_; // of the points of a pair
+    Array<PointWays> points_;      // of a sweep, or of the end that is prepared
     Array<uint32_t> keys_;
     std::array<PreparedSource, 2> ends_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src/overlay/ascend.h"
+#include "src/overlay/near.h"
 
 namespace geodesic {
 
@@ -17,7 +18,7 @@ std::span<const WithinSweep::Found> WithinSweep::sweep(uint32_t source, float ra
     for_each_way_from(index_, source, [&](uint32_t number, float way) { lower(number, way); });
     uint32_t patch = numbering_.innermost_patch(source);
     hop_down_to_children(patch, NONE, radius);
-    while (patch != 0 && is_within(patch, radius)) {
+    while (patch != 0 && may_cross_border(patch, radius)) {
         hop_up(patch);
         hop_down_to_children(numbering_.parent[patch], patch, radius);
         patch = numbering_.parent[patch];
@@ -26,7 +27,7 @@ std::span<const WithinSweep::Found> WithinSweep::sweep(uint32_t source, float ra
     return found_;
 }
 
-// What the sweep before has left, too, where a lack of memory ended it.
+// Also clears what an earlier sweep left when memory ran out.
 void WithinSweep::forget() {
     for (const uint32_t number : seen_) distance_[number] = INFINITE;
     seen_.clear();
@@ -38,10 +39,12 @@ void WithinSweep::lower(uint32_t number, float way) {
     distance_[number] = way;
 }
 
-// Whether any vertex of the patch's border is.
-bool WithinSweep::is_within(uint32_t patch, float radius) const {
+// A path may cross the border between two vertices that are both farther than the radius, as InnerSweep has
+// it.
+bool WithinSweep::may_cross_border(uint32_t patch, float radius) const {
+    const float farthest = radius + near_radius(index_.longest_segment[patch]);
     return std::ranges::any_of(numbering_.border_of(patch), [&](uint32_t number) {
-        return distance_[number] <= radius && distance_[number] < INFINITE;
+        return distance_[number] <= farthest && distance_[number] < INFINITE;
     });
 }
 
@@ -61,8 +64,8 @@ void WithinSweep::hop_down_to_children(uint32_t patch, uint32_t left_out, float 
 
 // Hops to the inner vertices of a patch and of the patches inside of it.
 void WithinSweep::hop_down(uint32_t patch, float radius) {
-    if (!is_within(patch, radius)) return;
-    if (down_.begin(patch, distance_.data(), radius)) {
+    if (!may_cross_border(patch, radius)) return;
+    if (down_.begin(patch, distance_.data())) {
         const uint32_t first = numbering_.first_inner(patch);
         const std::span<const float> ways = down_.cross();
         for (uint32_t r = 0; r < ways.size(); ++r) lower(first + r, ways[r]);

@@ -9,9 +9,9 @@
 
 namespace geodesic {
 
-// Distances from a single source to the vertices within a radius, in time that depends on these and not on
-// the mesh: the sweep up ends at the first patch whose border is farther, and the sweep down enters no such
-// patch. Vertices are given by their numbers.
+// Distances from a single source to the vertices within a radius, in time that depends on how many there are
+// and not on the mesh: the sweep up ends at the first patch whose border no path within the radius crosses,
+// and the sweep down enters no such patch. Vertices are given by their numbers.
 class WithinSweep {
 public:
     struct Found {
@@ -32,7 +32,7 @@ public:
 private:
     void forget();
     void lower(uint32_t number, float way);
-    bool is_within(uint32_t patch, float radius) const;
+    bool may_cross_border(uint32_t patch, float radius) const;
     void hop_up(uint32_t child);
     void hop_down_to_children(uint32_t patch, uint32_t left_out, float radius);
     void hop_down(uint32_t patch, float radius);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "src/path/nearby.h"
 #include "src/path/straighten.h"
@@ -10,7 +11,7 @@ namespace geodesic {
 
 namespace {
 
-// The point as one of a face, if it lies in it.
+// The point with the weights of a face, if it lies in that face.
 std::optional<SurfacePoint> point_in_face(const Surface& surface, const SurfacePoint& point, uint32_t face) {
     std::optional<SurfacePoint> found;
     for_each_alias(surface, point, [&](const SurfacePoint& alias) {
@@ -35,14 +36,22 @@ std::optional<StripPlace> place_in_strip(const Surface& surface, const Strip& st
     return std::nullopt;
 }
 
-// Goes on from a point of the strip, whose faces before that are left behind.
+// Whether a point lies on the straight line between two others, but for rounding.
+bool is_between(const Eigen::Vector3d& begin, const Eigen::Vector3d& at, const Eigen::Vector3d& end) {
+    constexpr double ROUNDING = 1e-12;
+    return (at - begin).norm() + (end - at).norm() <= (1 + ROUNDING) * (end - begin).norm();
+}
+
+// Makes the path begin at a point of the strip, and drops the faces before it. From a point on the path the
+// path stays as it is.
 void go_on_from(const Surface& surface, const StripPlace& place, StraightPath& left) {
     auto& [strip, path] = left;
     const size_t passed = place.face;
+    const Eigen::Vector3d end = passed < strip.portals.size()
+                                    ? position_at(surface, strip.portals[passed], path.shares[passed])
+                                    : position_of(surface, strip.target);
     const bool is_on_path =
-        passed > 0 &&
-        point_at(surface, place.point.face, strip.portals[passed - 1], path.shares[passed - 1]).weights ==
-            place.point.weights;
+        is_between(position_before(surface, strip, path, passed), position_of(surface, place.point), end);
     strip.source = place.point;
     const auto leave_behind = [&](auto& passed_ones) {
         passed_ones.erase(passed_ones.begin(), passed_ones.begin() + static_cast<std::ptrdiff_t>(passed));
@@ -56,7 +65,7 @@ void go_on_from(const Surface& surface, const StripPlace& place, StraightPath& l
         path = straighten(surface, strip);
 }
 
-// The first piece of a path that has a length: several portals may lie where it begins.
+// The first piece of the path that is longer than 0: several portals may lie where it begins.
 Step first_step(const Surface& surface, const StraightPath& left) {
     const auto& [strip, path] = left;
     Step step{strip.source, strip.target, path.length};
@@ -70,20 +79,26 @@ Step first_step(const Surface& surface, const StraightPath& left) {
     return step;
 }
 
-// The same of a path that leads over vertices.
-std::optional<Step> step_along(const Surface& surface, const std::vector<SurfacePoint>& points,
-                               const SurfacePoint& from) {
+// The step from one of the points of a path that leads over vertices to the next one.
+Step step_from(const Surface& surface, const std::vector<SurfacePoint>& points, size_t i) {
+    double distance = 0;
+    for (size_t k = i; k + 1 < points.size(); ++k)
+        distance += (position_of(surface, points[k + 1]) - position_of(surface, points[k])).norm();
+    return {points[i], point_in_face(surface, points[i + 1], points[i].face).value(), distance};
+}
+
+// Where the metric does not unfold. The points that were passed before are left behind.
+Step step_over_vertices(const Index& index, Query& query, const Surface& surface, const SurfacePoint& from,
+                        Walk& walk) {
+    std::vector<SurfacePoint>& points = walk.points;
     for (size_t i = 0; i + 1 < points.size(); ++i) {
         const auto at = point_in_face(surface, from, points[i].face);
         if (!at || at->weights != points[i].weights) continue;
-        const auto to = point_in_face(surface, points[i + 1], points[i].face);
-        if (!to) continue;
-        double distance = 0;
-        for (size_t k = i; k + 1 < points.size(); ++k)
-            distance += (position_of(surface, points[k + 1]) - position_of(surface, points[k])).norm();
-        return Step{*at, *to, distance};
+        points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(i));
+        return step_from(surface, points, 0);
     }
-    return std::nullopt;
+    points = find_path(index, query, surface, from, walk.target, PathQuality::STRAIGHT).points;
+    return step_from(surface, points, 0);
 }
 
 }
@@ -93,17 +108,15 @@ Step next_step(const Index& index, Query& query, const Surface& surface, const S
     const PointQueries points(index, query, surface);
     const auto target = point_in_face(surface, walk.target, from.face);
     if (target && target->weights == from.weights) return {from, from, 0};
-    if (!points.unfolds()) {
-        if (const auto step = step_along(surface, walk.points, from)) return *step;
-        walk.points = find_path(index, query, surface, from, walk.target, PathQuality::STRAIGHT).points;
-        const auto step = step_along(surface, walk.points, from);
-        return step ? *step : Step{from, from, 0};
-    }
-    if (const auto place = place_in_strip(surface, walk.left.strip, from))
-        go_on_from(surface, *place, walk.left);
+    if (!points.unfolds()) return step_over_vertices(index, query, surface, from, walk);
+    StraightPath left = std::exchange(walk.left, {}); // lost if memory runs out on the way
+    if (const auto place = place_in_strip(surface, left.strip, from))
+        go_on_from(surface, *place, left);
     else
-        walk.left = find_straight_path(index, query, surface, from, walk.target);
-    return first_step(surface, walk.left);
+        left = find_straight_path(index, query, surface, from, walk.target);
+    const Step step = first_step(surface, left);
+    walk.left = std::move(left);
+    return step;
 }
 
 }

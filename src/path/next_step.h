@@ -20,9 +20,9 @@ struct Walk {
     std::vector<SurfacePoint> points{};
 };
 
-// Finds the next step of whoever walks to a target and asks on the way, wherever it is. The path is left as
-// it is for whoever comes to its next point, and made straight again from elsewhere in a face of its strip.
-// From other faces a path is found first. Throws Error as find_path does.
+// Finds the next step of whoever walks to a target and asks on the way, wherever it is. At a point of the
+// kept path, the path is left as it is. At any other point of a face of its strip it is made straight again
+// from there. Anywhere else a new path is found. Throws Error as find_path does.
 Step next_step(const Index& index, Query& query, const Surface& surface, const SurfacePoint& from,
                Walk& walk);
 

@@ -103,19 +103,12 @@ void FaceSearch::leave_face(uint32_t index) {
         open_.push(length, {Kind::TARGET, node.item, {}, target_position_, length, index});
     }
     const auto corners = surface_.faces[node.item];
-    std::array<bool, 3> is_passed{}; // corners that a way over an edge passes
     for (uint32_t k = 0; k < 3; ++k) {
-        uint32_t first = (k + 1) % 3, second = (k + 2) % 3;
-        if (corners[second] < corners[first]) std::swap(first, second);
-        const Portal portal{corners[first], corners[second]};
-        const EdgeCrossing crossing = cross_edge(portal.a, portal.b, node.at);
-        if (!(crossing.rest < UNREACHABLE)) continue;
-        is_passed[first] = is_passed[first] || crossing.share == 0;
-        is_passed[second] = is_passed[second] || crossing.share == 1;
-        cross_to_next(index, portal, crossing);
+        pass_vertex(index, corners[k]);
+        const auto [a, b] = std::minmax({corners[(k + 1) % 3], corners[(k + 2) % 3]});
+        const EdgeCrossing crossing = cross_edge(a, b, node.at);
+        if (crossing.rest < UNREACHABLE) cross_to_next(index, {a, b}, crossing);
     }
-    for (uint32_t k = 0; k < 3; ++k)
-        if (is_passed[k]) pass_vertex(index, corners[k]);
 }
 
 void FaceSearch::pass_vertex(uint32_t index, uint32_t vertex) {

@@ -46,7 +46,7 @@ private:
     PointRange between_bends(const Pass& pass) const;
     double length(PointRange range) const;
     std::optional<size_t> turn(const Pass& pass);
-    void replace(PointRange range, const Strip& part, const StripPath& path, double length_before);
+    size_t replace(PointRange range, const Strip& part, const StripPath& path, double length_before);
     size_t first_portal_at(size_t point) const;
     bool turn_all();
 
@@ -56,7 +56,7 @@ private:
     std::unordered_set<uint32_t> straight_; // vertices where no turn helps as long as the path there stays
 };
 
-// The next vertex that the path passes, from a portal on, but for its ends.
+// The next vertex that the path passes, from a portal on. It may be an end of the path.
 std::optional<Pass> Straightening::next_pass(size_t from) const {
     for (size_t i = from; i < strip_.portals.size(); ++i) {
         const uint32_t vertex = vertex_of(i);
@@ -90,14 +90,16 @@ double Straightening::length(PointRange range) const {
     return length;
 }
 
-void Straightening::replace(PointRange range, const Strip& part, const StripPath& path,
-                            double length_before) {
+// Puts a part in the place of its range, and returns the portal to go on from: the first one that the path
+// may pass in another way now.
+size_t Straightening::replace(PointRange range, const Strip& part, const StripPath& path,
+                              double length_before) {
     const size_t portals = strip_.portals.size() - (range.last - 1 - range.first) + part.portals.size();
     strip_ = with_part(strip_, range, part);
-    if (strip_.portals.size() != portals) { // faces at the ends of the part were left as they were entered
+    if (strip_.portals.size() != portals) { // faces at the ends of the part were dropped
         path_ = shortest_in_strip(surface_, strip_);
         straight_.clear();
-        return;
+        return 0;
     }
     const auto at = path_.shares.begin() + static_cast<std::ptrdiff_t>(range.first);
     const auto behind =
@@ -107,6 +109,7 @@ void Straightening::replace(PointRange range, const Strip& part, const StripPath
     const size_t end = range.first + part.portals.size();
     for (size_t i = range.first > 0 ? range.first - 1 : 0; i < std::min(end + 1, portals); ++i)
         straight_.erase(vertex_of(i));
+    return first_portal_at(range.first);
 }
 
 // The first portal at the vertex that the path passes at a point, if it does; the portal there if not.
@@ -116,7 +119,7 @@ size_t Straightening::first_portal_at(size_t point) const {
     return portal;
 }
 
-// Returns the first portal of the part that a turn has made shorter, if one has.
+// Turns the strip if that makes the path shorter, and returns the portal to go on from then.
 std::optional<size_t> Straightening::turn(const Pass& pass) {
     const auto fan = shorter_side(surface_, strip_, path_, pass);
     if (!fan) return std::nullopt;
@@ -126,8 +129,7 @@ std::optional<size_t> Straightening::turn(const Pass& pass) {
     const StripPath shorter = shortest_in_strip(surface_, part);
     const double before = length(range);
     if (!(shorter.length < before - path_.length * SHORTER)) return std::nullopt;
-    replace(range, part, shorter, before);
-    return first_portal_at(std::min(range.first, strip_.portals.size()));
+    return replace(range, part, shorter, before);
 }
 
 // Returns whether any turn was made.
@@ -145,8 +147,8 @@ bool Straightening::turn_all() {
     }
 }
 
-// Parts that are as short as can be make a path that is, but for a bend that the last turn beside it allows
-// to be pulled tight.
+// Each part is as short as it can be. The whole path is pulled tight once more, since the last turns may have
+// made a bend between two parts unnecessary.
 StripPath Straightening::run(double limit) {
     while (turn_all() && path_.length < limit) {
         StripPath whole = shortest_in_strip(surface_, strip_);

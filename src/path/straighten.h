@@ -16,7 +16,7 @@ Strip with_fan(const Strip& strip, const Pass& pass, const Turn::Fan& fan);
 
 // Makes the path in a strip locally shortest: while it bends at a vertex whose other side has an angle of
 // less than pi, the strip is turned around that vertex (Xin and Wang 2007). Each turn makes the path shorter.
-// A path that turns leave no shorter than `limit` is given up as it is then.
+// Where turns do not bring it below `limit`, the path is returned as it is then, not locally shortest.
 StripPath straighten(const Surface& surface, Strip& strip, double limit = UNREACHABLE);
 
 }

@@ -83,13 +83,15 @@ void turn_back(Strip& strip) {
 
 void drop_returns(Strip& strip) {
     for (size_t i = 0; i + 1 < strip.portals.size();) {
-        if (strip.faces[i] != strip.faces[i + 2] || !strip.portals[i].joins(strip.portals[i + 1])) {
+        const Portal entry = strip.portals[i], exit = strip.portals[i + 1];
+        const bool comes_back = strip.faces[i] == strip.faces[i + 2];
+        if (!entry.joins(exit) || (!comes_back && !exit.joins(entry))) {
             ++i;
             continue;
         }
-        const auto at = static_cast<std::ptrdiff_t>(i);
-        strip.faces.erase(strip.faces.begin() + at + 1, strip.faces.begin() + at + 3);
-        strip.portals.erase(strip.portals.begin() + at, strip.portals.begin() + at + 2);
+        const auto at = static_cast<std::ptrdiff_t>(i), count = std::ptrdiff_t{comes_back ? 2 : 1};
+        strip.faces.erase(strip.faces.begin() + at + 1, strip.faces.begin() + at + 1 + count);
+        strip.portals.erase(strip.portals.begin() + at, strip.portals.begin() + at + count);
         if (i > 0) --i;
     }
 }

@@ -69,7 +69,7 @@ Strip with_part(const Strip& strip, PointRange range, const Strip& part);
 // From its target to its source.
 void turn_back(Strip& strip);
 
-// Takes out faces that are left through the edge that they were entered by.
+// Takes out faces that are left through the portal that they were entered by.
 void drop_returns(Strip& strip);
 
 }

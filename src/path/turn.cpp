@@ -23,8 +23,8 @@ void Turn::add_face(uint32_t face) {
     sectors_.push_back({face, {spoke_of(a), spoke_of(b)}, angle_between(direction(a), direction(b))});
 }
 
-// Dijkstra's algorithm over the few edges at a vertex.
-void Turn::spread(double limit) {
+// Dijkstra's algorithm over the few edges at a vertex, between the two faces.
+void Turn::spread(double limit, uint32_t from_face, uint32_t to_face) {
     for (;;) {
         uint32_t nearest = NONE;
         for (uint32_t s = 0; s < spokes_.size(); ++s)
@@ -36,6 +36,7 @@ void Turn::spread(double limit) {
         for (const auto& [face, ends, angle] : sectors_)
             for (size_t k = 0; k < 2; ++k) {
                 Spoke& other = spokes_[ends[1 - k]];
+                if (face == from_face || face == to_face) continue;
                 if (ends[k] != nearest || !(spokes_[nearest].angle + angle < other.angle)) continue;
                 other.angle = spokes_[nearest].angle + angle;
                 other.before = nearest;
@@ -59,7 +60,7 @@ std::optional<Turn::Fan> Turn::below(double limit, uint32_t from_face, const Vec
                                      const Vector3d& to) {
     for (const uint32_t s : sector_of(from_face).spokes)
         spokes_[s].angle = std::min(spokes_[s].angle, angle_between(from, direction(spokes_[s].vertex)));
-    spread(limit);
+    spread(limit, from_face, to_face);
     uint32_t best = NONE;
     double least = limit;
     for (const uint32_t s : sector_of(to_face).spokes) {

@@ -51,7 +51,7 @@ private:
     void add_face(uint32_t face);
     uint32_t spoke_of(uint32_t vertex);
     const Sector& sector_of(uint32_t face) const { return *std::ranges::find(sectors_, face, &Sector::face); }
-    void spread(double limit);
+    void spread(double limit, uint32_t from_face, uint32_t to_face);
     Fan fan_to(uint32_t spoke) const;
 
     const Surface& surface_;

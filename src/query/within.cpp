@@ -8,11 +8,12 @@ namespace geodesic {
 
 namespace {
 
-// How many times farther each sweep for the nearest targets looks than the one before.
+// Each sweep for the nearest targets looks this many times as far as the one before, or as the nearest vertex
+// that the one before left out.
 constexpr float GROWTH = 2;
 
-// Of targets that lie evenly over the mesh, sweeps find as many in a share of its vertices. A pair takes as
-// long as so many of these: the last sweep looks too far, and those before it cost something, too.
+// Sweeps that find `count` of evenly spread targets visit about vertices * count / targets vertices. A pair
+// takes as long as sweeping this many; that the last sweep looks too far is included.
 constexpr uint64_t SWEPT_VERTICES_PER_PAIR = 64;
 
 }

@@ -64,6 +64,33 @@ struct PathCase {
     QueryHandle query;
 };
 
+// Triangles between points of the unit cube, each point used by one at least.
+inline Soup random_soup(std::mt19937_64& random, size_t points, size_t triangles) {
+    Soup soup;
+    std::vector<std::array<uint32_t, 3>> chosen;
+    std::vector<uint32_t> number(points, UINT32_MAX);
+    for (size_t t = 0; t < triangles; ++t) {
+        std::array<uint32_t, 3> corners;
+        do
+            for (uint32_t& corner : corners) corner = static_cast<uint32_t>(random() % points);
+        while (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]);
+        chosen.push_back(corners);
+    }
+    for (auto corners : chosen) {
+        for (uint32_t& corner : corners) {
+            uint32_t& known = number[corner];
+            if (known == UINT32_MAX) {
+                known = static_cast<uint32_t>(soup.positions.size());
+                soup.positions.emplace_back(uniform(random, 0, 1), uniform(random, 0, 1),
+                                            uniform(random, 0, 1));
+            }
+            corner = known;
+        }
+        soup.triangles.push_back(corners);
+    }
+    return soup;
+}
+
 // Inside of a triangle, on an edge or at a corner by turns.
 inline geoidx_surface_point random_point(const Soup& soup, std::mt19937_64& random, size_t turn) {
     geoidx_surface_point point{};

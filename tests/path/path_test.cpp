@@ -116,6 +116,31 @@ TEST_CASE("path: on triangles, never shorter than the exact distance, and exact 
     }
 }
 
+// Faces of such soups share edges with any number of others, only a vertex, or nothing: ways lead over
+// vertices where no edge has a face beyond.
+TEST_CASE("path: on random triangles between a few points, in both directions") {
+    for (uint64_t seed = 0; seed < 60; ++seed) {
+        CAPTURE(seed);
+        std::mt19937_64 random(seed);
+        const PathCase on(random_soup(random, 7 + seed % 6, 4 + seed % 9));
+        for (size_t i = 0; i < 6; ++i) {
+            CAPTURE(i);
+            const auto from = random_point(on.soup, random, i), to = random_point(on.soup, random, i / 2);
+            const double exact = on.exact(from, to);
+            double length = 0;
+            if (exact == INFINITE) {
+                CHECK(geoidx_query_path(on.query.get(), on.surface.get(), &from, &to, GEOIDX_PATH_EXACT,
+                                        &length) == GEOIDX_ERROR_NO_PATH);
+                continue;
+            }
+            for (const uint32_t quality : {GEOIDX_PATH_STRAIGHT, GEOIDX_PATH_EXACT}) {
+                CHECK(path_length(on, from, to, quality) >= exact * (1 - 1e-7) - 1e-9);
+                CHECK(path_length(on, to, from, quality) >= exact * (1 - 1e-7) - 1e-9);
+            }
+        }
+    }
+}
+
 TEST_CASE("path: by the graph engine, too") {
     check_paths(PathCase(joined(torus(12, 8, 1, 0.4), comb(1)), path_options(GEOIDX_ENGINE_GRAPH)), 24);
 }

@@ -102,6 +102,35 @@ TEST_CASE("points: any pair of hard meshes, and those without a path") {
     }
 }
 
+// By this metric a way leads to a corner of each triangle, and the table between corners is exact: leaves may
+// be so small that they have no vertex inside, or hold short distances only.
+TEST_CASE("points: over the corners where edges are the metric, on small leaves, too") {
+    for (uint64_t seed = 0; seed < 12; ++seed) {
+        CAPTURE(seed);
+        std::mt19937_64 random(seed);
+        auto options = path_options(GEOIDX_ENGINE_OVERLAY, GEOIDX_METRIC_EDGES);
+        options.level_count = 1;
+        options.patches[0] = 5;
+        const PathCase on(seed % 2 ? random_soup(random, 12, 10) : jittered_grid(5, seed), options);
+        for (size_t i = 0; i < 60; ++i) {
+            CAPTURE(i);
+            const auto a = random_point(on.soup, random, 0), b = random_point(on.soup, random, 0);
+            if (a.triangle == b.triangle) continue;
+            const auto &of_a = on.soup.triangles[a.triangle], &of_b = on.soup.triangles[b.triangle];
+            double least = INFINITE;
+            for (const uint32_t from : of_a)
+                for (const uint32_t to : of_b) {
+                    double between = 0;
+                    REQUIRE(geoidx_solver_distances(on.solver.get(), &from, 1, &to, 1, &between) ==
+                            GEOIDX_OK);
+                    least = std::min(least, (on.position(a) - on.soup.positions[from]).norm() + between +
+                                                (on.soup.positions[to] - on.position(b)).norm());
+                }
+            CHECK(double{on.sssd(a, b)} == doctest::Approx(least).epsilon(1e-3));
+        }
+    }
+}
+
 TEST_CASE("points: straight within a triangle and over an edge of two") {
     const PathCase on(bumpy_sphere(3, 8));
     std::mt19937_64 random(4);

@@ -83,6 +83,21 @@ TEST_CASE("nearest sources: default options, and a bumpy mesh of some size") {
     check_nearest(index.get(), sources, 0.02);
 }
 
+TEST_CASE("nearest sources: none in a component that has none, whichever vertices they are") {
+    TestMesh mesh = grid(4, 4, 0.2);
+    const uint32_t half = mesh.vertex_count();
+    for (uint32_t v = 0; v < 3 * half; ++v)
+        mesh.positions.push_back(mesh.positions[v] + (v % 3 == 0 ? 1000.0f : 0.0f));
+    for (size_t k = 0, count = mesh.triangles.size(); k < count; ++k)
+        mesh.triangles.push_back(mesh.triangles[k] + half);
+    auto options = build_options(GEOIDX_METRIC_EXACT, 1);
+    options.patches[0] = 4;
+    const auto index = build(mesh, options);
+    for (uint32_t a = 0; a < half; ++a)
+        for (uint32_t b = a + 1; b < half; b += 3) check_nearest(index.get(), {a, b}, 0.02);
+    check_nearest(index.get(), {3, half + 5}, 0.02);
+}
+
 TEST_CASE("nearest sources: a cut in the middle of a flat strip") {
     // Straight lines: the source on the own side is nearer by more than any error.
     const TestMesh mesh = grid(41, 5, 0);

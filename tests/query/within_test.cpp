@@ -123,6 +123,27 @@ TEST_CASE("within: default options, and a bumpy mesh of some size") {
     check_within(index.get(), mesh.vertex_count());
 }
 
+// Paths cross long segments far from their ends: a vertex may be within a radius that no vertex of the border
+// around it is.
+TEST_CASE("within: on long triangles, at every distance of a field") {
+    for (const float stretch : {4.0f, 8.0f}) {
+        TestMesh mesh = grid(40, 30, 0.45);
+        for (size_t k = 0; k < mesh.positions.size(); k += 3) mesh.positions[k] *= stretch;
+        const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
+        const QueryHandle query = query_of(index.get());
+        for (uint32_t source = 5; source < mesh.vertex_count(); source += 97) {
+            const Ranked field = expected_within(index.get(), {source}, FAR);
+            for (size_t i = 1; i < field.size(); i += 7) {
+                CAPTURE(source);
+                CAPTURE(field[i].first);
+                CHECK(within(query.get(), {source}, field[i].first) ==
+                      Ranked(field.begin(),
+                             std::ranges::upper_bound(field, std::pair{field[i].first, UINT32_MAX})));
+            }
+        }
+    }
+}
+
 TEST_CASE("within: the nearest ones where there is room for some") {
     const TestMesh mesh = grid(9, 8, 0.2);
     const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 1));

@@ -51,6 +51,7 @@ struct PathEnd {
     uint32_t vertex = NONE;
     uint32_t leaf = NONE; // of a point
     const uint16_t* row = nullptr;
+    float quantum = 0; // of the row
 };
 
 // The innermost patch around an end.
@@ -62,7 +63,7 @@ inline uint32_t innermost_patch(const Numbering& numbering, const PathEnd& end) 
 inline void climb_from_point(const OverlayIndex& index, const PathEnd& end, uint32_t top, Ascent& ascent) {
     ascent.vertex = NONE;
     ascent.patches.clear();
-    ascent.first_row = {end.row, index.rings.begin[end.leaf], index.quantum[end.leaf]};
+    ascent.first_row = {end.row, index.rings.begin[end.leaf], end.quantum};
     for (uint32_t patch = end.leaf; patch != top; patch = index.numbering.parent[patch])
         ascent.patches.push_back(patch);
 }
