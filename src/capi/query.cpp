@@ -317,8 +317,9 @@ geoidx_status geoidx_query_prepare_target(geoidx_query* query, const geoidx_surf
         require(surface, "surface is NULL");
         require(target, "target is NULL");
         const Surface& on = surface->surface;
-        PointQueries(query->index, query->query, on).face_point_of(checked_point(on, *target, "target"));
-        query->walk = Walk{checked_point(on, *target, "target")};
+        const SurfacePoint to = checked_point(on, *target, "target");
+        PointQueries(query->index, query->query, on).face_point_of(to); // throws where it cannot be one
+        query->walk = Walk{to};
         query->walk_vertices = on.vertex_count();
         query->walk_faces = on.face_count();
     });

@@ -164,35 +164,29 @@ private:
     size_t left_, apex_, right_; // in points_
 };
 
-// From each gate to the next one, one of its ends stays.
+// From each gate to the next one, one of its ends stays. `points` are those that the funnel numbers.
 void Unfolded::pull_tight() {
     const auto count = static_cast<std::ptrdiff_t>(gates_.size());
     Funnel funnel(from_, gates_.size() + 2);
-    bends_.clear(); // first all points that the funnel comes to
-    const auto add = [&](std::ptrdiff_t gate, uint32_t vertex, const Vector2d& at) {
-        bends_.push_back({gate, vertex, at});
-    };
+    std::vector<Bend> points;
     for (std::ptrdiff_t i = 0; i < count; ++i) {
         const Gate& gate = gates_[static_cast<size_t>(i)];
         const Gate* const before = i > 0 ? &gate - 1 : nullptr;
         if (!before || before->left_vertex != gate.left_vertex) {
             funnel.add_left(gate.left);
-            add(i, gate.left_vertex, gate.left);
+            points.push_back({i, gate.left_vertex, gate.left});
         }
         if (!before || before->right_vertex != gate.right_vertex) {
             funnel.add_right(gate.right);
-            add(i, gate.right_vertex, gate.right);
+            points.push_back({i, gate.right_vertex, gate.right});
         }
     }
     funnel.add_right(to_);
-    add(count, NONE, to_);
-    std::vector<Bend> way;
-    for (auto point = static_cast<std::ptrdiff_t>(bends_.size()) - 1; point >= 0;
-         point = funnel.before(point))
-        way.push_back(bends_[static_cast<size_t>(point)]);
-    way.push_back({-1, NONE, from_});
-    std::ranges::reverse(way);
-    bends_ = std::move(way);
+    points.push_back({count, NONE, to_});
+    for (auto i = static_cast<std::ptrdiff_t>(points.size()) - 1; i >= 0; i = funnel.before(i))
+        bends_.push_back(points[static_cast<size_t>(i)]);
+    bends_.push_back({-1, NONE, from_});
+    std::ranges::reverse(bends_);
 }
 
 void Unfolded::add_shares(std::span<const Portal> portals, std::vector<double>& shares) const {

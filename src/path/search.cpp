@@ -1,7 +1,6 @@
 #include "src/path/search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory_resource>
 #include <queue>
 #include <unordered_map>

@@ -25,8 +25,8 @@ const IdsOfNumbers& Query::ids_of_numbers() {
 
 std::span<const WithinSweep::Found> Query::numbers_within(uint32_t source, float radius) {
     if (auto* const overlay = std::get_if<OverlayQuery>(&engine_)) return overlay->within(source, radius);
-    sources_.assign(1, source);
-    const std::span<const float> field = field_within(radius);
+    const auto field = std::span(distance_).first(index_.numbering().vertex_count());
+    std::get<GraphQuery>(engine_).msad({&source, 1}, radius, field);
     within_.clear();
     for (uint32_t v = 0; v < field.size(); ++v)
         if (field[v] <= radius && field[v] < INFINITE) within_.push_back({v, field[v]});
@@ -34,15 +34,13 @@ std::span<const WithinSweep::Found> Query::numbers_within(uint32_t source, float
 }
 
 std::span<const Query::Found> Query::within(std::span<const uint32_t> source_ids, float radius) {
-    if (source_ids.empty()) refuse_argument("there is no source");
     if (!(radius >= 0)) refuse_argument("the radius is negative or NaN");
-    for (const uint32_t id : source_ids) number_of(id);
+    take_sources(source_ids);
     ranked_.clear();
-    for (const uint32_t id : source_ids)
-        if (const uint32_t source = number_of(id); source != NONE)
-            for (const auto& [number, distance] : numbers_within(source, radius))
-                ranked_.push_back({distance, number});
-    if (source_ids.size() > 1) keep_least();
+    for (const uint32_t source : sources_)
+        for (const auto& [number, distance] : numbers_within(source, radius))
+            ranked_.push_back({distance, number});
+    if (sources_.size() > 1) keep_least();
     replace_numbers();
     for (const uint32_t id : source_ids)
         if (number_of(id) == NONE) ranked_.push_back({0, id});

@@ -39,6 +39,11 @@ namespace Geoidx.Tests
         internal static GeodesicMesh Square() =>
             GeodesicMesh.From(new double[] { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, new[] { 0, 1, 2, 0, 2, 3 });
 
+        /// <summary>Two triangles of their own, 5 apart along x.</summary>
+        internal static GeodesicMesh TwoTriangles() =>
+            GeodesicMesh.From(
+                new double[] { 0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0 }, new[] { 0, 1, 2, 3, 4, 5 });
+
         /// <summary>A unit cube, vertex 4 z + 2 y + x at (x, y, z).</summary>
         internal static GeodesicMesh Cube()
         {

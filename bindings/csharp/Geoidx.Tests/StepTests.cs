@@ -117,8 +117,7 @@ namespace Geoidx.Tests
         [Fact]
         public void NoWayLeadsToAnotherComponent()
         {
-            GeodesicMesh two = GeodesicMesh.From(
-                new double[] { 0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0 }, new[] { 0, 1, 2, 3, 4, 5 });
+            GeodesicMesh two = Shapes.TwoTriangles();
             using GeodesicIndex index = GeodesicIndex.Build(two);
             using var surface = new GeodesicSurface(two);
             using GeodesicQuery query = index.CreateQuery();
