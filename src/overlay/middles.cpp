@@ -1,7 +1,8 @@
 #include "src/overlay/middles.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
+#include <vector>
 
 #include "src/overlay/unfolding.h"
 
@@ -9,26 +10,59 @@ namespace geodesic {
 
 namespace {
 
+constexpr size_t LANES = 4; // so many middles are computed at once
+
+using Steps = Floats<LANES * sizeof(float)>;
+using Codes [[gnu::vector_size(LANES * sizeof(uint16_t))]] = uint16_t;
+using Wholes [[gnu::vector_size(LANES * sizeof(int32_t))]] = int32_t;
+
+Steps steps_of(const uint16_t* first) {
+    Codes codes;
+    std::memcpy(&codes, first, sizeof codes);
+    return __builtin_convertvector(__builtin_convertvector(codes, Wholes), Steps);
+}
+
+void write_codes(const Steps& steps, uint16_t* first) {
+    const Wholes rounded = __builtin_convertvector(steps + 0.5f, Wholes);
+    const Codes codes = __builtin_convertvector(rounded, Codes);
+    std::memcpy(first, &codes, sizeof codes);
+}
+
 // Writes the codes of the middles beside one row of an inner table. segment_length is in steps of the
-// quantum, NaN where there is a gap.
+// quantum, NaN where there is a gap. It has a number of whole vectors, filled up with gaps, so that a few
+// codes behind the row are written, too.
 void add_middles(const uint16_t* row, std::span<const float> segment_length, uint16_t* middles) {
-    for (size_t k = 0; k < segment_length.size(); ++k) {
-        float square;
-        middle_square(static_cast<float>(row[k]), static_cast<float>(row[k + 1]), segment_length[k], square);
-        const bool is_reached = std::max(row[k], row[k + 1]) < TableCode::UNREACHED && !std::isnan(square);
-        middles[k] = is_reached ? TableCode::of_steps(std::sqrt(square)) : TableCode::UNREACHED;
+    const Steps unreached = Steps{} + float{TableCode::UNREACHED};
+    for (size_t k = 0; k < segment_length.size(); k += LANES) {
+        const Steps from_first = steps_of(row + k), from_second = steps_of(row + k + 1);
+        Steps length, square;
+        std::memcpy(&length, segment_length.data() + k, sizeof length);
+        middle_square(from_first, from_second, length, square);
+        square = from_first < unreached ? square : unreached * unreached;
+        square = from_second < unreached ? square : unreached * unreached;
+        square = square == square ? square : unreached * unreached;
+        take_square_root(square);
+        write_codes(square, middles + k);
     }
 }
 
+// The lengths of the segments of a ring, in steps of the quantum of its patch.
+void measure_in_steps(const OverlayIndex& index, uint32_t patch, std::vector<float>& length) {
+    const float* first = index.rings.segment_length.data() + index.rings.begin[patch];
+    const size_t places = index.rings.size(patch);
+    length.assign((places + LANES - 1) / LANES * LANES, Rings::GAP);
+    for (size_t k = 0; k < places; ++k) length[k] = first[k] / index.quantum[patch];
 }
 
+}
+
+// Rows are written one after the other: what is written behind one is overwritten by the next, or is padding.
 void make_middle_tables(const OverlayIndex& index, std::span<uint16_t> middles) {
-    std::ranges::fill(middles, TableCode::UNREACHED);
+    static_assert(TableCode::PADDING > LANES);
+    std::ranges::fill(middles.subspan(index.hops.inner_begin.back()), TableCode::UNREACHED);
     std::vector<float> length;
     for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) {
-        length.assign(index.rings.size(p), 0);
-        for (uint32_t k = 0; k < length.size(); ++k)
-            length[k] = index.rings.segment_length[index.rings.begin[p] + k] / index.quantum[p];
+        measure_in_steps(index, p, length);
         for (uint32_t i = 0; i < index.numbering.inner_size(p); ++i)
             add_middles(index.hops.inner.data() + index.inner_row(p, i), length,
                         middles.data() + index.inner_row(p, i));
