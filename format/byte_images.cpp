@@ -19,7 +19,7 @@ Part part_of(std::uint64_t index, std::uint64_t run_size) {
 }
 
 PngImage image_of(std::size_t size) {
-    if (size == BYTE_IMAGE_SIZE) return {BYTE_IMAGE_SIDE, BYTE_IMAGE_SIDE, Pixel::Gray8};
+    if (size == BYTE_IMAGE_SIZE) return {BYTE_IMAGE_HEIGHT, BYTE_IMAGE_WIDTH, Pixel::Gray8};
     return {1, static_cast<std::uint32_t>(size), Pixel::Gray8};
 }
 

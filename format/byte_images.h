@@ -1,8 +1,9 @@
 #pragma once
 
-// A run of bytes as 8-bit gray PNG images: of 512 x 512 pixels, a byte each, row by row, as long as there are
-// so many bytes, and then one image of a single row with the rest. Bytes whose frequencies differ, as those
-// of small residuals do, are packed well, and nothing else is looked for in them.
+// A run of bytes as 8-bit gray PNG images: 8192 pixels wide and 32 high, a byte each, row by row, as
+// long as there are so many bytes, and then one image of a single row with the rest. Bytes whose frequencies
+// differ, as those of small residuals do, are packed well, and nothing else is looked for in them. Rows are
+// long, since libpng has one at a time inflated, the last 257 bytes of which zlib writes slowly.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 namespace geodesic::format {
 
-inline constexpr std::uint32_t BYTE_IMAGE_SIDE = 512;
-inline constexpr std::uint64_t BYTE_IMAGE_SIZE = std::uint64_t{BYTE_IMAGE_SIDE} * BYTE_IMAGE_SIDE;
+inline constexpr std::uint32_t BYTE_IMAGE_WIDTH = 8192, BYTE_IMAGE_HEIGHT = 32;
+inline constexpr std::uint64_t BYTE_IMAGE_SIZE = std::uint64_t{BYTE_IMAGE_WIDTH} * BYTE_IMAGE_HEIGHT;
 
 constexpr std::uint64_t byte_image_count(std::uint64_t size) {
     return size / BYTE_IMAGE_SIZE + (size % BYTE_IMAGE_SIZE > 0);

@@ -28,7 +28,7 @@ Bytes some_bytes(std::size_t size) {
 
 TEST_CASE("byte images: the bytes come back, whatever their number") {
     for (const std::size_t size :
-         {std::size_t{0}, std::size_t{1}, std::size_t{511}, std::size_t{512}, BYTE_IMAGE_SIZE - 1,
+         {std::size_t{0}, std::size_t{1}, std::size_t{8191}, std::size_t{8192}, BYTE_IMAGE_SIZE - 1,
           BYTE_IMAGE_SIZE, BYTE_IMAGE_SIZE + 1, 3 * BYTE_IMAGE_SIZE + 77}) {
         CAPTURE(size);
         const Bytes bytes = some_bytes(size);

@@ -59,7 +59,7 @@ class Section:
 
     def _runs(self):
         rest = self.raw_size % RUN
-        shapes = [(512, 512)] * (self.raw_size // RUN) + ([(1, rest)] if rest else [])
+        shapes = [(32, 8192)] * (self.raw_size // RUN) + ([(1, rest)] if rest else [])
         return b"".join(image.tobytes() for image in self._images(shapes, GRAY))
 
     def _images(self, shapes, color):
