@@ -27,10 +27,13 @@ NearEffort near_effort(uint32_t sources, uint32_t screened) {
     return {screened * sources / 2, sources / 2, CLIMBS, sources / 2 / CLIMBS};
 }
 
-// Of few vertices, a larger share is asked, since sources among so few soon find the worst pair; but not a
-// number that is the same for all, which would take longer than all the rest of a small build.
+// Of few vertices, a larger share is asked, since sources among so few soon find the worst pair, and of very
+// few all of them; but not a number that is the same for all, which would take longer than all the rest of a
+// small build.
 uint32_t source_count(uint32_t vertex_count) {
-    const uint32_t of_few = std::clamp(vertex_count / 16, 12u, 120u);
+    constexpr uint32_t VERY_FEW = 256;
+    if (vertex_count <= VERY_FEW) return 2 * vertex_count;
+    const uint32_t of_few = std::clamp(vertex_count / 6, 30u, 120u);
     return std::clamp(vertex_count / 80, of_few, 2000u);
 }
 
