@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -136,6 +138,44 @@ inline TestMesh sphere(uint32_t rings, uint32_t around) {
             mesh.add_triangle(at(i, j + 1), at(i + 1, j + shift), at(i + 1, j + shift + 1));
         }
     }
+    return mesh;
+}
+
+// The surface of bars one unit thick along the edges of cells x cells x cells cubes of four units each: tubes
+// of four sides that meet in every corner.
+inline TestMesh lattice(uint32_t cells) {
+    const int side = static_cast<int>(4 * cells + 1);
+    const auto is_bar = [&](const std::array<int, 3>& at) {
+        int on_edge = 0;
+        for (const int c : at) {
+            if (c < 0 || c >= side) return false;
+            on_edge += c % 4 == 0;
+        }
+        return on_edge >= 2;
+    };
+    TestMesh mesh;
+    std::map<std::array<int, 3>, uint32_t> id_of;
+    const auto id = [&](const std::array<int, 3>& corner) {
+        const auto [at, is_new] = id_of.try_emplace(corner, mesh.vertex_count());
+        if (is_new) mesh.positions.insert(mesh.positions.end(), corner.begin(), corner.end());
+        return at->second;
+    };
+    for (int i = 0; i < side * side * side; ++i)
+        for (size_t axis = 0; axis < 3; ++axis)
+            for (const int step : {0, 1}) {
+                std::array<int, 3> at{i % side, i / side % side, i / side / side}, beside = at;
+                beside[axis] += step ? 1 : -1;
+                if (!is_bar(at) || is_bar(beside)) continue;
+                at[axis] += step;
+                std::array<uint32_t, 4> corners;
+                for (size_t k = 0; k < 4; ++k) {
+                    auto corner = at;
+                    corner[(axis + 1) % 3] += step ? k == 1 || k == 2 : k >= 2;
+                    corner[(axis + 2) % 3] += step ? k >= 2 : k == 1 || k == 2;
+                    corners[k] = id(corner);
+                }
+                for (const size_t k : {0, 1, 2, 0, 2, 3}) mesh.triangles.push_back(corners[k]);
+            }
     return mesh;
 }
 

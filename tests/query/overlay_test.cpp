@@ -168,6 +168,24 @@ TEST_CASE("overlay: far vertices find their way over borders that have pieces in
     CHECK(errors.largest < 0.02);
 }
 
+// Borders here are many short chains. Vertices side by side on the tubes may be far from each other in the
+// order of a border.
+TEST_CASE("overlay: pairs on a lattice of tubes are as far apart as in a field" * doctest::skip(SANITIZED)) {
+    const TestMesh mesh = lattice(4);
+    const uint32_t count = mesh.vertex_count();
+    auto options = overlay_options(GEOIDX_METRIC_EXACT, 3, 400);
+    options.patches[0] = options.patches[1] = options.patches[2] = 4;
+    const auto index = build(mesh, options);
+    Differences differences;
+    for (uint32_t source = 0; source < count; source += 40) {
+        const auto field = msad(index.get(), source, count);
+        for (uint32_t target = 0; target < count; ++target)
+            differences.add(double{sssd(index.get(), source, target)}, double{field[target]});
+    }
+    CHECK(differences.reached_wrongly == 0);
+    CHECK(differences.largest < 0.06);
+}
+
 // A path between near vertices may pass a jagged border far from the border vertex that is the least detour.
 TEST_CASE("overlay: near vertices in different leaves are nearly as far apart as the metric says") {
     const TestMesh mesh = torus(60, 30);

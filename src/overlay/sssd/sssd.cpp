@@ -16,6 +16,11 @@ namespace {
 // finding the part of them that a path may cross.
 constexpr size_t FEW_PAIRS = size_t{1} << 13;
 
+// A border of many short chains, which a patch has where the surface is a lattice of tubes, is crossed as a
+// whole even if it has more. A part of a border is a row of places, and what lies near in space does not lie
+// near in that row then.
+constexpr size_t FEW_PAIRS_OF_CHAINS = size_t{1} << 20, PLACES_OF_SHORT_CHAIN = 48;
+
 // Of ways no longer than so many spacings of samples, the shortest one need not be the shortest over samples:
 // these make each longer by a share of a spacing. Everything that such a way can cross is measured.
 constexpr float NEAR_SPACINGS = 14;
@@ -28,6 +33,19 @@ constexpr float SAMPLES_ROUNDING = 1e-3f;
 
 // Ranges are moved along with the way at most this many times.
 constexpr int MOST_MOVES = 8;
+
+// Whether a border consists of several chains that are short.
+bool has_short_chains(const Rings& rings, uint32_t patch) {
+    const size_t chains = rings.chains_of(patch).size();
+    return chains > 1 && rings.size(patch) < chains * PLACES_OF_SHORT_CHAIN;
+}
+
+// Whether the whole of one border may be crossed to the whole of the other.
+bool have_few_pairs(const Rings& rings, uint32_t first, uint32_t second) {
+    const bool have_short_chains = has_short_chains(rings, first) || has_short_chains(rings, second);
+    return size_t{rings.size(first)} * rings.size(second) <=
+           (have_short_chains ? FEW_PAIRS_OF_CHAINS : FEW_PAIRS);
+}
 
 // Returns the lowest patch that two patches lie in. A parent has a smaller number than its children.
 uint32_t lowest_common_patch(const Numbering& numbering, uint32_t a, uint32_t b) {
@@ -73,8 +91,7 @@ void OverlaySssd::End::climb(const OverlayIndex& index, const PathEnd& of, uint3
 // Whether the borders of the ascent are so short that all of each may be crossed.
 bool OverlaySssd::End::has_few_pairs(const Rings& rings) const {
     for (size_t b = 1; b < ascent.patches.size(); ++b)
-        if (size_t{rings.size(ascent.patches[b - 1])} * rings.size(ascent.patches[b]) > FEW_PAIRS)
-            return false;
+        if (!have_few_pairs(rings, ascent.patches[b - 1], ascent.patches[b])) return false;
     return true;
 }
 
@@ -253,8 +270,7 @@ bool OverlaySssd::take_ranges_within(float length) {
 bool OverlaySssd::has_few_pairs() const {
     const Rings& rings = index_.rings;
     return to_.has_few_pairs(rings) && from_.has_few_pairs(rings) &&
-           (from_.is_at_top() ||
-            size_t{rings.size(meeting_patch())} * rings.size(from_.ascent.last_patch()) <= FEW_PAIRS);
+           (from_.is_at_top() || have_few_pairs(rings, from_.ascent.last_patch(), meeting_patch()));
 }
 
 // Returns the distance of `from_`, which is at the top, from the vertex at a place of the meeting border.
