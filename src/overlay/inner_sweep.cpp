@@ -44,7 +44,7 @@ bool InnerSweep::begin(uint32_t patch, const float* distances, const RingSegment
     (sources_ == 1 ? kernels_.prepare_sweep : kernels_.prepare_sweep_each)(border_, codes_,
                                                                            middle_distance_.data());
     const float nearest = *std::ranges::min_element(std::span(nearest_).first(sources_));
-    return nearest < INFINITE && nearest <= radius + near_radius(index_.longest_segment[patch]);
+    return nearest < INFINITE && nearest <= farthest_on_border(radius, index_.longest_segment[patch]);
 }
 
 void InnerSweep::cross_to(float* inside) {

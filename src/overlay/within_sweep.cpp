@@ -42,7 +42,7 @@ void WithinSweep::lower(uint32_t number, float way) {
 // A path may cross the border between two vertices that are both farther than the radius, as InnerSweep has
 // it.
 bool WithinSweep::may_cross_border(uint32_t patch, float radius) const {
-    const float farthest = radius + near_radius(index_.longest_segment[patch]);
+    const float farthest = farthest_on_border(radius, index_.longest_segment[patch]);
     return std::ranges::any_of(numbering_.border_of(patch), [&](uint32_t number) {
         return distance_[number] <= farthest && distance_[number] < INFINITE;
     });

@@ -351,6 +351,40 @@ TEST_CASE("hop: as the text has it where tables lack paths") {
     }
 }
 
+// A file may state any length. Squares of these are no floats, so that no way is straightened.
+TEST_CASE("hop: over segments of any length, every distance is written") {
+    for (const float length : {1e-30f, 2e37f, 5e37f, 3e38f}) {
+        CAPTURE(length);
+        const Built whole(with_holes(hills(26, 24)), options_of(GEOIDX_METRIC_EXACT, {3, 3}));
+        StoredIndex stored =
+            restore(with_few_paths(whole, options_of(GEOIDX_METRIC_EXACT, {3, 3})).built.index);
+        std::ranges::fill(stored.segment_length, length);
+        const Built built(whole.mesh, options_of(GEOIDX_METRIC_EXACT, {3, 3}), stored);
+        InnerSweep one(built.overlay(), 1, std::pmr::get_default_resource()),
+            several(built.overlay(), AT_ONCE, std::pmr::get_default_resource());
+        std::vector<float> side_by_side;
+        for (uint32_t v = 0; v < built.numbering().vertex_count(); ++v)
+            for (size_t i = 0; i < AT_ONCE; ++i)
+                side_by_side.push_back(i % 3 == 0 ? INFINITE : built.fields[i].distance[v]);
+        uint64_t wrong = 0, unreached = 0;
+        const auto check = [&](InnerSweep& sweep, size_t sources, uint32_t patch, const float* distances) {
+            std::vector<float> inside(sources * built.numbering().inner_size(patch), NAN);
+            if (!sweep.begin(patch, distances)) return;
+            sweep.cross_to(inside.data());
+            for (const float d : inside) {
+                wrong += !(d >= 0);
+                unreached += d == INFINITE;
+            }
+        };
+        for (uint32_t patch = 1; patch < built.numbering().patch_count(); ++patch) {
+            for (const Field& field : built.fields) check(one, 1, patch, field.distance.data());
+            check(several, AT_ONCE, patch, side_by_side.data());
+        }
+        CHECK(wrong == 0);
+        CHECK(unreached > 100);
+    }
+}
+
 // Here a vertex may have a path to one end of a segment and none to the other, which are joined by an edge,
 // so that no mesh has that, but a file of another writer may.
 TEST_CASE("hop: as the text has it where tables lack paths to an end of a segment") {
