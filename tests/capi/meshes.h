@@ -174,7 +174,7 @@ inline TestMesh lattice(uint32_t cells) {
                     corner[(axis + 2) % 3] += step ? k >= 2 : k == 1 || k == 2;
                     corners[k] = id(corner);
                 }
-                for (const size_t k : {0, 1, 2, 0, 2, 3}) mesh.triangles.push_back(corners[k]);
+                for (const size_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.triangles.push_back(corners[k]);
             }
     return mesh;
 }

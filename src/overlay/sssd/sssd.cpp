@@ -16,9 +16,9 @@ namespace {
 // finding the part of them that a path may cross.
 constexpr size_t FEW_PAIRS = size_t{1} << 13;
 
-// A border of many short chains, which a patch has where the surface is a lattice of tubes, is crossed as a
-// whole even if it has more. A part of a border is a row of places, and what lies near in space does not lie
-// near in that row then.
+// In a border of many short chains, as patches of a lattice of tubes have, places that are near in space are
+// far apart in the ring, so that a range of places would miss them. It is crossed as a whole up to this many
+// pairs.
 constexpr size_t FEW_PAIRS_OF_CHAINS = size_t{1} << 20, PLACES_OF_SHORT_CHAIN = 48;
 
 // Of ways no longer than so many spacings of samples, the shortest one need not be the shortest over samples:
@@ -34,16 +34,18 @@ constexpr float SAMPLES_ROUNDING = 1e-3f;
 // Ranges are moved along with the way at most this many times.
 constexpr int MOST_MOVES = 8;
 
-// Whether a border consists of several chains that are short.
-bool has_short_chains(const Rings& rings, uint32_t patch) {
-    const size_t chains = rings.chains_of(patch).size();
-    return chains > 1 && rings.size(patch) < chains * PLACES_OF_SHORT_CHAIN;
+// Whether a border has segments, and consists of several chains with fewer than PLACES_OF_SHORT_CHAIN places
+// each on average.
+bool has_short_chains(const OverlayIndex& index, uint32_t patch) {
+    const size_t chains = index.rings.chains_of(patch).size();
+    return chains > 1 && index.rings.size(patch) < chains * PLACES_OF_SHORT_CHAIN &&
+           index.longest_segment[patch] > 0;
 }
 
 // Whether the whole of one border may be crossed to the whole of the other.
-bool have_few_pairs(const Rings& rings, uint32_t first, uint32_t second) {
-    const bool have_short_chains = has_short_chains(rings, first) || has_short_chains(rings, second);
-    return size_t{rings.size(first)} * rings.size(second) <=
+bool have_few_pairs(const OverlayIndex& index, uint32_t first, uint32_t second) {
+    const bool have_short_chains = has_short_chains(index, first) || has_short_chains(index, second);
+    return size_t{index.rings.size(first)} * index.rings.size(second) <=
            (have_short_chains ? FEW_PAIRS_OF_CHAINS : FEW_PAIRS);
 }
 
@@ -89,9 +91,9 @@ void OverlaySssd::End::climb(const OverlayIndex& index, const PathEnd& of, uint3
 }
 
 // Whether the borders of the ascent are so short that all of each may be crossed.
-bool OverlaySssd::End::has_few_pairs(const Rings& rings) const {
+bool OverlaySssd::End::has_few_pairs(const OverlayIndex& index) const {
     for (size_t b = 1; b < ascent.patches.size(); ++b)
-        if (!have_few_pairs(rings, ascent.patches[b - 1], ascent.patches[b])) return false;
+        if (!have_few_pairs(index, ascent.patches[b - 1], ascent.patches[b])) return false;
     return true;
 }
 
@@ -268,9 +270,8 @@ bool OverlaySssd::take_ranges_within(float length) {
 
 // Whether all borders may be crossed as a whole.
 bool OverlaySssd::has_few_pairs() const {
-    const Rings& rings = index_.rings;
-    return to_.has_few_pairs(rings) && from_.has_few_pairs(rings) &&
-           (from_.is_at_top() || have_few_pairs(rings, from_.ascent.last_patch(), meeting_patch()));
+    return to_.has_few_pairs(index_) && from_.has_few_pairs(index_) &&
+           (from_.is_at_top() || have_few_pairs(index_, from_.ascent.last_patch(), meeting_patch()));
 }
 
 // Returns the distance of `from_`, which is at the top, from the vertex at a place of the meeting border.

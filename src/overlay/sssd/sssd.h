@@ -13,10 +13,10 @@
 namespace geodesic {
 
 // Single source, single destination on overlay tables. Both ends climb to the children of the lowest patch
-// that has them both and meet on the border of one of these children. Short borders are crossed as a whole.
-// Of longer ones, samples give a few candidates; each is then measured over all vertices of the border ranges
-// around it, which move along with the way while it gets shorter. Vertices are given by their numbers. An
-// object is the scratch of one thread.
+// that has them both and meet on the border of one of these children. Short borders, and those of many short
+// chains, are crossed as a whole. Of longer ones, samples give a few candidates; each is then measured over
+// all vertices of the border ranges around it, which move along with the way while it gets shorter. Vertices
+// are given by their numbers. An object is the scratch of one thread.
 class OverlaySssd {
 public:
     // The index must have its samples.
@@ -38,7 +38,7 @@ private:
         void climb(const OverlayIndex& index, const PathEnd& of, uint32_t top);
         // Whether the end lies inside of the patch where the ends meet, and on no border inside of that.
         bool is_at_top() const { return ascent.patches.empty(); }
-        bool has_few_pairs(const Rings& rings) const;
+        bool has_few_pairs(const OverlayIndex& index) const;
         bool crosses_segments(const OverlayIndex& index) const;
         bool take_whole_borders(const OverlayIndex& index);
         void take_ranges(const OverlayIndex& index, uint32_t sample, BorderRange last_range);
