@@ -3,7 +3,7 @@
 // A run of bytes as 8-bit gray PNG images: 8192 pixels wide and 32 high, a byte each, row by row, as
 // long as there are so many bytes, and then one image of a single row with the rest. Bytes whose frequencies
 // differ, as those of small residuals do, are packed well, and nothing else is looked for in them. Rows are
-// long, since libpng has one at a time inflated, the last 257 bytes of which zlib writes slowly.
+// long, since libpng inflates one row a call, and zlib decodes the last 257 bytes of a call by a slower loop.
 
 #include <cstddef>
 #include <cstdint>

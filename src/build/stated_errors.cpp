@@ -32,7 +32,7 @@ NearEffort near_effort(uint32_t sources, uint32_t screened) {
 // small build.
 uint32_t source_count(uint32_t vertex_count) {
     constexpr uint32_t VERY_FEW = 256;
-    if (vertex_count <= VERY_FEW) return 2 * vertex_count;
+    if (vertex_count <= VERY_FEW) return 2 * vertex_count; // half of them are the first ones
     const uint32_t of_few = std::clamp(vertex_count / 6, 30u, 120u);
     return std::clamp(vertex_count / 80, of_few, 2000u);
 }

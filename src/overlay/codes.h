@@ -50,9 +50,6 @@ struct TableCode {
         }
     }
 
-    // The code of a distance that is counted in steps already, of at most LARGEST of them.
-    static uint16_t of_steps(float steps) { return static_cast<uint16_t>(steps + 0.5f); }
-
     static float distance(uint16_t code, float quantum) {
         return code == UNREACHED ? INFINITE : static_cast<float>(code) * quantum;
     }

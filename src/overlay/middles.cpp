@@ -29,9 +29,10 @@ void write_codes(const Steps& steps, uint16_t* first) {
 }
 
 // Writes the codes of the middles beside one row of an inner table. segment_length is in steps of the
-// quantum, NaN where there is a gap. It has a number of whole vectors, filled up with gaps, so that a few
-// codes behind the row are written, too.
+// quantum, NaN where there is a gap. It is filled up with gaps to whole vectors, so that up to three codes
+// behind the row are written, too.
 void add_middles(const uint16_t* row, std::span<const float> segment_length, uint16_t* middles) {
+    // Its square has this root exactly.
     const Steps unreached = Steps{} + float{TableCode::UNREACHED};
     for (size_t k = 0; k < segment_length.size(); k += LANES) {
         const Steps from_first = steps_of(row + k), from_second = steps_of(row + k + 1);
@@ -40,7 +41,7 @@ void add_middles(const uint16_t* row, std::span<const float> segment_length, uin
         middle_square(from_first, from_second, length, square);
         square = from_first < unreached ? square : unreached * unreached;
         square = from_second < unreached ? square : unreached * unreached;
-        square = square == square ? square : unreached * unreached;
+        square = square == square ? square : unreached * unreached; // where there is no middle
         take_square_root(square);
         write_codes(square, middles + k);
     }
