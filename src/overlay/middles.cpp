@@ -41,7 +41,7 @@ void add_middles(const uint16_t* row, std::span<const float> segment_length, uin
         middle_square(from_first, from_second, length, square);
         square = from_first < unreached ? square : unreached * unreached;
         square = from_second < unreached ? square : unreached * unreached;
-        square = square == square ? square : unreached * unreached; // where there is no middle
+        square = square >= 0 ? square : unreached * unreached; // NaN where there is no middle
         take_square_root(square);
         write_codes(square, middles + k);
     }
