@@ -1,9 +1,9 @@
 #include "src/overlay/middles.h"
 
 #include <algorithm>
-#include <cstring>
 #include <vector>
 
+#include "src/overlay/kernels/lanes.h"
 #include "src/overlay/unfolding.h"
 
 namespace geodesic {
@@ -13,19 +13,17 @@ namespace {
 constexpr size_t LANES = 4; // so many middles are computed at once
 
 using Steps = Floats<LANES * sizeof(float)>;
-using Codes [[gnu::vector_size(LANES * sizeof(uint16_t))]] = uint16_t;
-using Wholes [[gnu::vector_size(LANES * sizeof(int32_t))]] = int32_t;
+using Codes = VectorOf<uint16_t, LANES * sizeof(uint16_t)>::Type;
 
 Steps steps_of(const uint16_t* first) {
     Codes codes;
-    std::memcpy(&codes, first, sizeof codes);
-    return __builtin_convertvector(__builtin_convertvector(codes, Wholes), Steps);
+    load(first, codes);
+    return __builtin_convertvector(__builtin_convertvector(codes, FourKeys), Steps);
 }
 
 void write_codes(const Steps& steps, uint16_t* first) {
-    const Wholes rounded = __builtin_convertvector(steps + 0.5f, Wholes);
-    const Codes codes = __builtin_convertvector(rounded, Codes);
-    std::memcpy(first, &codes, sizeof codes);
+    const FourKeys rounded = __builtin_convertvector(steps + 0.5f, FourKeys);
+    store(__builtin_convertvector(rounded, Codes), first);
 }
 
 // Writes the codes of the middles beside one row of an inner table. segment_length is in steps of the
@@ -37,7 +35,7 @@ void add_middles(const uint16_t* row, std::span<const float> segment_length, uin
     for (size_t k = 0; k < segment_length.size(); k += LANES) {
         const Steps from_first = steps_of(row + k), from_second = steps_of(row + k + 1);
         Steps length, square;
-        std::memcpy(&length, segment_length.data() + k, sizeof length);
+        load(segment_length.data() + k, length);
         middle_square(from_first, from_second, length, square);
         square = from_first < unreached ? square : unreached * unreached;
         square = from_second < unreached ? square : unreached * unreached;
