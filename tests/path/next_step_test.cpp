@@ -6,7 +6,6 @@
 
 #include "tests/capi/refusals.h"
 #include "tests/path/path_cases.h"
-#include "tests/support/stress_meshes.h"
 
 using namespace geodesic::test;
 
@@ -118,12 +117,7 @@ TEST_CASE("next step: by the graph engine, too") {
 }
 
 TEST_CASE("next step: walks on stress meshes end at the target") {
-    std::mt19937_64 random(11);
-    for (const auto& families : {stress_families(), unorientable_families()})
-        for (const StressFamily& family : families) {
-            CAPTURE(std::string(family.name));
-            check_walks(PathCase(family.draw(random)), 12);
-        }
+    for_each_stress_case([](const PathCase& on) { check_walks(on, 12); });
 }
 
 TEST_CASE("next step: the distance is that of the index, and other questions do not disturb it") {

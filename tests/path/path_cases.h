@@ -9,6 +9,7 @@
 
 #include "tests/support/handles.h"
 #include "tests/support/meshes.h"
+#include "tests/support/stress_meshes.h"
 
 // An index, a surface, a solver and a query of one mesh.
 namespace geodesic::test {
@@ -124,6 +125,17 @@ inline std::vector<Soup> path_soups() {
                             with_mixed_winding(bumpy_sphere(2, 9), 4)};
     soups.push_back(cone(saddle_rays(10, 0.9), 4));
     return soups;
+}
+
+// Calls check(on) with a case of each family of stress meshes.
+template <class Check>
+void for_each_stress_case(const Check& check) {
+    std::mt19937_64 random(11);
+    for (const auto& families : {stress_families(), unorientable_families()})
+        for (const StressFamily& family : families) {
+            CAPTURE(std::string(family.name));
+            check(PathCase(family.draw(random)));
+        }
 }
 
 }

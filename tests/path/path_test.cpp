@@ -8,7 +8,6 @@
 
 #include "tests/capi/refusals.h"
 #include "tests/path/path_cases.h"
-#include "tests/support/stress_meshes.h"
 
 using namespace geodesic::test;
 using Eigen::Vector3d;
@@ -146,12 +145,7 @@ TEST_CASE("path: by the graph engine, too") {
 }
 
 TEST_CASE("path: on stress meshes") {
-    std::mt19937_64 random(11);
-    for (const auto& families : {stress_families(), unorientable_families()})
-        for (const StressFamily& family : families) {
-            CAPTURE(std::string(family.name));
-            check_paths(PathCase(family.draw(random)), 12);
-        }
+    for_each_stress_case([](const PathCase& on) { check_paths(on, 12); });
 }
 
 TEST_CASE("path: along edges where that is the metric") {
