@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <memory_resource>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,18 +36,15 @@ void for_each_labelled(const OverlayIndex& index, const Use& use) {
     }
 }
 
-// Calls use(patch, inside, begin) for each patch to be labelled and each patch inside of it, where the labels
-// of that patch's inner vertices begin. Returns where the last ones end.
+// Calls use(patch, inside, codes) for each patch to be labelled and each patch inside of it, with the number
+// of codes in that patch's labels.
 template <class Use>
-uint64_t lay_out_labels(const OverlayIndex& index, const Use& use) {
-    uint64_t codes = 0;
+void for_each_with_labels(const OverlayIndex& index, const Use& use) {
     for_each_labelled(index, [&](uint32_t patch) {
         descend_into(index.numbering, patch, [&](uint32_t inside) {
-            use(patch, inside, codes);
-            codes += uint64_t{index.numbering.inner_size(inside)} * index.rings.size(patch);
+            use(patch, inside, uint64_t{index.numbering.inner_size(inside)} * index.rings.size(patch));
         });
     });
-    return codes;
 }
 
 // Sweeps from the border of a patch down to the inner vertices of all its descendants, with SOURCES border
@@ -54,12 +53,13 @@ class LabelSweep {
 public:
     LabelSweep(const OverlayIndex& index, Labels& labels, std::pmr::memory_resource* memory)
         : index_(index), labels_(labels), numbering_(index.numbering), sweep_(index, SOURCES, memory),
-          distances_(SOURCES * index.numbering.vertex_count(), memory), of_border_(memory),
-          begin_(index.numbering.patch_count(), memory), codes_(memory) {}
+          distances_(make_room<float>(SOURCES * index.numbering.border_vertex_count(), memory)),
+          of_leaf_(make_room<float>(SOURCES * index.numbering.largest_inner_size(), memory)),
+          of_border_(memory), begin_(make_room<size_t>(index.numbering.patch_count(), memory)),
+          codes_(memory) {}
 
     void label(uint32_t patch) {
         lay_out_distances(patch);
-        if (of_border_.empty()) return; // No vertex lies deeper.
         for (size_t first = 0; first < border_size_; first += SOURCES) {
             start(patch, first);
             descend_into(numbering_, patch, [&](uint32_t p) { hop_down(p, first); });
@@ -92,8 +92,11 @@ private:
 
     void hop_down(uint32_t patch, size_t first) {
         const uint32_t count = numbering_.inner_size(patch);
-        float* const inside = distances_.data() + size_t{numbering_.first_inner(patch)} * SOURCES;
-        if (sweep_.begin(patch, distances_.data()))
+        // Nothing lies inside of a leaf that would read them.
+        float* const inside = patch < numbering_.first_leaf()
+                                  ? distances_.get() + size_t{numbering_.first_inner(patch)} * SOURCES
+                                  : of_leaf_.get();
+        if (sweep_.begin(patch, distances_.get()))
             sweep_.cross_to(inside);
         else
             std::fill_n(inside, count * SOURCES, INFINITE);
@@ -115,48 +118,72 @@ private:
 
     void encode(uint32_t patch, uint32_t labelled, float quantum) {
         const size_t count = numbering_.inner_size(patch);
+        if (count == 0) return;
         codes_.resize(count * border_size_);
         TableCode::round_all({of_border_.data() + begin_[patch], codes_.size()}, steps_per_distance(quantum),
                              codes_.data());
         const uint32_t* position = index_.rings.position.data() + index_.rings.begin[labelled];
         const uint32_t places = index_.rings.size(labelled);
-        uint16_t* code = labels_.codes.data() + labels_.begin[patch];
+        uint16_t* code = labels_.codes.get() + labels_.begin[patch];
         for (size_t row = 0; row < codes_.size(); row += border_size_)
             for (uint32_t k = 0; k < places; ++k) *code++ = codes_[row + position[k]];
+        std::fill_n(code, TableCode::PADDING, TableCode::UNREACHED);
     }
 
     const OverlayIndex& index_;
     Labels& labels_;
     const Numbering& numbering_;
     InnerSweep sweep_;
-    Array<float> distances_; // [number * SOURCES + source], from the current sources
+    Room<float> distances_; // [number * SOURCES + source], from the current sources to border vertices
+    Room<float> of_leaf_;   // the same to the inner vertices of a leaf
     // From the whole border: a row for each inner vertex of each descendant.
     Array<float> of_border_;
-    Array<size_t> begin_; // per patch: where its rows begin in of_border_
+    Room<size_t> begin_; // per patch: where its rows begin in of_border_
     size_t border_size_ = 0;
     Array<uint16_t> codes_; // of the rows of one patch, by border vertices
 };
 
+// Makes the labels of labelled patches that have none yet.
+void make_labels_of(const OverlayIndex& index, std::span<const uint32_t> patches) {
+    Labels& labels = *index.pairs.labels;
+    const std::lock_guard only_one(index.pairs.making);
+    std::optional<LabelSweep> sweep;
+    for (const uint32_t patch : patches) {
+        if (labels.are_made[patch].load(std::memory_order_relaxed)) continue;
+        if (!sweep) sweep.emplace(index, labels, labels.quantum.get_allocator().resource());
+        sweep->label(patch);
+        labels.are_made[patch].store(true, std::memory_order_release);
+    }
+}
+
 }
 
 uint64_t count_label_codes(const OverlayIndex& index) {
-    return lay_out_labels(index, [](uint32_t, uint32_t, uint64_t) {});
+    uint64_t codes = 0;
+    for_each_with_labels(index, [&](uint32_t, uint32_t, uint64_t count) { codes += count; });
+    return codes;
 }
 
-void make_labels(const OverlayIndex& index, bool with_labels, Labels& labels) {
-    const Numbering& numbering = index.numbering;
-    labels.is_labelled.assign(numbering.patch_count(), 0);
-    if (!with_labels) return;
-    labels.quantum.assign(numbering.patch_count(), 0.f);
-    labels.begin.assign(numbering.patch_count(), 0);
-    const uint64_t codes = lay_out_labels(index, [&](uint32_t patch, uint32_t inside, uint64_t begin) {
+Labels lay_out_labels(const OverlayIndex& index, std::pmr::memory_resource* memory) {
+    Labels labels(index.numbering.patch_count(), memory);
+    uint64_t codes = 0;
+    for_each_with_labels(index, [&](uint32_t patch, uint32_t inside, uint64_t count) {
         labels.is_labelled[patch] = 1;
-        labels.begin[inside] = begin;
+        labels.begin[inside] = codes;
+        codes += count + TableCode::PADDING;
     });
-    if (codes == 0) return;
-    labels.codes.resize(codes + TableCode::PADDING);
-    LabelSweep sweep(index, labels, labels.codes.get_allocator().resource());
-    for_each_labelled(index, [&](uint32_t patch) { sweep.label(patch); });
+    if (codes > 0) labels.codes = make_room<uint16_t>(codes, memory);
+    return labels;
+}
+
+void make_labels(const OverlayIndex& index, uint32_t patch) { make_labels_of(index, std::span(&patch, 1)); }
+
+void make_all_labels(const OverlayIndex& index) {
+    std::vector<uint32_t> patches;
+    const Array<uint8_t>& is_labelled = index.pairs.labels->is_labelled;
+    for (uint32_t p = 0; p < is_labelled.size(); ++p)
+        if (is_labelled[p]) patches.push_back(p);
+    make_labels_of(index, patches);
 }
 
 }

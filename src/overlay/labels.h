@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory_resource>
 
 #include "src/overlay/tables.h"
 
@@ -9,7 +10,17 @@ namespace geodesic {
 // The number of codes in all labels. Needs the rings of the index.
 uint64_t count_label_codes(const OverlayIndex& index);
 
-// Fills empty `labels`, of which there are none where `with_labels` is false.
-void make_labels(const OverlayIndex& index, bool with_labels, Labels& labels);
+// What labels there will be, and room for them, but none made. Needs the rings of the index.
+Labels lay_out_labels(const OverlayIndex& index, std::pmr::memory_resource* memory);
+
+// Makes the labels of a labelled patch, or those of all of them, unless they are made. Any thread may call
+// them at any time, once the index has its pair tables.
+void make_labels(const OverlayIndex& index, uint32_t patch);
+void make_all_labels(const OverlayIndex& index);
+
+// Makes sure that a labelled patch has its labels.
+inline void require_labels(const OverlayIndex& index, uint32_t patch) {
+    if (!index.pairs.labels->are_made[patch].load(std::memory_order_acquire)) make_labels(index, patch);
+}
 
 }

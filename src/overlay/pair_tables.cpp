@@ -15,8 +15,10 @@ void require_pair_tables(const OverlayIndex& index) {
     std::pmr::memory_resource* memory = pairs.samples.codes.get_allocator().resource();
     pairs.samples = Samples(memory);
     make_samples(index, pairs.samples);
-    pairs.labels = Labels(memory);
-    make_labels(index, pairs.has_labels, pairs.labels);
+    if (pairs.has_labels)
+        pairs.labels.emplace(lay_out_labels(index, memory));
+    else
+        pairs.labels.emplace(index.numbering.patch_count(), memory);
     pairs.are_made.store(true, std::memory_order_release);
 }
 
@@ -25,7 +27,7 @@ void release_pair_tables(const OverlayIndex& index) {
     std::pmr::memory_resource* memory = pairs.samples.codes.get_allocator().resource();
     pairs.are_made = false;
     pairs.samples = Samples(memory);
-    pairs.labels = Labels(memory);
+    pairs.labels.reset();
 }
 
 }

@@ -4,7 +4,8 @@
 
 namespace geodesic {
 
-// Makes sure that an index has what pairs of vertices need. The first thread that asks makes it while others
+// Makes sure that an index has what pairs of vertices need, but for the labels themselves, which are made as
+// pairs need them. The first thread that asks makes it while others
 // wait; when that throws, as where memory is short, the next one to ask begins anew.
 void require_pair_tables(const OverlayIndex& index);
 

@@ -88,7 +88,8 @@ private:
     PathEnd end_of(const FacePoint& point, PointRow& row) const;
     void add_point(const FacePoint& point, float offset);
 
-    // The first pair of all makes the tables that pairs need, and the first one of this object its scratch.
+    // The first pair of all makes the tables that all pairs need, and the first one of this object its
+    // scratch.
     OverlaySssd& pairs() {
         if (pairs_) return *pairs_;
         require_pair_tables(index_);

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <memory_resource>
 #include <mutex>
+#include <optional>
 #include <span>
 
 #include "src/base/array.h"
+#include "src/base/room.h"
 #include "src/index/numbering.h"
 #include "src/overlay/codes.h"
 #include "src/overlay/rings.h"
@@ -111,25 +113,30 @@ struct Samples {
 // in steps of a quantum of their own. Of the patches around a vertex, the outermost one whose border is
 // neither empty nor long is labelled, if it is no leaf; vertices that lie deeper than its inner vertices have
 // labels. Pairs of vertices that meet outside of labelled patches need not cross the borders inside.
+//
+// Labels are made patch by patch, each when a pair needs it (see require_labels): what belongs to a labelled
+// patch may be read once are_made[patch] has been seen.
 struct Labels {
-    explicit Labels(std::pmr::memory_resource* memory)
-        : is_labelled(memory), quantum(memory), begin(memory), codes(memory) {}
+    Labels(uint32_t patches, std::pmr::memory_resource* memory)
+        : is_labelled(patches, uint8_t{0}, memory), begin(patches, 0, memory), quantum(patches, 0.f, memory),
+          are_made(patches, std::pmr::polymorphic_allocator<>(memory)) {}
 
-    Array<uint8_t> is_labelled; // per patch
-    Array<float> quantum;       // per patch; 0 if it is not labelled
-    Array<uint64_t> begin;      // per patch: where the labels of its inner vertices begin in `codes`
-    Array<uint16_t> codes;
+    Array<uint8_t> is_labelled;        // per patch
+    Array<uint64_t> begin;             // per patch: where the labels of its inner vertices begin in `codes`
+    Array<float> quantum;              // per patch; of labelled ones
+    Array<std::atomic<bool>> are_made; // per patch; of labelled ones
+    Room<uint16_t> codes;              // NULL if no patch is labelled
 };
 
 // What only pairs of vertices need. It is empty until require_pair_tables() makes it, when the first pair is
-// asked for.
+// asked for; labels follow one by one.
 struct PairTables {
-    explicit PairTables(std::pmr::memory_resource* memory) : samples(memory), labels(memory) {}
+    explicit PairTables(std::pmr::memory_resource* memory) : samples(memory) {}
 
     bool has_labels = true; // or will have them
     Samples samples;
-    Labels labels;
-    std::mutex making; // held while one thread fills the arrays
+    std::optional<Labels> labels;
+    std::mutex making; // held while one thread fills any of the arrays
     std::atomic<bool> are_made = false;
 };
 

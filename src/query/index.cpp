@@ -7,6 +7,7 @@
 #include "geoidx.h"
 #include "src/graph/prepare.h"
 #include "src/index/section_tags.h"
+#include "src/overlay/labels.h"
 #include "src/overlay/pair_tables.h"
 #include "src/overlay/prepare.h"
 
@@ -34,7 +35,10 @@ void prepare(const StoredIndex& stored, Index& index) {
 }
 
 void prepare_pairs(const Index& index) {
-    if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine)) require_pair_tables(*overlay);
+    const auto* const overlay = std::get_if<OverlayIndex>(&index.engine);
+    if (!overlay) return;
+    require_pair_tables(*overlay);
+    make_all_labels(*overlay);
 }
 
 void release_pairs(const Index& index) {

@@ -33,7 +33,8 @@ struct Index {
 void prepare(const StoredIndex& stored, Index& index);
 
 // Makes what only pairs need, if it has not been made: samples and labels of the overlay engine. Any thread
-// may call it at any time; the first pair that is asked for does.
+// may call it at any time. Without it, the first pair that is asked for makes the samples, and each pair the
+// labels that it needs.
 void prepare_pairs(const Index& index);
 
 // Frees what prepare_pairs() made. No query may be running.

@@ -15,8 +15,13 @@ uint64_t sample_codes(const OverlayIndex& index) {
     return index.pairs.samples.codes.size() - TableCode::PADDING;
 }
 uint64_t label_codes(const OverlayIndex& index) {
-    const uint64_t codes = index.pairs.labels.codes.size();
-    return codes > 0 ? codes - TableCode::PADDING : 0;
+    const Numbering& numbering = index.numbering;
+    const Labels& labels = *index.pairs.labels;
+    uint64_t padded = 0; // patches that lie in a labelled one
+    for (uint32_t p = 1; p < numbering.patch_count(); ++p)
+        for (uint32_t q = numbering.parent[p]; q != NONE; q = numbering.parent[q])
+            padded += labels.is_labelled[q];
+    return labels.codes.get_deleter().size - padded * TableCode::PADDING;
 }
 uint64_t codes_made(const OverlayIndex& index) {
     return index.hops.outer_begin.back() + index.hops.kept_begin.back() + 2 * index.hops.inner_begin.back() +

@@ -55,7 +55,7 @@ const std::list<Labelled>& on_planes() {
 
 // The distance of an inner vertex of `patch` to the i-th vertex of the border of `labelled`.
 double label_of(const OverlayIndex& index, uint32_t patch, uint32_t inner, uint32_t labelled, uint32_t i) {
-    const Labels& labels = index.pairs.labels;
+    const Labels& labels = *index.pairs.labels;
     const uint32_t place = index.rings.place_of_slot[index.numbering.border_begin[labelled] + i];
     const uint16_t code =
         labels.codes[labels.begin[patch] + uint64_t{inner} * index.rings.size(labelled) + place];
@@ -68,7 +68,7 @@ double steps_between(const OverlayIndex& index, uint32_t patch, uint32_t labelle
     double sum = 0;
     for (uint32_t p = patch; p != index.numbering.parent[labelled]; p = index.numbering.parent[p])
         sum += std::ldexp(double{index.quantum[p]}, index.shift[p]);
-    return sum + double{index.pairs.labels.quantum[labelled]};
+    return sum + double{index.pairs.labels->quantum[labelled]};
 }
 
 // Calls check(border vertex, inner vertex, distance, tolerance) for each labelled patch and what lies deeper.
@@ -78,7 +78,7 @@ uint64_t for_each_label(const Labelled& made, const Check& check) {
     const Numbering& numbering = index.numbering;
     uint64_t count = 0;
     for (uint32_t p = 1; p < numbering.first_leaf(); ++p) {
-        if (!index.pairs.labels.is_labelled[p]) continue;
+        if (!index.pairs.labels->is_labelled[p]) continue;
         const auto border = numbering.border_of(p);
         for (uint32_t i = 0; i < border.size(); i += 1 + static_cast<uint32_t>(border.size()) / 12)
             for (uint32_t inside = p + 1; inside < numbering.patch_count(); ++inside) {
@@ -141,7 +141,7 @@ TEST_CASE("labels: to the outermost border that is neither empty nor has more th
                     level = l;
                 }
             for (uint32_t p = leaf; p != 0; p = numbering.parent[p])
-                CHECK(index.pairs.labels.is_labelled[p] == (p == expected));
+                CHECK(index.pairs.labels->is_labelled[p] == (p == expected));
             if (expected == NONE) continue;
             ++by_level[level];
             codes += uint64_t{numbering.inner_size(leaf)} * index.rings.size(expected);
@@ -156,7 +156,7 @@ TEST_CASE("labels: none where there is one level, and where borders are too long
     static const TestMesh strip = pressed(grid(500, 7), 0.008);
     for (const auto patches : {std::initializer_list<uint32_t>{4}, {2, 1}}) {
         const OverlayOf made(strip, options_of_plane(strip, patches));
-        CHECK(made.overlay().pairs.labels.codes.empty());
+        CHECK(made.overlay().pairs.labels->codes == nullptr);
     }
 }
 
@@ -174,10 +174,34 @@ TEST_CASE("labels: to a border that no vertex inside reaches there is no distanc
     StoredIndex stored = restore(made.index);
     std::ranges::fill(stored.border_internal_codes, TableCode::UNREACHED);
     const OverlayOf cut(stored);
-    uint64_t wrong = 0;
-    for (const uint16_t code : cut.overlay().pairs.labels.codes) wrong += code != TableCode::UNREACHED;
-    CHECK(wrong <= TableCode::PADDING);
-    CHECK(cut.overlay().pairs.labels.codes.size() > 1000);
+    const Room<uint16_t>& codes = cut.overlay().pairs.labels->codes;
+    const std::span<const uint16_t> all(codes.get(), codes.get_deleter().size);
+    CHECK(std::ranges::count(all, TableCode::UNREACHED) == all.size());
+    CHECK(all.size() > 1000);
+}
+
+TEST_CASE("labels: pairs make those that they need, and no others, and get the same bits in any order") {
+    for (const Labelled& made : on_planes()) {
+        Index opened(std::pmr::get_default_resource());
+        prepare(restore(made.built.index), opened);
+        const auto& index = std::get<OverlayIndex>(opened.engine);
+        Query whole(made.built.index, std::pmr::get_default_resource());
+        Query query(opened, std::pmr::get_default_resource());
+        const auto labels_made = [&] {
+            return std::ranges::count_if(index.pairs.labels->are_made,
+                                         [](const auto& made) { return made.load(); });
+        };
+        const uint32_t count = made.mesh.vertex_count();
+        CHECK(query.sssd(0, count - 1) == whole.sssd(0, count - 1));
+        CHECK(labels_made() <= 2);
+        uint32_t different = 0;
+        for (uint32_t a = 0; a < count; a += 37)
+            for (uint32_t b = count - 1; b > a + 41; b -= 41)
+                different += query.sssd(a, b) != whole.sssd(a, b);
+        CHECK(different == 0);
+        CHECK(labels_made() > 2);
+        CHECK(labels_made() <= std::ranges::count(index.pairs.labels->is_labelled, 1));
+    }
 }
 
 TEST_CASE("labels: left out on demand, and pairs are answered over the borders inside") {
@@ -197,7 +221,7 @@ TEST_CASE("labels: left out on demand, and pairs are answered over the borders i
                 different += far != near;
             }
         CHECK(different > 0);
-        CHECK(std::get<OverlayIndex>(bare.engine).pairs.labels.codes.empty());
+        CHECK(std::get<OverlayIndex>(bare.engine).pairs.labels->codes == nullptr);
     }
 }
 

@@ -2,7 +2,6 @@
 
 #include "src/build/build.h"
 #include "src/index/stored.h"
-#include "src/overlay/pair_tables.h"
 #include "tests/capi/calls.h"
 
 namespace geodesic::test {
@@ -12,11 +11,11 @@ struct OverlayOf {
     OverlayOf(const TestMesh& mesh, geoidx_build_options options) : index(std::pmr::get_default_resource()) {
         options.engine = GEOIDX_ENGINE_OVERLAY;
         build_index(mesh.view(), options, index);
-        require_pair_tables(overlay());
+        prepare_pairs(index);
     }
     explicit OverlayOf(const StoredIndex& stored) : index(std::pmr::get_default_resource()) {
         prepare(stored, index);
-        require_pair_tables(overlay());
+        prepare_pairs(index);
     }
     const OverlayIndex& overlay() const { return std::get<OverlayIndex>(index.engine); }
 

@@ -12,7 +12,9 @@ namespace Geoidx
 
         /// <summary>
         /// Makes what distances between two vertices need while the index is opened. Otherwise the first one that is
-        /// asked for does; where only fields are asked for, it is never made and takes no memory. Default: false.
+        /// asked for makes a part of it, and takes the memory for all, and later ones make the rest as they need it,
+        /// which takes 1 to 3 ms each time; where only fields are asked for, it is never made and takes no memory.
+        /// Default: false.
         /// </summary>
         public bool Pairs { get; set; }
 

@@ -2,6 +2,7 @@
 
 #include <memory_resource>
 
+#include "src/overlay/labels.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic {
@@ -25,10 +26,11 @@ inline RingRow inner_row_of(const OverlayIndex& index, uint32_t vertex) {
 // The label of a vertex that lies deeper inside of a labelled patch than its inner vertices.
 inline RingRow label_of(const OverlayIndex& index, uint32_t vertex, uint32_t labelled) {
     const Numbering& numbering = index.numbering;
-    const Labels& labels = index.pairs.labels;
+    const Labels& labels = *index.pairs.labels;
+    require_labels(index, labelled);
     const uint32_t patch = numbering.innermost_patch(vertex);
     const uint64_t row = uint64_t{vertex - numbering.first_inner(patch)} * index.rings.size(labelled);
-    return {labels.codes.data() + labels.begin[patch] + row, index.rings.begin[labelled],
+    return {labels.codes.get() + labels.begin[patch] + row, index.rings.begin[labelled],
             labels.quantum[labelled]};
 }
 
@@ -77,7 +79,7 @@ inline void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Asce
     if (innermost == top) return;
     ascent.first_row = inner_row_of(index, vertex);
     for (uint32_t patch = innermost; patch != top; patch = numbering.parent[patch]) {
-        if (patch != innermost && index.pairs.labels.is_labelled[patch]) {
+        if (patch != innermost && index.pairs.labels->is_labelled[patch]) {
             ascent.patches.clear();
             ascent.first_row = label_of(index, vertex, patch);
         }

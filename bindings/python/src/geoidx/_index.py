@@ -162,8 +162,9 @@ class Index(Closable):
             same faces, and vertices that are equal as float32, whichever of the two was given as float64. A file that
             was saved without positions needs it (else InvalidArgumentError), and the vertices in the precision that
             the index was built with.
-        pairs: makes ready what distances between two vertices need. Otherwise the first one that is asked for does;
-            where only fields are asked for, it is never made and takes no memory.
+        pairs: makes ready what distances between two vertices need. Otherwise the first one that is asked for makes a
+            part of it, and takes the memory for all, and later ones make the rest as they need it, which takes 1 to
+            3 ms each time; where only fields are asked for, it is never made and takes no memory.
         labels: makes labels a part of what distances between two vertices need: the distances of each vertex to a
             border that lies farther out. Without labels all of this takes a quarter of the memory and a tenth of the
             time to be made, and each distance between two vertices takes about twice as long and
