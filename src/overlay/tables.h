@@ -156,6 +156,20 @@ void for_each_kept(const Numbering& numbering, const Use& use) {
         for (uint32_t i = 0; i < numbering.overlay_size(p); ++i) use(kept_slot(numbering, p, i));
 }
 
+// The rows of the outer table of a patch.
+struct OuterRows {
+    const uint16_t* own_before; // NULL if the border of the patch is empty
+    const uint16_t* codes;
+    size_t places;
+
+    // The row of a vertex, or NULL if the vertex is on the patch's own border, or if that is empty. The
+    // vertex is given by its position in the overlay of the patch's parent.
+    const uint16_t* of(uint32_t overlay_position) const {
+        if (!own_before || own_before[overlay_position] == HopTables::OWN) return nullptr;
+        return codes + size_t{overlay_position - own_before[overlay_position]} * places;
+    }
+};
+
 // What the overlay engine answers from.
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
@@ -173,14 +187,13 @@ struct OverlayIndex {
 
     float distance(uint16_t code, uint32_t patch) const { return TableCode::distance(code, quantum[patch]); }
 
-    // The row of a vertex in the outer table of a patch, or NULL if the vertex is on the patch's own border,
-    // or if that is empty. The vertex is given by its position in the overlay of the patch's parent.
+    OuterRows outer_rows(uint32_t patch) const {
+        const uint32_t places = rings.size(patch);
+        return {places == 0 ? nullptr : hops.own_before.data() + hops.row_begin[patch],
+                hops.outer.data() + hops.outer_begin[patch], places};
+    }
     const uint16_t* outer_row(uint32_t patch, uint32_t overlay_position) const {
-        if (rings.size(patch) == 0) return nullptr;
-        const uint16_t own_before = hops.own_before[hops.row_begin[patch] + overlay_position];
-        if (own_before == HopTables::OWN) return nullptr;
-        return hops.outer.data() + hops.outer_begin[patch] +
-               size_t{overlay_position - own_before} * rings.size(patch);
+        return outer_rows(patch).of(overlay_position);
     }
     // Where a row begins in the inner table of a patch, which has one for each of its inner vertices.
     uint64_t inner_row(uint32_t patch, uint32_t inner) const {

@@ -81,10 +81,12 @@ uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, con
         out[i] = length;
         winners[i] = static_cast<uint16_t>(range.first + at - read.first);
     };
+    const OuterRows rows = index.outer_rows(patch);
+    const size_t first_column = read.first - rings.begin[patch];
     for (uint32_t i = 0; i < to.size(); ++i) {
-        if (const uint16_t* const row = index.outer_row(patch, overlay_position(to.first + i))) {
+        if (const uint16_t* const row = rows.of(overlay_position(to.first + i))) {
             crossing.reached.push_back(i);
-            crossing.rows.push_back(row + (read.first - rings.begin[patch]));
+            crossing.rows.push_back(row + first_column);
         } else if (const uint32_t at = common.find(rings.vertex[to.first + i]); at != NONE) {
             keep(i, distances[at], at);
             has_common = has_common || distances[at] < INFINITE;

@@ -67,9 +67,10 @@ void SampledAscent::hop_across(const Ascent& ascent, uint32_t sibling) {
     const uint32_t* position = index_.rings.position.data() + index_.rings.begin[patch];
     const uint32_t* overlay_position =
         index_.numbering.overlay_position.data() + index_.numbering.border_begin[patch];
+    const OuterRows rows = index_.outer_rows(sibling);
     hop({.patch = sibling, .quantum = quantum, .places = to.data()}, index_.rings.size(sibling),
         [&](size_t i) {
-            const uint16_t* const row = index_.outer_row(sibling, overlay_position[position[from[i]]]);
+            const uint16_t* const row = rows.of(overlay_position[position[from[i]]]);
             return row ? row : no_path_.data();
         });
 }

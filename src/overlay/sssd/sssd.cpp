@@ -153,8 +153,9 @@ size_t OverlaySssd::End::pairs_between_ranges() const {
 void OverlaySssd::End::prefetch_rows(const OverlayIndex& index) const {
     for (size_t b = 0; b + 1 < ranges.size(); ++b) {
         const uint32_t patch = ascent.patches[b];
+        const OuterRows rows = index.outer_rows(patch);
         for (uint32_t k = ranges[b + 1].first; k <= ranges[b + 1].last; ++k)
-            if (const uint16_t* const row = index.outer_row(patch, index.rings.position[k]))
+            if (const uint16_t* const row = rows.of(index.rings.position[k]))
                 prefetch(row + (ranges[b].first - index.rings.begin[patch]), ranges[b].size());
     }
 }
