@@ -658,7 +658,8 @@ GEOIDX_API geoidx_status geoidx_query_farthest_points(geoidx_query* query, const
                                                       uint32_t* points, float* distances, uint32_t* count);
 
 /* From then on geoidx_query_msad, geoidx_query_msad_within, geoidx_query_point_msad,
- * geoidx_query_nearest_sources and geoidx_query_farthest_points of this query use so many threads, which
+ * geoidx_query_nearest_sources, geoidx_query_point_nearest_sources and geoidx_query_farthest_points of this
+ * query use so many threads, which
  * begin and end within each call, for the same bits, or as many of them as the system can begin: 1 at first,
  * 0 means one per processor, at most 1024. GEOIDX_ENGINE_GRAPH uses one. */
 GEOIDX_API geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t threads);
@@ -695,6 +696,29 @@ GEOIDX_API geoidx_status geoidx_query_point_msad(geoidx_query* query, const geoi
                                                  const geoidx_surface_point* sources, uint32_t source_count,
                                                  const float* offsets, float* distances,
                                                  uint32_t distance_count);
+
+/* geoidx_query_nearest_sources of points of the surface: that of the least offsets[i] + the distance from
+ * sources[i]. Of several at one vertex it is the first. distances[v] are the same bits as those of
+ * geoidx_query_point_msad; `distances` may be NULL. */
+GEOIDX_API geoidx_status geoidx_query_point_nearest_sources(
+    geoidx_query* query, const geoidx_surface* surface, const geoidx_surface_point* sources,
+    uint32_t source_count, const float* offsets, uint32_t* nearest, float* distances, uint32_t vertex_count);
+
+/* geoidx_query_within from points of the surface: the vertices v for which the least of offsets[i] + the
+ * distance from sources[i] is no more than `radius`, the nearest first. From one source the distances are the
+ * same bits as those of geoidx_query_point_msad; from several they are the least of those from each. */
+GEOIDX_API geoidx_status geoidx_query_point_within(geoidx_query* query, const geoidx_surface* surface,
+                                                   const geoidx_surface_point* sources, uint32_t source_count,
+                                                   const float* offsets, float radius, uint32_t* vertices,
+                                                   float* distances, uint32_t capacity, uint32_t* count);
+
+/* geoidx_query_nearest_targets of points of the surface: few targets are asked for one by one, as by
+ * geoidx_query_point_sssd; the distances of many come from those of the corners of their triangles. A point
+ * of which a corner cannot be reached is not reached either. */
+GEOIDX_API geoidx_status geoidx_query_point_nearest_targets(
+    geoidx_query* query, const geoidx_surface* surface, const geoidx_surface_point* source,
+    const geoidx_surface_point* targets, uint32_t target_count, uint32_t* positions, float* distances,
+    uint32_t capacity, uint32_t* count);
 
 /* ---- Paths
  * ------------------------------------------------------------------------------ */

@@ -58,6 +58,15 @@ inline void require_equal_or_none(std::size_t distances, std::size_t others) {
         throw std::invalid_argument("distances must be as many as what they belong to, or none");
 }
 
+// Of sources with offsets, or without any.
+inline const float* offsets_of(std::span<const geoidx_surface_point> sources,
+                               std::span<const float> offsets) {
+    if (offsets.empty()) return nullptr;
+    if (offsets.size() != sources.size())
+        throw std::invalid_argument("there must be an offset for each source");
+    return offsets.data();
+}
+
 inline const char* path_of(const std::string& utf8_path) {
     if (utf8_path.find('\0') != std::string::npos) throw std::invalid_argument("the path holds a NUL");
     return utf8_path.c_str();
@@ -347,14 +356,42 @@ public:
         check(geoidx_query_point_sssd(get(), on.get(), &source, &target, &distance));
         return distance;
     }
-    // `offsets` are as many as the sources, or none.
+    // `offsets` are as many as the sources, or none, here and below.
     void msad(const surface& on, std::span<const geoidx_surface_point> sources, std::span<float> distances,
               std::span<const float> offsets = {}) {
-        if (!offsets.empty() && offsets.size() != sources.size())
-            throw std::invalid_argument("there must be an offset for each source");
         check(geoidx_query_point_msad(get(), on.get(), sources.data(), detail::count_of(sources),
-                                      offsets.empty() ? nullptr : offsets.data(), distances.data(),
+                                      detail::offsets_of(sources, offsets), distances.data(),
                                       detail::count_of(distances)));
+    }
+    // These are as those of vertices are.
+    void nearest_sources(const surface& on, std::span<const geoidx_surface_point> sources,
+                         std::span<std::uint32_t> nearest, std::span<float> distances = {},
+                         std::span<const float> offsets = {}) {
+        detail::require_equal_or_none(distances.size(), nearest.size());
+        check(geoidx_query_point_nearest_sources(
+            get(), on.get(), sources.data(), detail::count_of(sources), detail::offsets_of(sources, offsets),
+            nearest.data(), distances.empty() ? nullptr : distances.data(), detail::count_of(nearest)));
+    }
+    std::uint32_t within(const surface& on, std::span<const geoidx_surface_point> sources, float radius,
+                         std::span<std::uint32_t> vertices, std::span<float> distances = {},
+                         std::span<const float> offsets = {}) {
+        detail::require_equal_or_none(distances.size(), vertices.size());
+        std::uint32_t count = 0;
+        check(geoidx_query_point_within(get(), on.get(), sources.data(), detail::count_of(sources),
+                                        detail::offsets_of(sources, offsets), radius, vertices.data(),
+                                        distances.empty() ? nullptr : distances.data(),
+                                        detail::count_of(vertices), &count));
+        return count;
+    }
+    std::uint32_t nearest_targets(const surface& on, const geoidx_surface_point& source,
+                                  std::span<const geoidx_surface_point> targets,
+                                  std::span<std::uint32_t> positions, std::span<float> distances = {}) {
+        detail::require_equal_or_none(distances.size(), positions.size());
+        std::uint32_t count = 0;
+        check(geoidx_query_point_nearest_targets(
+            get(), on.get(), &source, targets.data(), detail::count_of(targets), positions.data(),
+            distances.empty() ? nullptr : distances.data(), detail::count_of(positions), &count));
+        return count;
     }
 
     // Nothing if the points lie in different components.

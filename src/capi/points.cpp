@@ -51,6 +51,14 @@ SurfacePoint checked_point(const TriangleFaces& faces, const geoidx_surface_poin
     return result;
 }
 
+std::vector<SurfacePoint> checked_points(const Surface& surface, std::span<const geoidx_surface_point> points,
+                                         const std::string& name) {
+    std::vector<SurfacePoint> checked;
+    for (const geoidx_surface_point& point : points)
+        checked.push_back(checked_point(surface, point, name + " " + std::to_string(checked.size())));
+    return checked;
+}
+
 geoidx_surface_point callers_point(const Surface& surface, const SurfacePoint& point) {
     geoidx_surface_point result{};
     result.triangle = surface.triangle_of_face[point.face];

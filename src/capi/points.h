@@ -26,6 +26,10 @@ inline SurfacePoint checked_point(const Surface& surface, const geoidx_surface_p
     return checked_point(TriangleFaces{surface.face_of_triangle, surface.corners_of_duplicate}, point, name);
 }
 
+// Several; the name of each is followed by its position.
+std::vector<SurfacePoint> checked_points(const Surface& surface, std::span<const geoidx_surface_point> points,
+                                         const std::string& name);
+
 // The opposite: a point of a face as the caller's.
 geoidx_surface_point callers_point(const Surface& surface, const SurfacePoint& point);
 std::vector<geoidx_path_point> callers_path(const Surface& surface, std::span<const SurfacePoint> points);

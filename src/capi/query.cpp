@@ -44,6 +44,16 @@ void fill_matrix(Query& query, std::span<const uint32_t> sources, std::span<cons
     query.matrix(sources, targets, distances);
 }
 
+// Sources with the offsets that they begin with, which may be NULL.
+std::vector<SurfacePoint>
+checked_sources(const Surface& surface, std::span<const geoidx_surface_point> sources, const float* offsets) {
+    require(sources.data(), "sources is NULL");
+    require(!sources.empty(), "there is no source");
+    for (size_t i = 0; offsets && i < sources.size(); ++i)
+        require(offsets[i] >= 0 && offsets[i] < INFINITE, "an offset is negative, infinite or NaN");
+    return checked_points(surface, sources, "source");
+}
+
 // Writes as many of what was found as there is room for. `distances` may be NULL.
 void write_found(std::span<const Query::Found> found, uint32_t* which, float* distances, uint32_t capacity) {
     for (size_t i = 0; i < std::min<size_t>(found.size(), capacity); ++i) {
@@ -261,17 +271,65 @@ geoidx_status geoidx_query_point_msad(geoidx_query* query, const geoidx_surface*
     return guarded([&] {
         require(query, "query is NULL");
         require(surface, "surface is NULL");
-        require(sources, "sources is NULL");
-        require(source_count > 0, "there is no source");
         require(distances, "distances is NULL");
-        std::vector<SurfacePoint> points;
-        for (uint32_t i = 0; i < source_count; ++i) {
-            points.push_back(checked_point(surface->surface, sources[i], "source " + std::to_string(i)));
-            require(!offsets || (offsets[i] >= 0 && offsets[i] < INFINITE),
-                    "an offset is negative, infinite or NaN");
-        }
+        const auto points = checked_sources(surface->surface, {sources, source_count}, offsets);
         PointQueries(query->index, query->query, surface->surface)
             .msad(points, {offsets, offsets ? source_count : 0}, {distances, distance_count});
+    });
+}
+
+geoidx_status geoidx_query_point_nearest_sources(geoidx_query* query, const geoidx_surface* surface,
+                                                 const geoidx_surface_point* sources, uint32_t source_count,
+                                                 const float* offsets, uint32_t* nearest, float* distances,
+                                                 uint32_t vertex_count) {
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(surface, "surface is NULL");
+        require(nearest, "nearest is NULL");
+        const auto points = checked_sources(surface->surface, {sources, source_count}, offsets);
+        PointQueries(query->index, query->query, surface->surface)
+            .nearest_sources(points, {offsets, offsets ? source_count : 0}, {nearest, vertex_count},
+                             {distances, distances ? vertex_count : 0});
+    });
+}
+
+geoidx_status geoidx_query_point_within(geoidx_query* query, const geoidx_surface* surface,
+                                        const geoidx_surface_point* sources, uint32_t source_count,
+                                        const float* offsets, float radius, uint32_t* vertices,
+                                        float* distances, uint32_t capacity, uint32_t* count) {
+    if (count) *count = 0;
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(surface, "surface is NULL");
+        require(capacity == 0 || vertices, "vertices is NULL");
+        require(count, "count is NULL");
+        const auto points = checked_sources(surface->surface, {sources, source_count}, offsets);
+        const auto found = PointQueries(query->index, query->query, surface->surface)
+                               .within(points, {offsets, offsets ? source_count : 0}, radius);
+        write_found(found, vertices, distances, capacity);
+        *count = static_cast<uint32_t>(found.size());
+    });
+}
+
+geoidx_status geoidx_query_point_nearest_targets(geoidx_query* query, const geoidx_surface* surface,
+                                                 const geoidx_surface_point* source,
+                                                 const geoidx_surface_point* targets, uint32_t target_count,
+                                                 uint32_t* positions, float* distances, uint32_t capacity,
+                                                 uint32_t* count) {
+    if (count) *count = 0;
+    return guarded([&] {
+        require(query, "query is NULL");
+        require(surface, "surface is NULL");
+        require(source, "source is NULL");
+        require(target_count == 0 || targets, "targets is NULL");
+        require(capacity == 0 || positions, "positions is NULL");
+        require(count, "count is NULL");
+        const SurfacePoint from = checked_point(surface->surface, *source, "source");
+        const auto to = checked_points(surface->surface, {targets, target_count}, "target");
+        const auto found =
+            PointQueries(query->index, query->query, surface->surface).nearest_targets(from, to, capacity);
+        write_found(found, positions, distances, capacity);
+        *count = static_cast<uint32_t>(found.size());
     });
 }
 

@@ -64,21 +64,45 @@ void OverlayQuery::add_point(const FacePoint& point, float offset) {
     fill_ways(index_, leaf_of_face(index_.numbering, point.corners), point, offset, ways);
 }
 
-void OverlayQuery::point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
-                              std::span<float> distance) {
+void OverlayQuery::take_points(std::span<const FacePoint> points, std::span<const float> offsets) {
     points_.clear();
     keys_.clear();
     for (size_t i = 0; i < points.size(); ++i) add_point(points[i], offsets.empty() ? 0 : offsets[i]);
+}
+
+void OverlayQuery::point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
+                              std::span<float> distance) {
+    take_points(points, offsets);
     if (keys_.size() == 1)
         field_.sweep(Sources{keys_, points_}, INFINITE, distance);
     else
         nearest_.sweep({keys_, points_}, INFINITE, {distance});
 }
 
+// Of points at one vertex the first is written last, and stays.
+void OverlayQuery::point_nearest_sources(std::span<const FacePoint> points, std::span<const float> offsets,
+                                         std::span<float> distance, std::span<uint32_t> position) {
+    if (points.size() == 1) {
+        point_msad(points, offsets, distance);
+        for (size_t v = 0; v < distance.size(); ++v) position[v] = distance[v] < INFINITE ? 0 : NONE;
+        return;
+    }
+    take_points(points, offsets);
+    nearest_.sweep({keys_, points_}, INFINITE, {distance, position});
+    position_of_key_.resize(index_.numbering.vertex_count() + points_.size());
+    for (size_t i = keys_.size(); i-- > 0;) position_of_key_[keys_[i]] = static_cast<uint32_t>(i);
+    for (uint32_t& source : position)
+        if (source != NONE) source = position_of_key_[source];
+}
+
+std::span<const WithinSweep::Found> OverlayQuery::point_within(const FacePoint& point, float offset,
+                                                               float radius) {
+    take_points({&point, 1}, {&offset, 1});
+    return within_sweep().sweep({keys_, points_}, radius);
+}
+
 void OverlayQuery::prepare_end(size_t end, const FacePoint& point) {
-    points_.clear();
-    keys_.clear();
-    add_point(point, 0);
+    take_points({&point, 1}, {});
     ends_[end].prepare({keys_, points_});
 }
 

@@ -22,8 +22,8 @@ public:
     OverlayQuery(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : index_(index), memory_(memory), field_(index, memory), nearest_(index, memory),
           batch_(index, memory, FIELDS_AT_ONCE),
-          prepared_(index, memory), rows_{PointRow(memory), PointRow(memory)}, points_(memory),
-          keys_(memory), ends_{PreparedSource(index, memory), PreparedSource(index, memory)} {}
+          prepared_(index, memory), rows_{PointRow(memory), PointRow(memory)}, points_(memory), keys_(memory),
+          position_of_key_(memory), ends_{PreparedSource(index, memory), PreparedSource(index, memory)} {}
 
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
     float sssd(uint32_t low, uint32_t high) { return pairs().distance(low, high); }
@@ -57,10 +57,13 @@ public:
 
     // The vertices that are no farther than `radius` from a source.
     std::span<const WithinSweep::Found> within(uint32_t source, float radius) {
-        return within_sweep().sweep(source, radius);
+        return within_sweep().sweep({{&source, 1}}, radius);
     }
-    // The least distance of those that the latest call of within() has seen and left out, infinite if there
-    // are none: then all vertices that can be reached are within the radius.
+    // The distance of one of the vertices that the latest call of within() or point_within() has found;
+    // infinite for other vertices.
+    float distance_within(uint32_t number) const { return within_->distance(number); }
+    // The least distance of those that this call has seen and left out, infinite if there are none: then all
+    // vertices that can be reached are within the radius.
     float nearest_beyond() const { return within_->nearest_beyond(); }
 
     // Whether points of a face can be answered by the tables of one leaf, as the following require.
@@ -72,6 +75,13 @@ public:
     // Fills distance[number] of every vertex: the least of offsets[i] + the distance from points[i].
     void point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
                     std::span<float> distance);
+
+    // The same, and fills position[number] with that of the nearest point in `points`, NONE for none.
+    void point_nearest_sources(std::span<const FacePoint> points, std::span<const float> offsets,
+                               std::span<float> distance, std::span<uint32_t> position);
+
+    // The vertices for which `offset` + the distance from the point is no more than `radius`.
+    std::span<const WithinSweep::Found> point_within(const FacePoint& point, float offset, float radius);
 
     // Prepares one of the two ends of a path, 0 or 1: end_distance() then answers distances from it.
     void prepare_end(size_t end, const FacePoint& point);
@@ -86,6 +96,7 @@ public:
 
 private:
     PathEnd end_of(const FacePoint& point, PointRow& row) const;
+    void take_points(std::span<const FacePoint> points, std::span<const float> offsets);
     void add_point(const FacePoint& point, float offset);
 
     // The first pair of all makes the tables that all pairs need, and the first one of this object its
@@ -109,6 +120,7 @@ private:
     std::array<PointRow, 2> rows_; // of the points of a pair
     Array<PointWays> points_;      // of a sweep, or of the end that is prepared
     Array<uint32_t> keys_;
+    Array<uint32_t> position_of_key_; // among the points; of keys of the sweep only
     std::array<PreparedSource, 2> ends_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "src/overlay/ascend.h"
 #include "src/overlay/near.h"
 
 namespace geodesic {
@@ -13,17 +12,19 @@ WithinSweep::WithinSweep(const OverlayIndex& index, std::pmr::memory_resource* m
 
 // The overlay of a patch on the way up is known once the hop from its child has been made, so that the way
 // down into its other children begins there.
-std::span<const WithinSweep::Found> WithinSweep::sweep(uint32_t source, float radius) {
+std::span<const WithinSweep::Found> WithinSweep::sweep(const Sources& source, float radius) {
     forget();
-    for_each_way_from(index_, source, [&](uint32_t number, float way) { lower(number, way); });
-    uint32_t patch = numbering_.innermost_patch(source);
-    hop_down_to_children(patch, NONE, radius);
-    while (patch != 0 && may_cross_border(patch, radius)) {
+    radius_ = radius;
+    const uint32_t key = source.keys.front();
+    source.for_each_way(index_, key, [&](uint32_t number, float way) { lower(number, way); });
+    uint32_t patch = source.innermost_patch(numbering_, key);
+    hop_down_to_children(patch, NONE);
+    while (patch != 0 && may_cross_border(patch)) {
         hop_up(patch);
-        hop_down_to_children(numbering_.parent[patch], patch, radius);
+        hop_down_to_children(numbering_.parent[patch], patch);
         patch = numbering_.parent[patch];
     }
-    collect(radius);
+    collect();
     return found_;
 }
 
@@ -41,8 +42,8 @@ void WithinSweep::lower(uint32_t number, float way) {
 
 // A path may cross the border between two vertices that are both farther than the radius, as InnerSweep has
 // it.
-bool WithinSweep::may_cross_border(uint32_t patch, float radius) const {
-    const float farthest = farthest_on_border(radius, index_.longest_segment[patch]);
+bool WithinSweep::may_cross_border(uint32_t patch) const {
+    const float farthest = farthest_on_border(radius_, index_.longest_segment[patch]);
     return std::ranges::any_of(numbering_.border_of(patch), [&](uint32_t number) {
         return distance_[number] <= farthest && distance_[number] < INFINITE;
     });
@@ -56,28 +57,28 @@ void WithinSweep::hop_up(uint32_t child) {
     for (size_t r = 0; r < ways.size(); ++r) lower(targets[r], ways[r]);
 }
 
-void WithinSweep::hop_down_to_children(uint32_t patch, uint32_t left_out, float radius) {
+void WithinSweep::hop_down_to_children(uint32_t patch, uint32_t left_out) {
     if (patch >= numbering_.first_leaf()) return;
     for (uint32_t child = numbering_.child_begin[patch]; child < numbering_.child_begin[patch + 1]; ++child)
-        if (child != left_out) hop_down(child, radius);
+        if (child != left_out) hop_down(child);
 }
 
 // Hops to the inner vertices of a patch and of the patches inside of it.
-void WithinSweep::hop_down(uint32_t patch, float radius) {
-    if (!may_cross_border(patch, radius)) return;
+void WithinSweep::hop_down(uint32_t patch) {
+    if (!may_cross_border(patch)) return;
     if (down_.begin(patch, distance_.data())) {
         const uint32_t first = numbering_.first_inner(patch);
         const std::span<const float> ways = down_.cross();
         for (uint32_t r = 0; r < ways.size(); ++r) lower(first + r, ways[r]);
     }
-    hop_down_to_children(patch, NONE, radius);
+    hop_down_to_children(patch, NONE);
 }
 
-void WithinSweep::collect(float radius) {
+void WithinSweep::collect() {
     found_.clear();
     nearest_beyond_ = INFINITE;
     for (const uint32_t number : seen_)
-        if (distance_[number] <= radius)
+        if (distance_[number] <= radius_)
             found_.push_back({number, distance_[number]});
         else
             nearest_beyond_ = std::min(nearest_beyond_, distance_[number]);

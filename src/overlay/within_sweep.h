@@ -3,6 +3,7 @@
 #include <memory_resource>
 #include <span>
 
+#include "src/overlay/ascend.h"
 #include "src/overlay/inner_sweep.h"
 #include "src/overlay/outer_crossing.h"
 #include "src/overlay/tables.h"
@@ -21,9 +22,14 @@ public:
 
     WithinSweep(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
-    // Finds the vertices that are no farther than `radius`, in no particular order, with the bits that
-    // OverlaySsad gives. They stay valid until the next call.
-    std::span<const Found> sweep(uint32_t source, float radius);
+    // Finds the vertices that are no farther than `radius` from the only one of the sources, in no particular
+    // order, with the bits that OverlaySsad gives. They stay valid until the next call.
+    std::span<const Found> sweep(const Sources& source, float radius);
+
+    // The distance of one of them; infinite for other vertices.
+    float distance(uint32_t number) const {
+        return distance_[number] <= radius_ ? distance_[number] : INFINITE;
+    }
 
     // The least distance beyond the radius that the latest sweep has seen. If it is infinite, nothing else
     // can be reached from the source.
@@ -32,16 +38,17 @@ public:
 private:
     void forget();
     void lower(uint32_t number, float way);
-    bool may_cross_border(uint32_t patch, float radius) const;
+    bool may_cross_border(uint32_t patch) const;
     void hop_up(uint32_t child);
-    void hop_down_to_children(uint32_t patch, uint32_t left_out, float radius);
-    void hop_down(uint32_t patch, float radius);
-    void collect(float radius);
+    void hop_down_to_children(uint32_t patch, uint32_t left_out);
+    void hop_down(uint32_t patch);
+    void collect();
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
     OuterCrossing up_;
     InnerSweep down_;
+    float radius_ = 0;
     Array<float> distance_; // by number; infinite but for those of `seen_`
     Array<uint32_t> seen_;  // numbers, each once
     Array<Found> found_;    // those within the radius

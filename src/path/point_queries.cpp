@@ -36,24 +36,30 @@ FacePoint PointQueries::face_point_of(const SurfacePoint& point) const {
     return face_point(numbers, lengths, point.weights, unfolds());
 }
 
-// No way is shorter than the straight line in space. That over the faces counts even where the index, to its
-// accuracy, says that there is a shorter way. Much shorter ways are there: around a needle that stands
-// between two faces.
-float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target) {
+// The distance of two points, by what the index says of it. No way is shorter than the straight line in
+// space. That over the faces counts even where the index, to its accuracy, says that there is a shorter way.
+// Much shorter ways are there: around a needle that stands between two faces.
+float PointQueries::with_straight_way(const SurfacePoint& source, const SurfacePoint& target,
+                                      float distance) const {
     constexpr double MUCH_SHORTER = 0.95;
-    const FacePoint from = face_point_of(source), to = face_point_of(target);
-    if (from.vertex != NONE && to.vertex != NONE) return query_.point_sssd(from, to);
     if (source.face == target.face && source.weights == target.weights) return 0;
     const double straight = unfolds() ? straight_nearby(surface_, source, target) : UNREACHABLE;
     if (straight < UNREACHABLE && source.face == target.face) return static_cast<float>(straight);
     const double chord = (position_of(surface_, source) - position_of(surface_, target)).norm();
-    const float distance = std::max(query_.point_sssd(from, to), static_cast<float>(chord));
+    distance = std::max(distance, static_cast<float>(chord));
     return double{distance} < MUCH_SHORTER * straight ? distance : static_cast<float>(straight);
+}
+
+float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target) {
+    const FacePoint from = face_point_of(source), to = face_point_of(target);
+    const float distance = query_.point_sssd(from, to);
+    if (from.vertex != NONE && to.vertex != NONE) return distance;
+    return with_straight_way(source, target, distance);
 }
 
 // To the corners of the face, and to the vertices beyond its edges: sums over tables are of rounded
 // distances, which count where these are short.
-void PointQueries::add_known_ways(const SurfacePoint& source, float offset,
+void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
                                   std::vector<Query::KnownWay>& known) const {
     for_each_alias(surface_, source, [&](const SurfacePoint& alias) {
         const auto& corners = surface_.faces[alias.face];
@@ -62,7 +68,7 @@ void PointQueries::add_known_ways(const SurfacePoint& source, float offset,
             at.weights[corner_of(surface_, face, vertex)] = 1;
             const double way = straight_nearby(surface_, alias, at);
             if (way < UNREACHABLE && number_of(vertex) != NONE)
-                known.push_back({number_of(vertex), offset + static_cast<float>(way)});
+                known.push_back({position, number_of(vertex), offset + static_cast<float>(way)});
         };
         for (uint32_t k = 0; k < 3; ++k) {
             add(corners[k], alias.face);
@@ -76,19 +82,33 @@ void PointQueries::add_known_ways(const SurfacePoint& source, float offset,
     });
 }
 
+PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> points,
+                                               std::span<const float> offsets) const {
+    Sources sources{{}, offsets, {}};
+    for (uint32_t i = 0; i < points.size(); ++i) {
+        const float offset = offsets.empty() ? 0 : offsets[i];
+        const FacePoint& point = sources.points.emplace_back(face_point_of(points[i]));
+        if (point.vertex == NONE)
+            add_known_ways(points[i], i, offset, sources.known);
+        else
+            sources.known.push_back({i, point.vertex, offset});
+    }
+    return sources;
+}
+
 void PointQueries::msad(std::span<const SurfacePoint> sources, std::span<const float> offsets,
                         std::span<float> distances) {
-    std::vector<FacePoint> points;
-    std::vector<Query::KnownWay> known;
-    for (size_t i = 0; i < sources.size(); ++i) {
-        points.push_back(face_point_of(sources[i]));
-        const float offset = offsets.empty() ? 0 : offsets[i];
-        if (points.back().vertex == NONE)
-            add_known_ways(sources[i], offset, known);
-        else
-            known.push_back({points.back().vertex, offset});
-    }
-    query_.point_msad(points, offsets, known, distances);
+    query_.point_msad(sources_of(sources, offsets), distances);
+}
+
+void PointQueries::nearest_sources(std::span<const SurfacePoint> sources, std::span<const float> offsets,
+                                   std::span<uint32_t> nearest, std::span<float> distances) {
+    query_.point_nearest_sources(sources_of(sources, offsets), nearest, distances);
+}
+
+std::span<const Query::Found> PointQueries::within(std::span<const SurfacePoint> sources,
+                                                   std::span<const float> offsets, float radius) {
+    return query_.point_within(sources_of(sources, offsets), radius);
 }
 
 }

@@ -16,8 +16,17 @@ public:
     PointQueries(const Index& index, Query& query, const Surface& surface);
 
     float sssd(const SurfacePoint& source, const SurfacePoint& target);
+    // Of several sources; `offsets` are as many, or none.
     void msad(std::span<const SurfacePoint> sources, std::span<const float> offsets,
               std::span<float> distances);
+    void nearest_sources(std::span<const SurfacePoint> sources, std::span<const float> offsets,
+                         std::span<uint32_t> nearest, std::span<float> distances);
+    std::span<const Query::Found> within(std::span<const SurfacePoint> sources,
+                                         std::span<const float> offsets, float radius);
+
+    // The nearest `count` targets or, if fewer can be reached, all of these, in ascending order.
+    std::vector<Query::Found> nearest_targets(const SurfacePoint& source,
+                                              std::span<const SurfacePoint> targets, size_t count);
 
     // The point as the query takes it.
     FacePoint face_point_of(const SurfacePoint& point) const;
@@ -25,7 +34,17 @@ public:
     bool unfolds() const;
 
 private:
-    void add_known_ways(const SurfacePoint& source, float offset, std::vector<Query::KnownWay>& known) const;
+    struct Sources {
+        std::vector<FacePoint> points;
+        std::span<const float> offsets;
+        std::vector<Query::KnownWay> known;
+
+        operator Query::PointSources() const { return {points, offsets, known}; }
+    };
+    Sources sources_of(std::span<const SurfacePoint> points, std::span<const float> offsets) const;
+    void add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
+                        std::vector<Query::KnownWay>& known) const;
+    float with_straight_way(const SurfacePoint& source, const SurfacePoint& target, float distance) const;
 
     const Index& index_;
     Query& query_;

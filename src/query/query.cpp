@@ -4,7 +4,6 @@
 #include <array>
 #include <cstring>
 #include <string>
-#include <tuple>
 
 #include "format/error.h"
 #include "src/base/four_at_a_time.h"
@@ -159,80 +158,6 @@ void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<f
         for (float& d : distances)
             if (d > radius) d = INFINITE;
     for (uint32_t id : source_ids) distances[id] = 0; // also a source that no triangle uses
-}
-
-// Whether the engine answers from points itself. If not, distances from the corners of their faces do.
-bool Query::takes(const FacePoint& point) const {
-    const auto* const overlay = std::get_if<OverlayQuery>(&engine_);
-    return overlay && overlay->takes(point);
-}
-
-float Query::vertex_to_point(uint32_t vertex, const FacePoint& point) {
-    std::array<double, 3> from_corners;
-    for (size_t k = 0; k < 3; ++k) {
-        const uint32_t a = std::min(vertex, point.corners[k]), b = std::max(vertex, point.corners[k]);
-        from_corners[k] = a == b ? 0 : double{std::visit([&](auto& e) { return e.sssd(a, b); }, engine_)};
-    }
-    return static_cast<float>(distance_over(point, from_corners));
-}
-
-float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
-    const bool swapped =
-        std::tie(target.corners, target.to_corner) < std::tie(source.corners, source.to_corner);
-    const FacePoint& first = swapped ? target : source;
-    const FacePoint& second = swapped ? source : target;
-    if (takes(first) && takes(second)) return std::get<OverlayQuery>(engine_).point_sssd(first, second);
-    std::array<double, 3> from_corners;
-    for (size_t k = 0; k < 3; ++k) from_corners[k] = double{vertex_to_point(second.corners[k], first)};
-    return static_cast<float>(distance_over(second, from_corners));
-}
-
-// Lowers point_field_ to the distances from one point, by those from the corners of its face.
-void Query::add_point_field(const FacePoint& point, float offset) {
-    const uint32_t count = index_.numbering().vertex_count();
-    for (size_t k = 0; k < 3; ++k) {
-        corner_fields_[k].resize(count);
-        const uint32_t corner = point.corners[k];
-        std::visit([&](auto& engine) { engine.msad({&corner, 1}, INFINITE, corner_fields_[k]); }, engine_);
-    }
-    for (uint32_t v = 0; v < count; ++v) {
-        const double distance =
-            distance_over(point, {double{corner_fields_[0][v]}, double{corner_fields_[1][v]},
-                                  double{corner_fields_[2][v]}});
-        point_field_[v] = std::min(point_field_[v], static_cast<float>(distance) + offset);
-    }
-}
-
-void Query::point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
-                       std::span<const KnownWay> known, std::span<float> distances) {
-    check_count("distance_count", distances.size(), 1);
-    const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
-    if (std::ranges::all_of(points, [&](const FacePoint& point) { return takes(point); })) {
-        std::get<OverlayQuery>(engine_).point_msad(points, offsets, by_number);
-    } else {
-        point_field_.assign(by_number.size(), INFINITE);
-        for (size_t i = 0; i < points.size(); ++i)
-            add_point_field(points[i], offsets.empty() ? 0 : offsets[i]);
-        std::ranges::copy(point_field_, by_number.begin());
-    }
-    for (const auto& [number, length] : known) by_number[number] = std::min(by_number[number], length);
-    write_by_id(distances);
-}
-
-void Query::prepare_end(size_t end, const FacePoint& point) {
-    end_fields_[end].clear();
-    if (takes(point)) {
-        std::get<OverlayQuery>(engine_).prepare_end(end, point);
-        return;
-    }
-    point_field_.assign(index_.numbering().vertex_count(), INFINITE);
-    add_point_field(point, 0);
-    end_fields_[end].assign(point_field_.begin(), point_field_.end());
-}
-
-float Query::end_distance(size_t end, uint32_t number) {
-    if (!end_fields_[end].empty()) return end_fields_[end][number];
-    return std::get<OverlayQuery>(engine_).end_distance(end, number);
 }
 
 void Query::set_threads(uint32_t count) {

@@ -65,14 +65,40 @@ public:
     // Of two points of faces: symmetric bit for bit.
     float point_sssd(const FacePoint& source, const FacePoint& target);
 
-    // Multiple points, all destinations: the least of offsets[i] + the distance from points[i]. Without
-    // offsets all are 0. `known` are ways, by number, that the distances are not to be longer than.
+    // A way from a source, by its position, to a vertex, by its number, that no distance is to be longer
+    // than.
     struct KnownWay {
-        uint32_t number;
+        uint32_t source, number;
         float length;
     };
-    void point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
-                    std::span<const KnownWay> known, std::span<float> distances);
+    // Points as sources. How far a vertex is, is the least of offset(i) + the distance from points[i].
+    struct PointSources {
+        std::span<const FacePoint> points;
+        std::span<const float> offsets; // as many, or none: then all are 0
+        std::span<const KnownWay> known;
+
+        float offset(size_t i) const { return offsets.empty() ? 0 : offsets[i]; }
+    };
+
+    // Multiple points, all destinations.
+    void point_msad(const PointSources& sources, std::span<float> distances);
+
+    // The same questions as of vertices. A distance counts with the offset of its source.
+    void point_nearest_sources(const PointSources& sources, std::span<uint32_t> nearest,
+                               std::span<float> distances);
+    std::span<const Found> point_within(const PointSources& sources, float radius);
+
+    // Sweeps from the only one of the sources, at least to all vertices within the radius.
+    // distance_within() then answers distances, infinite for vertices that have not been found, and
+    // nearest_beyond() the least one that was left out, infinite if no other vertex can be reached. Ways that
+    // are known do not count.
+    void sweep_within(const PointSources& source, float radius);
+    float distance_within(uint32_t number) const;
+    float nearest_beyond() const;
+
+    // Whether `count` of these targets are found faster by a pair for each of them than by sweeps. A pair
+    // takes as long as `pairs` pairs of vertices.
+    bool targets_are_few(uint64_t targets, uint64_t count, uint64_t pairs) const;
 
     // Prepares one of the two ends of a path, 0 or 1: end_distance() then answers distances from it to
     // vertices by their numbers.
@@ -111,8 +137,10 @@ private:
     void take_sources(std::span<const uint32_t> source_ids);
     std::span<const float> field_within(float radius);
     bool takes(const FacePoint& point) const;
+    bool takes_all(const PointSources& sources) const;
     float vertex_to_point(uint32_t vertex, const FacePoint& point);
     void add_point_field(const FacePoint& point, float offset);
+    void nearest_sources_by_fields(const PointSources& sources);
     size_t fields_at_once(size_t left) const;
     FieldsByNumber fields_from(std::span<const uint32_t> source_ids);
     void ssad_at_once(std::span<const uint32_t> source_ids, std::span<float> distances);
@@ -125,6 +153,8 @@ private:
     void write_positions(std::span<const uint32_t> source_ids, std::span<uint32_t> nearest);
     const IdsOfNumbers& ids_of_numbers();
     std::span<const WithinSweep::Found> numbers_within(uint32_t source, float radius);
+    std::span<const WithinSweep::Found> numbers_within(const PointSources& sources, size_t i, float radius);
+    std::span<const WithinSweep::Found> found_in(std::span<const float> field, float radius);
     void keep_least();
     void replace_numbers();
     void rank_by_pairs(uint32_t source_id, std::span<const uint32_t> target_ids);
@@ -152,6 +182,7 @@ private:
     Array<uint32_t> position_at_, next_target_;
     std::optional<IdsOfNumbers> ids_of_numbers_;
     Array<WithinSweep::Found> within_; // where the engine sweeps whole fields only
+    bool swept_field_ = false;         // whether sweep_within() has filled point_field_
     Array<Found> ranked_;              // what within() and nearest_targets() answer
 };
 

@@ -27,10 +27,23 @@ std::span<const WithinSweep::Found> Query::numbers_within(uint32_t source, float
     if (auto* const overlay = std::get_if<OverlayQuery>(&engine_)) return overlay->within(source, radius);
     const auto field = std::span(distance_).first(index_.numbering().vertex_count());
     std::get<GraphQuery>(engine_).msad({&source, 1}, radius, field);
+    return found_in(field, radius);
+}
+
+std::span<const WithinSweep::Found> Query::found_in(std::span<const float> field, float radius) {
     within_.clear();
     for (uint32_t v = 0; v < field.size(); ++v)
         if (field[v] <= radius && field[v] < INFINITE) within_.push_back({v, field[v]});
     return within_;
+}
+
+std::span<const WithinSweep::Found> Query::numbers_within(const PointSources& sources, size_t i,
+                                                          float radius) {
+    const FacePoint& point = sources.points[i];
+    if (takes(point)) return std::get<OverlayQuery>(engine_).point_within(point, sources.offset(i), radius);
+    point_field_.assign(index_.numbering().vertex_count(), INFINITE);
+    add_point_field(point, sources.offset(i));
+    return found_in(point_field_, radius);
 }
 
 std::span<const Query::Found> Query::within(std::span<const uint32_t> source_ids, float radius) {
@@ -48,6 +61,33 @@ std::span<const Query::Found> Query::within(std::span<const uint32_t> source_ids
     // A source that no triangle uses may have been given twice.
     ranked_.erase(std::unique(ranked_.begin(), ranked_.end()), ranked_.end());
     return ranked_;
+}
+
+std::span<const Query::Found> Query::point_within(const PointSources& sources, float radius) {
+    if (!(radius >= 0)) refuse_argument("the radius is negative or NaN");
+    ranked_.clear();
+    for (size_t i = 0; i < sources.points.size(); ++i)
+        for (const auto& [number, distance] : numbers_within(sources, i, radius))
+            ranked_.push_back({distance, number});
+    for (const KnownWay& way : sources.known)
+        if (way.length <= radius) ranked_.push_back({way.length, way.number});
+    keep_least();
+    replace_numbers();
+    std::ranges::sort(ranked_);
+    return ranked_;
+}
+
+void Query::sweep_within(const PointSources& source, float radius) {
+    swept_field_ = !takes(source.points.front());
+    numbers_within(source, 0, radius);
+}
+
+float Query::distance_within(uint32_t number) const {
+    return swept_field_ ? point_field_[number] : std::get<OverlayQuery>(engine_).distance_within(number);
+}
+
+float Query::nearest_beyond() const {
+    return swept_field_ ? INFINITE : std::get<OverlayQuery>(engine_).nearest_beyond();
 }
 
 // Keeps the least distance of each vertex that several sources have found.
@@ -79,16 +119,18 @@ std::span<const Query::Found> Query::nearest_targets(uint32_t source_id, std::sp
     count = std::min(count, target_ids.size());
     ranked_.clear();
     if (count == 0) return ranked_;
-    const uint64_t targets = target_ids.size(), vertices = index_.numbering().vertex_count();
-    const bool are_few = pairs_are_faster(targets, 1) &&
-                         targets * targets * SWEPT_VERTICES_PER_PAIR < uint64_t{count} * vertices;
-    if (source == NONE || are_few)
+    if (source == NONE || targets_are_few(target_ids.size(), count, 1))
         rank_by_pairs(source_id, target_ids);
     else
         rank_by_sweeps(source, target_ids, count);
     std::ranges::sort(ranked_);
     ranked_.resize(std::min(count, ranked_.size()));
     return ranked_;
+}
+
+bool Query::targets_are_few(uint64_t targets, uint64_t count, uint64_t pairs) const {
+    return pairs_are_faster(pairs * targets, 1) &&
+           targets * targets * pairs * SWEPT_VERTICES_PER_PAIR < count * index_.numbering().vertex_count();
 }
 
 void Query::rank_by_pairs(uint32_t source_id, std::span<const uint32_t> target_ids) {
