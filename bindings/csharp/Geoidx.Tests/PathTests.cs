@@ -58,6 +58,38 @@ namespace Geoidx.Tests
         }
 
         [Fact]
+        public void PointsAskForWhatIsNear()
+        {
+            using GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(Side));
+            using var surface = new GeodesicSurface(Shapes.Plane(Side));
+            using GeodesicQuery query = index.CreateQuery();
+            SurfacePoint[] sources = { surface.ClosestPoint(1.2, 1.3, 0), surface.ClosestPoint(8.6, 8.7, 0) };
+            var nearest = new int[Side * Side];
+            var distances = new float[Side * Side];
+            query.NearestSources(surface, sources, default, nearest, distances);
+            Assert.Equal(0, nearest[0]);
+            Assert.Equal(1, nearest[Side * Side - 1]);
+            query.NearestSources(surface, sources, new[] { 100f, 0f }, nearest);
+            Assert.All(nearest, source => Assert.Equal(1, source));
+            Assert.Throws<GeodesicArgumentException>(
+                () => query.NearestSources(surface, sources, new float[1], nearest));
+
+            var vertices = new int[4];
+            var near = new float[4];
+            Assert.Equal(4, query.Within(surface, new[] { sources[0] }, default, 1.1f, vertices, near));
+            Assert.Equal(Side + 1, vertices[0]);
+            Assert.InRange(near[0], 0.359f, 0.362f); // sqrt(0.2^2 + 0.3^2)
+            Assert.Equal(0, query.Within(surface, sources, new[] { 2f, 2f }, 1.1f, vertices));
+
+            SurfacePoint[] targets = { sources[1], surface.ClosestPoint(1.7, 1.6, 0), sources[0] };
+            var positions = new int[2];
+            Assert.Equal(2, query.NearestTargets(surface, sources[0], targets, positions, near.AsSpan(0, 2)));
+            Assert.Equal(new[] { 2, 1 }, positions);
+            Assert.Equal(0, near[0]);
+            Assert.InRange(near[1], 0.58f, 0.59f);
+        }
+
+        [Fact]
         public void WhatIsWrongIsRefused()
         {
             using GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(Side));

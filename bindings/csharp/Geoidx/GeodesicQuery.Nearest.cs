@@ -6,7 +6,7 @@ namespace Geoidx
     /// <content>Which sources, vertices or targets are nearest.</content>
     public sealed partial class GeodesicQuery
     {
-        /// <summary>What <see cref="NearestSources"/> writes for a vertex that no source reaches.</summary>
+        /// <summary>What <c>NearestSources</c> writes for a vertex that no source reaches.</summary>
         public const int NoSource = -1;
 
         /// <summary>The nearest source to every vertex.</summary>

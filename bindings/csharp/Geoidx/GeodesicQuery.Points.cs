@@ -35,9 +35,7 @@ namespace Geoidx
             GeodesicSurface surface, ReadOnlySpan<SurfacePoint> sources, ReadOnlySpan<float> offsets,
             Span<float> distances)
         {
-            if (!offsets.IsEmpty && offsets.Length != sources.Length)
-                throw new GeodesicArgumentException(
-                    $"offsets.Length is {offsets.Length}, but there are {sources.Length} sources");
+            CheckOffsets(offsets, sources.Length);
             using SingleUse.Scope scope = use.Begin();
             fixed (SurfacePoint* first = &MemoryMarshal.GetReference(sources))
             fixed (float* begin = &MemoryMarshal.GetReference(offsets))

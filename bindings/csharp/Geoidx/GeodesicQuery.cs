@@ -149,7 +149,7 @@ namespace Geoidx
 
         /// <summary>
         /// From then on <see cref="FromSources"/>, <see cref="FromSourcesWithin"/>, <see cref="FromPoints"/>,
-        /// <see cref="NearestSources"/> and <see cref="FarthestPoints"/> use so many threads, which begin and end
+        /// <c>NearestSources</c> and <see cref="FarthestPoints"/> use so many threads, which begin and end
         /// within each call, for the same answers.
         /// </summary>
         /// <param name="threads">1 at first; 0 means one per processor; at most 1024.</param>

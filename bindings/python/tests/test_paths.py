@@ -46,6 +46,27 @@ class Paths(unittest.TestCase):
         field = self.query.point_msad(self.surface, point, offsets=[3])
         np.testing.assert_allclose(field - 3, self.index.msad(vertex), atol=1e-3 * field.max())
 
+    def test_points_ask_for_what_is_near(self):
+        sources = np.concatenate([self.surface.closest_point(p)[0] for p in (self.a, self.b)])
+        field = np.empty(len(self.mesh[0]), np.float32)
+        nearest = self.query.point_nearest(self.surface, sources, out=field)
+        fields = [self.query.point_msad(self.surface, source) for source in (sources[:1], sources[1:])]
+        np.testing.assert_array_equal(field, self.query.point_msad(self.surface, sources))
+        np.testing.assert_allclose(np.choose(nearest, fields), np.min(fields, axis=0), rtol=0.02)
+        late = self.query.point_nearest(self.surface, sources, offsets=[1e3, 0])
+        self.assertEqual(set(late), {1})
+        radius = float(np.median(fields[0]))
+        vertices, distances = self.query.point_within(self.surface, sources[:1], radius)
+        self.assertEqual(set(vertices), set(np.flatnonzero(fields[0] <= radius)))
+        np.testing.assert_array_equal(distances, np.sort(fields[0][vertices]))
+        targets = np.concatenate([sources[1:], sources[:1]])
+        positions, distances = self.query.point_nearest_targets(self.surface, sources[:1], targets, 5)
+        np.testing.assert_array_equal(positions, [1, 0])
+        self.assertEqual(distances[0], 0)
+        self.assertAlmostEqual(distances[1] / math.dist(self.a, self.b), 1, places=1)
+        with self.assertRaises(geoidx.InvalidArgumentError):
+            self.query.point_within(self.surface, sources, 1, offsets=[0])
+
     def test_between_components_there_is_no_path(self):
         faces = [[0, 1, 2], [3, 4, 5]]
         vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 0, 0], [6, 0, 0], [5, 1, 0]]

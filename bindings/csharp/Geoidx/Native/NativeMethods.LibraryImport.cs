@@ -189,6 +189,21 @@ namespace Geoidx
             float* offsets, float* distances, uint distance_count);
 
         [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_point_nearest_sources(
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* sources, uint source_count,
+            float* offsets, int* nearest, float* distances, uint vertex_count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_point_within(
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* sources, uint source_count,
+            float* offsets, float radius, int* vertices, float* distances, uint capacity, out uint count);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_query_point_nearest_targets(
+            QueryHandle query, SurfaceHandle surface, SurfacePoint* source, SurfacePoint* targets,
+            uint target_count, int* positions, float* distances, uint capacity, out uint count);
+
+        [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_query_path(
             QueryHandle query, SurfaceHandle surface, SurfacePoint* source, SurfacePoint* target,
             PathQuality quality, out double length);

@@ -252,6 +252,18 @@ FUNCTIONS = {
         c_int32,
         [c_void_p, c_void_p, c_void_p, c_uint32, c_void_p, c_void_p, c_uint32],
     ),
+    "geoidx_query_point_nearest_sources": (
+        c_int32,
+        [c_void_p, c_void_p, c_void_p, c_uint32, c_void_p, c_void_p, c_void_p, c_uint32],
+    ),
+    "geoidx_query_point_within": (
+        c_int32,
+        [c_void_p, c_void_p, c_void_p, c_uint32, c_void_p, c_float, c_void_p, c_void_p, c_uint32, c_void_p],
+    ),
+    "geoidx_query_point_nearest_targets": (
+        c_int32,
+        [c_void_p, c_void_p, c_void_p, c_void_p, c_uint32, c_void_p, c_void_p, c_uint32, c_void_p],
+    ),
     "geoidx_query_path": (
         c_int32,
         [c_void_p, c_void_p, c_void_p, c_void_p, c_uint32, c_void_p],

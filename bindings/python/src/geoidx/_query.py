@@ -15,7 +15,6 @@ from ._arrays import (
     Vertex,
     Vertices,
     address,
-    as_array,
     id_list,
     ids,
     output,
@@ -23,11 +22,12 @@ from ._arrays import (
     vertex,
     whole_number,
 )
-from ._errors import InvalidArgumentError, Status, check
+from ._errors import Status, check
 from ._fields import Distances
-from ._handle import Closable, Handle, OneThread
+from ._handle import Handle, OneThread
 from ._matrix import matrix
 from ._native import PathPoint, library
+from ._near_points import NearPoints, offset_list
 from ._surface import Path, Step, Surface, SurfacePoints, one_point, point_list
 
 PATH_QUALITIES = ("straight", "exact")
@@ -36,7 +36,7 @@ _LIKELY_COUNT = 1024
 """For so many vertices `within` has room at first. Where there are more, it asks again."""
 
 
-class Query(Closable):
+class Query(NearPoints):
     """One thread's scratch for queries on one index: they do not lock and, after the first ones, do not allocate.
 
     Made by `Index.query`. A call while another thread's is under way is a RuntimeError. Keeps what it needs of the
@@ -59,9 +59,9 @@ class Query(Closable):
 
     @property
     def threads(self) -> int:
-        """How many threads `msad`, `point_msad`, `nearest` and `farthest_points` use, 1 .. 1024; 0: one per processor.
+        """How many threads `msad`, `nearest`, `point_msad`, `point_nearest` and `farthest_points` use, 1 .. 1024.
 
-        1 at first. By the graph engine one.
+        0: one per processor. 1 at first. By the graph engine one.
         """
         self._handle
         return self._threads
@@ -241,11 +241,7 @@ class Query(Closable):
         offsets: (k,), not negative: distances that sources begin with; 0, unless given.
         """
         points = point_list(sources, "sources")
-        begin = None
-        if offsets is not None:
-            begin = np.ascontiguousarray(np.atleast_1d(as_array(offsets, "offsets")), np.float32)
-            if begin.shape != points.shape:
-                raise InvalidArgumentError(f"offsets has the shape {begin.shape}, not {points.shape}")
+        begin = offset_list(offsets, points.size)
         distances = output(out, (self._vertex_count,), np.float32)
         with self._one_thread:
             check(
