@@ -49,10 +49,11 @@ std::vector<double> times_of(const geoidx& index, const std::string& path,
                              std::span<const VertexPair> pairs) {
     const tools::Query query = tools::make_query(index, path);
     std::vector<double> times;
-    for (const auto& [a, b] : pairs) {
+    for (const VertexPair& pair : pairs) {
         float distance = 0;
-        const Duration taken =
-            time_of([&] { tools::require_ok(geoidx_query_sssd(query.get(), a, b, &distance), path); });
+        const Duration taken = time_of([&] {
+            tools::require_ok(geoidx_query_sssd(query.get(), pair.first, pair.second, &distance), path);
+        });
         times.push_back(1e6 * taken.wall);
     }
     return times;

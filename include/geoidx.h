@@ -728,7 +728,7 @@ enum {
      * is never below the distance and mostly equal to it. */
     GEOIDX_PATH_STRAIGHT = 0,
     /* A shortest path: distances are computed by the metric itself in a corridor, the vertices over which the
-     * index allows a way about as short. */
+     * index allows a way as short, by the largest errors that are stated for it. */
     GEOIDX_PATH_EXACT = 1
 };
 

@@ -38,12 +38,9 @@ private:
 // Relative errors by the exact distance.
 class ErrorsByDistance {
 public:
-    static constexpr double NEAR_EDGES = 10, MIDDLE_EDGES = 100;
+    explicit ErrorsByDistance(double average_edge) : average_edge_(average_edge) {}
 
-    explicit ErrorsByDistance(double average_edge)
-        : near_limit_(NEAR_EDGES * average_edge), middle_limit_(MIDDLE_EDGES * average_edge) {}
-
-    ErrorSum& of(double exact) { return sums_[exact <= near_limit_ ? 0 : exact <= middle_limit_ ? 1 : 2]; }
+    ErrorSum& of(double exact) { return sums_[distance_class(exact / average_edge_)]; }
     void add(const ErrorsByDistance& other) {
         for (size_t i = 0; i < sums_.size(); ++i) sums_[i].add(other.sums_[i]);
     }
@@ -54,7 +51,7 @@ public:
     }
 
 private:
-    double near_limit_, middle_limit_;
+    double average_edge_;
     std::array<ErrorSum, DISTANCE_CLASSES> sums_;
 };
 

@@ -11,9 +11,13 @@ struct MeanAndMax {
     bool operator==(const MeanAndMax&) const = default;
 };
 
-// How many classes of distances errors are stated for: near, up to 10 average edges of the mesh; middle, up
-// to 100; far, beyond.
+// How many classes of distances errors are stated for: near, middle and far, up to so many average edges of
+// the mesh and beyond.
 inline constexpr size_t DISTANCE_CLASSES = 3;
+inline constexpr double NEAR_EDGES = 10, MIDDLE_EDGES = 100;
+
+// The class of a distance in average edges.
+inline size_t distance_class(double edges) { return edges <= NEAR_EDGES ? 0 : edges <= MIDDLE_EDGES ? 1 : 2; }
 
 // The relative error of MSAD compared with the metric, over all targets of some random sources. Maxima are of
 // pairs of vertices, too, and of other sources, where errors are large.

@@ -17,9 +17,4 @@ struct Corridor {
 Corridor corridor_around(const Surface& surface, const Strip& strip,
                          const std::function<bool(uint32_t, double)>& belongs);
 
-// Makes the path of a strip as short as any in the corridor, by distances of window propagation, and straight
-// on the whole surface. Returns at once if it is that short.
-void make_shortest_in_corridor(const Surface& surface, const Corridor& corridor, Strip& strip,
-                               StripPath& path);
-
 }

@@ -6,7 +6,7 @@
 
 #include "format/error.h"
 #include "geoidx.h"
-#include "src/path/corridor.h"
+#include "src/path/corridor_path.h"
 #include "src/path/nearby.h"
 #include "src/path/search.h"
 #include "src/path/sides.h"
@@ -82,6 +82,7 @@ private:
         return {[this, end](uint32_t vertex) { return distance(end, vertex); }, {}};
     }
     std::optional<StraightPath> led_by(size_t end);
+    double least_distance(double distance) const;
     bool belongs(uint32_t vertex, double slack, double length);
 
     const Index& index_;
@@ -91,12 +92,16 @@ private:
     const SurfacePoint source_, target_;
 };
 
-// Vertices over which the index knows a way that is no longer than the path but for the errors that were
-// measured of it, and for the width of a face.
-bool PathFinder::belongs(uint32_t vertex, double slack, double length) {
+// The least that a distance can be of which the index says this, by the largest errors that it states.
+double PathFinder::least_distance(double distance) const {
     constexpr double LEAST_ERROR = 1e-3;
-    const double error = std::max(LEAST_ERROR, index_.description.error.p999);
-    return distance(0, vertex) + distance(1, vertex) <= (1 + error) * length + slack;
+    const size_t of_class = distance_class(distance / surface_.average_edge);
+    return distance / (1 + std::max(LEAST_ERROR, index_.description.error.by_distance[of_class].max));
+}
+
+// Vertices over which there may be a way that is no longer than the path, but for the width of a face.
+bool PathFinder::belongs(uint32_t vertex, double slack, double length) {
+    return least_distance(distance(0, vertex)) + least_distance(distance(1, vertex)) <= length + slack;
 }
 
 // Led by the distances from one end, from the other one on.

@@ -4,6 +4,19 @@
 
 namespace geodesic {
 
+namespace {
+
+// Edges count once for each face there.
+double average_edge_of(const Surface& surface) {
+    double sum = 0;
+    for (const auto& corners : surface.faces)
+        for (size_t k = 0; k < 3; ++k)
+            sum += (surface.positions[corners[k]] - surface.positions[corners[(k + 1) % 3]]).norm();
+    return sum / static_cast<double>(3 * surface.faces.size());
+}
+
+}
+
 Surface::Surface(Intake&& intake)
     : positions(std::move(intake.mesh.positions)), faces(std::move(intake.mesh.faces)),
       vertex_faces(std::move(intake.mesh.vertex_faces)), vertex_of_id(std::move(intake.vertex_of_id)),
@@ -16,6 +29,7 @@ Surface::Surface(Intake&& intake)
     positions.shrink_to_fit();
     faces.shrink_to_fit();
     face_of_triangle.shrink_to_fit();
+    average_edge = average_edge_of(*this);
 }
 
 Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point) {

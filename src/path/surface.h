@@ -27,7 +27,7 @@ struct Surface {
     std::vector<uint32_t> triangle_of_face; // the first of the caller's, with the same order of corners
     std::unordered_map<uint32_t, std::array<uint32_t, 3>> corners_of_duplicate; // as in Intake
     uint64_t fingerprint = 0;
-    double bounding_box_diagonal = 0;
+    double bounding_box_diagonal = 0, average_edge = 0;
 
     uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size()); }
     uint32_t face_count() const { return static_cast<uint32_t>(faces.size()); }
