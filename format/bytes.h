@@ -59,11 +59,8 @@ public:
         }
     }
     // All lowest bytes first, then all second ones, and so on: what packs well where neighbours are alike.
-    void u32_planes(std::span<const std::uint32_t> values) {
-        std::byte* to = grow(values.size_bytes());
-        for (unsigned byte = 0; byte < 4; ++byte)
-            for (const std::uint32_t value : values) *to++ = static_cast<std::byte>(value >> (8 * byte));
-    }
+    void u32_planes(std::span<const std::uint32_t> values) { planes(values); }
+    void u64_planes(std::span<const std::uint64_t> values) { planes(values); }
 
     std::size_t size() const { return bytes_.size(); }
     // Hands the bytes over and leaves the writer empty.
@@ -74,6 +71,12 @@ private:
         const std::size_t old_size = bytes_.size();
         bytes_.resize(old_size + count);
         return bytes_.data() + old_size;
+    }
+    template <std::unsigned_integral T>
+    void planes(std::span<const T> values) {
+        std::byte* to = grow(values.size_bytes());
+        for (unsigned byte = 0; byte < sizeof(T); ++byte)
+            for (const T value : values) *to++ = static_cast<std::byte>(value >> (8 * byte));
     }
     template <std::unsigned_integral T>
     void append(T value) {
@@ -120,13 +123,8 @@ public:
             values[i] = std::bit_cast<float>(load_little_endian<std::uint32_t>(from.data() + 4 * i));
         }
     }
-    void u32_planes(std::span<std::uint32_t> values) {
-        const std::byte* from = bytes(values.size_bytes()).data();
-        std::ranges::fill(values, 0u);
-        for (unsigned byte = 0; byte < 4; ++byte)
-            for (std::uint32_t& value : values)
-                value |= std::to_integer<std::uint32_t>(*from++) << (8 * byte);
-    }
+    void u32_planes(std::span<std::uint32_t> values) { planes(values); }
+    void u64_planes(std::span<std::uint64_t> values) { planes(values); }
 
     // A u64 count of elements that follow, each at least `element_size` bytes long. Throws when it is over
     // `max` or when the remaining bytes cannot hold as many, so that memory may be allocated for the result.
@@ -151,6 +149,13 @@ public:
     }
 
 private:
+    template <std::unsigned_integral T>
+    void planes(std::span<T> values) {
+        const std::byte* from = bytes(values.size_bytes()).data();
+        std::ranges::fill(values, T{0});
+        for (unsigned byte = 0; byte < sizeof(T); ++byte)
+            for (T& value : values) value |= std::to_integer<T>(*from++) << (8 * byte);
+    }
     template <std::unsigned_integral T>
     T next() {
         return load_little_endian<T>(bytes(sizeof(T)).data());

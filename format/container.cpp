@@ -63,6 +63,13 @@ std::string tag_text(std::uint32_t tag) {
     return text + "'";
 }
 
+std::vector<std::byte> unpack_bytes(const StoredBytes& stored, std::uint32_t tag) {
+    if (stored.codec == Codec::Raw) return {stored.bytes.begin(), stored.bytes.end()};
+    if (stored.codec != Codec::Zstd) fail_corrupt(tag, "it holds matrices, expected bytes");
+    return decode_section(
+        tag, [&] { return decompress_zstd(stored.bytes, stored.raw_size, "section " + tag_text(tag)); });
+}
+
 Container Container::parse(std::span<const std::byte> file, std::span<const std::uint32_t> known_tags) {
     Layout layout = examine(file, known_tags, [](const Issue& issue) {
         throw Error(issue.status, issue.message + " (byte " + std::to_string(issue.offset) + ")");
@@ -105,19 +112,21 @@ std::vector<std::byte> Container::read_bytes(std::uint32_t tag, std::uint64_t ma
         fail_corrupt(tag, std::to_string(found.raw_size) + " raw bytes, the limit here is " +
                               std::to_string(max_raw_size));
     }
-    const auto stored = stored_bytes(found);
-    if (found.codec == Codec::Raw) return {stored.begin(), stored.end()};
-    if (found.codec == Codec::Zstd)
-        return decode_section(
-            tag, [&] { return decompress_zstd(stored, found.raw_size, "section " + tag_text(tag)); });
     if (found.codec == Codec::ByteImages) return read_images(found, share_out);
-    fail_corrupt(tag, "it holds matrices, expected bytes");
+    return unpack_bytes({found.codec, found.raw_size, stored_bytes(found)}, tag);
 }
 
 std::span<const std::byte> Container::view_bytes(std::uint32_t tag) const {
     const Section& found = section(tag);
     if (found.codec != Codec::Raw) fail_corrupt(tag, "it is not stored raw");
     return stored_bytes(found);
+}
+
+StoredBytes Container::view_stored(std::uint32_t tag) const {
+    const Section& found = section(tag);
+    if (found.codec != Codec::Raw && found.codec != Codec::Zstd)
+        fail_corrupt(tag, "it holds images, expected bytes that are raw or zstd");
+    return {found.codec, found.raw_size, stored_bytes(found)};
 }
 
 std::vector<std::byte> Container::read_images(const Section& section, const ShareOut& share_out) const {

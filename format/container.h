@@ -49,6 +49,27 @@ struct Section {
     std::uint64_t checksum = 0;    // of the stored bytes
 };
 
+// The stored bytes of a section of bytes, which someone else holds.
+struct StoredBytes {
+    Codec codec = Codec::Raw;
+    std::uint64_t raw_size = 0;
+    std::span<const std::byte> bytes;
+};
+
+struct PackedBytes {
+    Codec codec = Codec::Raw;
+    std::uint64_t raw_size = 0;
+    std::vector<std::byte> bytes;
+
+    StoredBytes view() const { return {codec, raw_size, bytes}; }
+};
+
+// As a section that is Zstd stores them, or Raw if they are too small then for a reader to believe.
+PackedBytes pack_bytes(std::span<const std::byte> raw);
+
+// The raw bytes of a section that is Raw or Zstd. Throws GEOIDX_ERROR_CORRUPT about the section `tag`.
+std::vector<std::byte> unpack_bytes(const StoredBytes& stored, std::uint32_t tag);
+
 // A matrix, row by row; values.size() is rows x cols, neither of them 0.
 struct MatrixView {
     std::span<const float> values;
@@ -77,6 +98,8 @@ public:
     void add_bytes(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags = 0);
     // As they are, whatever the packing.
     void add_raw(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags = 0);
+    // As another file holds them, whatever the packing.
+    void add_stored(std::uint32_t tag, const StoredBytes& stored, std::uint32_t flags = 0);
     // As gray images, which pack well what has few different bytes next to each other.
     void add_images(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags = 0);
     void add_matrices(std::uint32_t tag, std::span<const MatrixView> matrices, std::uint32_t flags = 0);
@@ -133,6 +156,8 @@ public:
                                       const ShareOut& share_out = one_after_the_other) const;
     // The bytes of a section as they stand in the file, which must be Raw.
     std::span<const std::byte> view_bytes(std::uint32_t tag) const;
+    // The same of one that is Raw or Zstd, to be unpacked later.
+    StoredBytes view_stored(std::uint32_t tag) const;
     // Fills the matrices, which must be those of the section, all of them, in their order, whatever its
     // codec. Throws GEOIDX_ERROR_CORRUPT otherwise, with unspecified values in the matrices.
     void read_matrices(std::uint32_t tag, std::span<const MatrixTarget> matrices,

@@ -11,17 +11,24 @@
 
 namespace geodesic::format {
 
+PackedBytes pack_bytes(std::span<const std::byte> raw) {
+    auto packed = compress_zstd(raw);
+    if (raw.size() / MAX_PACKING > packed.size()) return {Codec::Raw, raw.size(), {raw.begin(), raw.end()}};
+    return {Codec::Zstd, raw.size(), std::move(packed)};
+}
+
 void ContainerWriter::add_bytes(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags) {
     if (packing_ == Packing::None) return add_raw(tag, raw, flags);
-    auto packed = compress_zstd(raw);
-    if (raw.size() / MAX_PACKING > packed.size())
-        add_raw(tag, raw, flags);
-    else
-        add(tag, Codec::Zstd, flags, std::move(packed), raw.size());
+    PackedBytes packed = pack_bytes(raw);
+    add(tag, packed.codec, flags, std::move(packed.bytes), packed.raw_size);
 }
 
 void ContainerWriter::add_raw(std::uint32_t tag, std::span<const std::byte> raw, std::uint32_t flags) {
     add(tag, Codec::Raw, flags, {raw.begin(), raw.end()}, raw.size());
+}
+
+void ContainerWriter::add_stored(std::uint32_t tag, const StoredBytes& stored, std::uint32_t flags) {
+    add(tag, stored.codec, flags, {stored.bytes.begin(), stored.bytes.end()}, stored.raw_size);
 }
 
 void ContainerWriter::add_matrices(std::uint32_t tag, std::span<const MatrixView> matrices,
