@@ -244,6 +244,11 @@ typedef struct geoidx_build_options {
      * there are *added vertices*: they have no id and are in no answer. Default 0.0005, which is 0.05 %.
      * 0: none. */
     double target_error;
+    /* 1: the index keeps the mesh, bit for bit, so that its file alone is enough for points of the surface
+     * and for paths: see geoidx_surface_of_index. It takes some 20 bytes a vertex of a closed mesh with
+     * positions in single precision, 30 in double. 0 (default): it does not. */
+    uint32_t store_mesh;
+    uint32_t reserved_at_end; /* not read */
 } geoidx_build_options;
 
 GEOIDX_API void geoidx_build_options_init_sized(geoidx_build_options* options, uint32_t struct_size);
@@ -310,8 +315,9 @@ enum { GEOIDX_CODEC_PACKED = 0, GEOIDX_CODEC_LOSSLESS = 1, GEOIDX_CODEC_MAPPED =
 /* Flags of geoidx_save_options. GEOIDX_SAVE_NO_POSITIONS leaves the positions of vertices out of the file,
  * some 3.5 bytes a vertex, for whoever has the mesh at hand whenever the file is opened: it opens only with
  * geoidx_open_options.expected_mesh, whose positions it takes. The answers are the same bits, and the index
- * can be saved with positions again. */
-enum { GEOIDX_SAVE_NO_POSITIONS = 1 };
+ * can be saved with positions again.
+ * GEOIDX_SAVE_NO_MESH leaves out the mesh of an index that keeps it (geoidx_build_options.store_mesh). */
+enum { GEOIDX_SAVE_NO_POSITIONS = 1, GEOIDX_SAVE_NO_MESH = 2 };
 
 typedef struct geoidx_save_options {
     uint32_t struct_size;
@@ -360,7 +366,7 @@ typedef struct geoidx_info {
     double error_mean_at_vertices;
     uint32_t codec;      /* GEOIDX_CODEC_* of the file that it was opened from; of one that was built, what
                             geoidx_save takes by default */
-    uint32_t file_flags; /* GEOIDX_SAVE_* of the file that it was opened from; 0 for one that was built */
+    uint32_t file_flags; /* GEOIDX_SAVE_NO_POSITIONS if the file that it was opened from has none, or 0 */
     /* GEOIDX_ENGINE_OVERLAY: what the distances of a table are multiples of, for the table with the smallest
      * and with the largest steps; half of it is the most that rounding changes an entry by. 0 for
      * GEOIDX_ENGINE_GRAPH, whose distances are floats. */
@@ -387,6 +393,8 @@ typedef struct geoidx_info {
      * random sources. 0 where they reach nothing else. */
     double error_several_mean;
     double error_several_max;
+    uint32_t has_mesh; /* 1 if the index keeps the mesh, see geoidx_surface_of_index */
+    uint32_t reserved; /* 0 */
 } geoidx_info;
 
 /* A section of the file that an index was opened from; format/SPEC.md says what is in it. */
@@ -423,7 +431,8 @@ GEOIDX_API geoidx_status geoidx_save_memory(const geoidx* index, const geoidx_sa
 
 /* Opens an index. Everything in the file is checked before it is believed, but for whether the tables of a
  * mapped file agree with each other, which only geoidx_verify looks at: where they do not, distances are
- * wrong, and nothing worse. The index, its queries and the
+ * wrong, and nothing worse. A mesh that the file keeps stays packed: what it holds is checked by
+ * geoidx_surface_of_index and by geoidx_verify. The index, its queries and the
  * temporary memory of opening take at most 256 times the raw size of the file's sections, table entries
  * counted as 4 bytes, and 32 MiB; what would take more is GEOIDX_ERROR_LIMIT before memory is taken. A small
  * file can hold raw sections 1032 times its size. `options` may be NULL. */
@@ -485,6 +494,7 @@ enum {
     GEOIDX_ISSUE_SEGM = 110,
     GEOIDX_ISSUE_OVOV = 111,
     GEOIDX_ISSUE_HOPS = 112,
+    GEOIDX_ISSUE_MESH = 113,
 
     /* No single section is at fault: the index as a whole is over a limit, takes memory out of proportion to
      * its file, or cannot be read on this machine. */
@@ -508,10 +518,10 @@ typedef int32_t (*geoidx_issue_fn)(void* user, const geoidx_issue* issue);
 
 /* Checks an index in memory as geoidx_open_memory does, and accepts what that accepts, but goes on after a
  * problem where it can: all problems of the container are told, and if there are none, the first one of what
- * the sections hold. Of a file without positions it needs no mesh, and checks all that does not depend on
- * them: not whether they belong to the mesh, and of the tables of GEOIDX_CODEC_PACKED their sizes, but not
- * every entry, so that geoidx_open may still refuse one. Returns GEOIDX_OK when there is none, otherwise the
- * first problem's status. `issue` may be NULL. */
+ * the sections hold, the mesh included, which opening does not unpack. Of a file without positions it needs
+ * no mesh, and checks all that does not depend on them: not whether they belong to the mesh, and of the
+ * tables of GEOIDX_CODEC_PACKED their sizes, but not every entry, so that geoidx_open may still refuse one.
+ * Returns GEOIDX_OK when there is none, otherwise the first problem's status. `issue` may be NULL. */
 GEOIDX_API geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user);
 
 /* ---- Points of the surface
@@ -544,6 +554,20 @@ static inline void geoidx_surface_options_init(geoidx_surface_options* options) 
 GEOIDX_API geoidx_status geoidx_surface_create(const geoidx_mesh* mesh, const geoidx_surface_options* options,
                                                geoidx_surface** out);
 GEOIDX_API void geoidx_surface_close(geoidx_surface* surface);
+
+/* The same of the mesh that an index keeps (geoidx_build_options.store_mesh, geoidx_info.has_mesh), with the
+ * vertices welded as they were when the index was built: it is the surface that geoidx_surface_create makes
+ * of the caller's mesh, with the same ids, triangles and bits of every answer, and it outlives the index. An
+ * index that keeps no mesh is GEOIDX_ERROR_INVALID_ARGUMENT. GEOIDX_ERROR_CORRUPT if the mesh in the file is
+ * not the one that the index was built from. It takes as long as geoidx_surface_create, and as much memory
+ * from the global heap, which max_memory of geoidx_open_options does not count. */
+GEOIDX_API geoidx_status geoidx_surface_of_index(const geoidx* index, geoidx_surface** out);
+
+/* A vertex as a point of the surface: a corner of the first of the caller's triangles that are not degenerate
+ * and have it, or one that it is welded to. GEOIDX_ERROR_INVALID_ARGUMENT for an id out of range, and for a
+ * vertex that no such triangle has. */
+GEOIDX_API geoidx_status geoidx_vertex_point(const geoidx_surface* surface, uint32_t vertex,
+                                             geoidx_surface_point* point);
 
 /* The point of the surface that is nearest to a position in space, three finite numbers; of several that are
  * as near, one of them. Its triangle is one of the caller's that is not degenerate, of duplicate ones the

@@ -8,6 +8,7 @@
 #include "src/build/metric_options.h"
 #include "src/build/rounds.h"
 #include "src/build/stated_errors.h"
+#include "src/file/kept_mesh.h"
 #include "src/index/stored.h"
 #include "src/partition/hierarchy.h"
 
@@ -33,6 +34,8 @@ void check_options(const geoidx_build_options& options) {
                         ", more than 1000");
     if (options.engine > GEOIDX_ENGINE_OVERLAY)
         refuse_argument("engine " + std::to_string(options.engine) + " is not a GEOIDX_ENGINE_*");
+    if (options.store_mesh > 1)
+        refuse_argument("store_mesh is " + std::to_string(options.store_mesh) + ", not 0 or 1");
     if (options.metric_flags & ~uint32_t{GEOIDX_METRIC_UNFOLDABLE})
         refuse_argument("metric_flags is " + std::to_string(options.metric_flags) +
                         ", which has unknown flags");
@@ -102,6 +105,7 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
     stating.begin_stage("accuracy", 1);
     state_errors(intake, filling.solved_fields(), stating, index);
+    if (options.store_mesh) keep_mesh(pack_mesh(mesh).view(), index);
 }
 
 }

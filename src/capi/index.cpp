@@ -116,17 +116,20 @@ private:
     OwnedIndex index_;
 };
 
-void apply(const geoidx_save_options& options, Description& about) {
+void apply(const geoidx_save_options& options, StoredIndex& stored) {
+    constexpr uint32_t FLAGS = GEOIDX_SAVE_NO_POSITIONS | GEOIDX_SAVE_NO_MESH;
     require(options.codec <= GEOIDX_CODEC_MAPPED, "codec is not a GEOIDX_CODEC_*");
-    require((options.flags & ~uint32_t{GEOIDX_SAVE_NO_POSITIONS}) == 0, "flags has bits that mean nothing");
+    require((options.flags & ~FLAGS) == 0, "flags has bits that mean nothing");
+    Description& about = stored.description;
     if (about.engine == GEOIDX_ENGINE_OVERLAY) about.codec = options.codec;
-    about.file_flags = options.flags;
+    about.file_flags = options.flags & GEOIDX_SAVE_NO_POSITIONS;
+    if (options.flags & GEOIDX_SAVE_NO_MESH) stored.mesh = {};
 }
 
 // The bytes of a file of the index, as it is asked for.
 std::vector<std::byte> file_of(const geoidx& index, const geoidx_save_options* given) {
     StoredIndex stored = restore(index.index);
-    if (given) apply(whole(*given, geoidx_save_options_init), stored.description);
+    if (given) apply(whole(*given, geoidx_save_options_init), stored);
     // Other forms hold fewer tables, from which the others must follow.
     if (index.index.description.codec == GEOIDX_CODEC_MAPPED &&
         stored.description.codec != GEOIDX_CODEC_MAPPED)

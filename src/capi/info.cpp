@@ -52,6 +52,7 @@ void fill_info(const Index& index, geoidx_info& info) {
     info.error_mean_at_vertices = about.error.mean_at_vertices;
     info.codec = about.codec;
     info.file_flags = about.file_flags;
+    info.has_mesh = index.keeps_mesh() ? 1 : 0;
     info.added_vertex_count = numbering.vertex_count() - index.vertices_with_id;
     const auto& [near_by, middle, far_off] = about.error.by_distance;
     info.error_near_mean = near_by.mean;

@@ -7,6 +7,7 @@
 #include "src/capi/status.h"
 #include "src/capi/structs.h"
 #include "src/file/index_file.h"
+#include "src/file/kept_mesh.h"
 #include "src/index/section_tags.h"
 
 using namespace geodesic;
@@ -26,6 +27,7 @@ constexpr std::pair<uint32_t, uint32_t> NUMBER_OF_TAG[]{
     {TAG_SEGMENTS, GEOIDX_ISSUE_SEGM},
     {TAG_OVERLAY_TABLES, GEOIDX_ISSUE_OVOV},
     {TAG_HOP_CODES, GEOIDX_ISSUE_HOPS},
+    {TAG_MESH, GEOIDX_ISSUE_MESH},
 };
 
 uint32_t number_of(const Error& error) {
@@ -51,6 +53,7 @@ std::vector<format::Issue> issues_of(std::span<const std::byte> file) {
         Index index(std::pmr::get_default_resource());
         prepare(read_index(container, {.threads = thread_count(0), .may_lack_positions = true}), index);
         if (index.description.codec == GEOIDX_CODEC_MAPPED) require_hops_follow(index);
+        if (index.keeps_mesh()) unpack_mesh(index.mesh, index.description, index.number_of_id);
     } catch (const Error& error) {
         issues.push_back(issue_of(error, container));
     }

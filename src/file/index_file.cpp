@@ -38,6 +38,7 @@ std::vector<std::byte> write_index(const StoredIndex& stored) {
                                    is_mapped(stored) ? format::Packing::None : format::Packing::Zstd);
     write_common(stored, writer);
     is_overlay(stored) ? write_overlay(stored, writer) : write_graph(stored, writer);
+    write_mesh(stored, writer);
     return writer.finish();
 }
 
@@ -47,6 +48,7 @@ StoredIndex read_index(const format::Container& container, const ReadOptions& op
     check_tags(container, stored);
     is_overlay(stored) ? read_overlay(container, options, stored)
                        : read_graph(container, options.threads, stored);
+    about_section(TAG_MESH, [&] { read_mesh(container, stored); });
     return stored;
 }
 

@@ -8,6 +8,7 @@
 #include "format/bytes.h"
 #include "format/checksum.h"
 #include "src/base/numbers.h"
+#include "src/file/differences.h"
 #include "src/file/sections.h"
 #include "src/index/positions.h"
 #include "src/mesh/intake.h"
@@ -18,10 +19,6 @@ namespace {
 
 constexpr uint64_t BYTES_BEFORE_COORDINATES = sizeof(float) + 3 * sizeof(double) + sizeof(uint64_t);
 constexpr uint64_t BYTES_EACH = 3 * sizeof(uint32_t); // of each position
-
-// Small differences of either sign are small numbers: 0, -1, 1, -2, 2 are 0, 1, 2, 3, 4.
-uint32_t folded(uint32_t difference) { return difference << 1 ^ (difference >> 31 ? UINT32_MAX : 0); }
-uint32_t unfolded(uint32_t number) { return number >> 1 ^ (number & 1 ? UINT32_MAX : 0); }
 
 uint64_t checksum_of_positions(const StoredIndex& stored) {
     std::vector<uint32_t> coordinates;

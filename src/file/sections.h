@@ -39,6 +39,10 @@ void read_packed_tables(const format::Container& container, const ReadOptions& o
 void write_mapped_tables(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_mapped_tables(const format::Container& container, StoredIndex& stored); // They stay in the file.
 
+// MESH, which either engine may have. It stays packed, and no more of it is looked at than its size.
+void write_mesh(const StoredIndex& stored, format::ContainerWriter& writer);
+void read_mesh(const format::Container& container, StoredIndex& stored);
+
 void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_overlay(const format::Container& container, const ReadOptions& options, StoredIndex& stored);
 

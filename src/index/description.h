@@ -46,7 +46,7 @@ struct Description {
     uint32_t metric_flags = 0;       // GEOIDX_METRIC_UNFOLDABLE or 0
     uint32_t engine = 0;             // GEOIDX_ENGINE_*
     uint32_t codec = 0;              // GEOIDX_CODEC_*: the form of the tables in the file
-    uint32_t file_flags = 0;         // GEOIDX_SAVE_*: what the file leaves out
+    uint32_t file_flags = 0;         // GEOIDX_SAVE_NO_POSITIONS if the file leaves them out
 
     bool operator==(const Description&) const = default;
 };

@@ -23,6 +23,9 @@ inline constexpr uint32_t TAG_SEGMENTS = format::make_tag("SEGM");
 inline constexpr uint32_t TAG_OVERLAY_TABLES = format::make_tag("OVOV");
 inline constexpr uint32_t TAG_HOP_CODES = format::make_tag("HOPS");
 
+// This one is optional.
+inline constexpr uint32_t TAG_MESH = format::make_tag("MESH");
+
 inline constexpr std::array INDEX_TAGS{TAG_META,
                                        TAG_HIERARCHY,
                                        TAG_VERTICES,
@@ -34,6 +37,7 @@ inline constexpr std::array INDEX_TAGS{TAG_META,
                                        TAG_QUANTA,
                                        TAG_SEGMENTS,
                                        TAG_OVERLAY_TABLES,
-                                       TAG_HOP_CODES};
+                                       TAG_HOP_CODES,
+                                       TAG_MESH};
 
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "format/container.h"
 #include "src/index/description.h"
 
 namespace geodesic {
@@ -58,6 +59,10 @@ struct StoredIndex {
     // HOPS: in a mapped file, in place of the three above: the codes of HopTables, which is what queries
     // read. They lie in the file, or in the index that is going to be saved.
     std::span<const uint16_t> hop_codes;
+
+    // MESH, still packed: it lies in the file, or in the index that is going to be saved. No bytes if the
+    // mesh is not kept.
+    format::StoredBytes mesh;
 };
 
 }

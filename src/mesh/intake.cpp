@@ -29,15 +29,6 @@ void check_count(uint64_t count, uint64_t most, const char* what) {
                                             ", more than " + std::to_string(most));
 }
 
-size_t position_stride(const geoidx_mesh& mesh) {
-    const size_t scalar = mesh.position_type == GEOIDX_POSITION_DOUBLE ? sizeof(double) : sizeof(float);
-    if (mesh.position_stride == 0) return 3 * scalar;
-    if (mesh.position_stride < 3 * scalar)
-        refuse_argument("position_stride " + std::to_string(mesh.position_stride) +
-                        " is less than three coordinates");
-    return mesh.position_stride;
-}
-
 void check_arrays(const geoidx_mesh& mesh) {
     if (mesh.position_type != GEOIDX_POSITION_FLOAT && mesh.position_type != GEOIDX_POSITION_DOUBLE)
         refuse_argument("position_type " + std::to_string(mesh.position_type) +
@@ -202,6 +193,35 @@ uint64_t fingerprint(const std::vector<Eigen::Vector3d>& positions,
     return XXH3_64bits_withSeed(triangles.data(), triangles.size() * sizeof triangles[0], first);
 }
 
+// Drops what is degenerate or there twice, and numbers the rest.
+Intake clean_mesh(const std::vector<Eigen::Vector3d>& positions,
+                  const std::vector<std::array<uint32_t, 3>>& triangles,
+                  const std::vector<uint32_t>& representative) {
+    Intake intake;
+    intake.fingerprint = fingerprint(positions, triangles);
+    CleanTriangles clean = clean_triangles(triangles, representative);
+    if (clean.kept.empty()) bad_mesh("every triangle of the mesh is degenerate");
+    number_used_vertices(intake, positions, representative, clean.kept);
+    number_faces(intake, clean);
+    intake.corners_of_duplicate = std::move(clean.corners_of_duplicate);
+    connect(intake.mesh);
+    intake.bounding_box_diagonal = bounding_box_diagonal(intake.mesh);
+    if (!std::isfinite(intake.bounding_box_diagonal) || intake.bounding_box_diagonal > FLT_MAX)
+        bad_mesh("the bounding box is too large: distances would not fit a 32-bit float");
+    if (intake.bounding_box_diagonal < FLT_MIN)
+        bad_mesh("the bounding box is too small: distances would not fit a 32-bit float");
+    return intake;
+}
+
+}
+
+size_t position_stride(const geoidx_mesh& mesh) {
+    const size_t scalar = mesh.position_type == GEOIDX_POSITION_DOUBLE ? sizeof(double) : sizeof(float);
+    if (mesh.position_stride == 0) return 3 * scalar;
+    if (mesh.position_stride < 3 * scalar)
+        refuse_argument("position_stride " + std::to_string(mesh.position_stride) +
+                        " is less than three coordinates");
+    return mesh.position_stride;
 }
 
 std::vector<Eigen::Vector3d> positions_of(const geoidx_mesh& mesh) {
@@ -226,24 +246,14 @@ Intake take_in(const geoidx_mesh& mesh, const IntakeOptions& options) {
         refuse_argument("weld_tolerance must be finite and not negative");
     check_arrays(mesh);
     const auto positions = positions_of(mesh);
-    const auto triangles = read_triangles(mesh);
-
-    Intake intake;
-    intake.fingerprint = fingerprint(positions, triangles);
-    const auto representative = weld(positions, options.weld_tolerance);
-    CleanTriangles clean = clean_triangles(triangles, representative);
-    if (clean.kept.empty()) bad_mesh("every triangle of the mesh is degenerate");
-    number_used_vertices(intake, positions, representative, clean.kept);
-    number_faces(intake, clean);
-    intake.corners_of_duplicate = std::move(clean.corners_of_duplicate);
-    connect(intake.mesh);
+    Intake intake = clean_mesh(positions, read_triangles(mesh), weld(positions, options.weld_tolerance));
     if (options.refuse_edges_of_many) refuse_edges_of_many(intake);
-    intake.bounding_box_diagonal = bounding_box_diagonal(intake.mesh);
-    if (!std::isfinite(intake.bounding_box_diagonal) || intake.bounding_box_diagonal > FLT_MAX)
-        bad_mesh("the bounding box is too large: distances would not fit a 32-bit float");
-    if (intake.bounding_box_diagonal < FLT_MIN)
-        bad_mesh("the bounding box is too small: distances would not fit a 32-bit float");
     return intake;
+}
+
+Intake take_in_welded(const geoidx_mesh& mesh, const std::vector<uint32_t>& representative) {
+    check_arrays(mesh);
+    return clean_mesh(positions_of(mesh), read_triangles(mesh), representative);
 }
 
 }

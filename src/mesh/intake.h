@@ -29,9 +29,16 @@ struct IntakeOptions {
 // Checks the caller's mesh and makes a clean one of it; throws Error naming the first offending element.
 Intake take_in(const geoidx_mesh& mesh, const IntakeOptions& options);
 
+// The same where it is known which vertices are one: representative[id] is the lowest id of those that `id`
+// is one with, and for the ids that no triangle uses, one of them.
+Intake take_in_welded(const geoidx_mesh& mesh, const std::vector<uint32_t>& representative);
+
 // Tells one mesh from another by its numbers: positions, rounded to float, and triangles in the caller's
 // order. Throws Error where the arrays cannot be read.
 uint64_t mesh_fingerprint(const geoidx_mesh& mesh);
+
+// Bytes from one position to the next.
+size_t position_stride(const geoidx_mesh& mesh);
 
 // Per caller's id. Throws Error BAD_MESH for a position that is not finite or too large for a float.
 std::vector<Eigen::Vector3d> positions_of(const geoidx_mesh& mesh);

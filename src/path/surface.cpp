@@ -38,6 +38,15 @@ Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point) {
            point.weights[2] * surface.positions[c];
 }
 
+SurfacePoint point_at_vertex(const Surface& surface, uint32_t vertex) {
+    const auto around = surface.vertex_faces[vertex];
+    const uint32_t first =
+        *std::ranges::min_element(around, {}, [&](uint32_t face) { return surface.triangle_of_face[face]; });
+    SurfacePoint point{first, {}};
+    point.weights[corner_of(surface, first, vertex)] = 1;
+    return point;
+}
+
 uint32_t corner_of(const Surface& surface, uint32_t face, uint32_t vertex) {
     for (uint32_t k = 0; k < 3; ++k)
         if (surface.faces[face][k] == vertex) return k;

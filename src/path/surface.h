@@ -38,6 +38,9 @@ Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point);
 // The corner of a face that a vertex is, or NONE.
 uint32_t corner_of(const Surface& surface, uint32_t face, uint32_t vertex);
 
+// The corner of the face around a vertex that is the first one of the caller's.
+SurfacePoint point_at_vertex(const Surface& surface, uint32_t vertex);
+
 // Calls use(face) for every other face at the edge between two vertices of a face.
 template <class Use>
 void for_each_face_beyond(const Surface& surface, uint32_t face, uint32_t a, uint32_t b, const Use& use) {

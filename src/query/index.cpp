@@ -28,10 +28,19 @@ void prepare(const StoredIndex& stored, Index& index) {
     index.description = stored.description;
     index.number_of_id.assign(stored.number_of_id.begin(), stored.number_of_id.end());
     index.vertices_with_id = count_vertices_with_id(stored);
+    if (stored.description.codec == GEOIDX_CODEC_MAPPED)
+        index.mesh = stored.mesh;
+    else
+        keep_mesh(stored.mesh, index);
     if (stored.description.engine == GEOIDX_ENGINE_OVERLAY)
         prepare_overlay(stored, index.engine.emplace<OverlayIndex>(index.memory));
     else
         prepare_graph(stored, index.engine.emplace<GraphIndex>(index.memory));
+}
+
+void keep_mesh(const format::StoredBytes& mesh, Index& index) {
+    index.mesh_bytes.assign(mesh.bytes.begin(), mesh.bytes.end());
+    index.mesh = {mesh.codec, mesh.raw_size, index.mesh_bytes};
 }
 
 void prepare_pairs(const Index& index) {
@@ -53,6 +62,7 @@ StoredIndex restore(const Index& index) {
     StoredIndex stored;
     stored.description = index.description;
     stored.number_of_id.assign(index.number_of_id.begin(), index.number_of_id.end());
+    stored.mesh = index.mesh;
     if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine))
         restore_overlay(*overlay, stored);
     else

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <memory_resource>
 #include <variant>
 
+#include "format/container.h"
 #include "src/graph/tables.h"
 #include "src/index/description.h"
 #include "src/overlay/tables.h"
@@ -14,14 +16,20 @@ struct StoredIndex;
 // What queries answer from, by the engine that the index was built for.
 struct Index {
     explicit Index(std::pmr::memory_resource* memory)
-        : memory(memory), number_of_id(memory), engine(std::in_place_type<GraphIndex>, memory) {}
+        : memory(memory), number_of_id(memory), mesh_bytes(memory),
+          engine(std::in_place_type<GraphIndex>, memory) {}
 
     std::pmr::memory_resource* memory;
     Description description;
     Array<uint32_t> number_of_id;  // per caller's id; NONE: no triangle uses it
     uint32_t vertices_with_id = 0; // of those that have a number; the others are added vertices
+    // The mesh as the section MESH holds it, packed; no bytes if it is not kept. It lies in mesh_bytes, or in
+    // a mapped file.
+    format::StoredBytes mesh;
+    Array<std::byte> mesh_bytes;
     std::variant<GraphIndex, OverlayIndex> engine;
 
+    bool keeps_mesh() const { return !mesh.bytes.empty(); }
     const Numbering& numbering() const {
         return std::visit([](const auto& of_engine) -> const Numbering& { return of_engine.numbering; },
                           engine);
@@ -29,8 +37,11 @@ struct Index {
 };
 
 // Fills an empty index from what is stored. Throws Error where what is stored cannot be an index. Hop codes
-// of a mapped file stay where they are.
+// and the mesh of a mapped file stay where they are.
 void prepare(const StoredIndex& stored, Index& index);
+
+// Copies a packed mesh into the index's memory.
+void keep_mesh(const format::StoredBytes& mesh, Index& index);
 
 // Makes what only pairs need, if it has not been made: samples and labels of the overlay engine. Any thread
 // may call it at any time. Without it, the first pair that is asked for makes the samples, and each pair the

@@ -60,6 +60,7 @@ NUMBER(GEOIDX_ISSUE_QUAN, 109);
 NUMBER(GEOIDX_ISSUE_SEGM, 110);
 NUMBER(GEOIDX_ISSUE_OVOV, 111);
 NUMBER(GEOIDX_ISSUE_HOPS, 112);
+NUMBER(GEOIDX_ISSUE_MESH, 113);
 NUMBER(GEOIDX_ISSUE_WHOLE_INDEX, 200);
 NUMBER(GEOIDX_POSITION_FLOAT, 0);
 NUMBER(GEOIDX_POSITION_DOUBLE, 1);
@@ -77,6 +78,7 @@ NUMBER(GEOIDX_OPEN_PAIRS, 1);
 NUMBER(GEOIDX_OPEN_BORROW, 2);
 NUMBER(GEOIDX_OPEN_NO_LABELS, 4);
 NUMBER(GEOIDX_SAVE_NO_POSITIONS, 1);
+NUMBER(GEOIDX_SAVE_NO_MESH, 2);
 NUMBER(GEOIDX_MAX_LEVELS, 8);
 
 FIELD(geoidx_allocator, allocate, 0);
@@ -123,7 +125,9 @@ FIELD(geoidx_build_options, exact_vertices, 200);
 FIELD(geoidx_build_options, reserved, 204);
 FIELD(geoidx_build_options, rounding, 208);
 FIELD(geoidx_build_options, target_error, 216);
-SIZE(geoidx_build_options, 224);
+FIELD(geoidx_build_options, store_mesh, 224);
+FIELD(geoidx_build_options, reserved_at_end, 228);
+SIZE(geoidx_build_options, 232);
 
 FIELD(geoidx_open_options, struct_size, 0);
 FIELD(geoidx_open_options, flags, 4);
@@ -173,7 +177,9 @@ FIELD(geoidx_info, error_far_mean, 256);
 FIELD(geoidx_info, error_far_max, 264);
 FIELD(geoidx_info, error_several_mean, 272);
 FIELD(geoidx_info, error_several_max, 280);
-SIZE(geoidx_info, 288);
+FIELD(geoidx_info, has_mesh, 288);
+FIELD(geoidx_info, reserved, 292);
+SIZE(geoidx_info, 296);
 
 FIELD(geoidx_save_options, struct_size, 0);
 FIELD(geoidx_save_options, codec, 4);

@@ -76,6 +76,13 @@ static void (*const solver_close)(geoidx_solver*) = geoidx_solver_close;
 static geoidx_status (*const solver_distances)(geoidx_solver*, const uint32_t*, uint32_t, const uint32_t*,
                                                uint32_t, double*) = geoidx_solver_distances;
 
+static geoidx_status (*const surface_create)(const geoidx_mesh*, const geoidx_surface_options*,
+                                             geoidx_surface**) = geoidx_surface_create;
+static geoidx_status (*const surface_of_index)(const geoidx*, geoidx_surface**) = geoidx_surface_of_index;
+static void (*const surface_close)(geoidx_surface*) = geoidx_surface_close;
+static geoidx_status (*const vertex_point)(const geoidx_surface*, uint32_t,
+                                           geoidx_surface_point*) = geoidx_vertex_point;
+
 enum { SIDE = 6, COUNT = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1) };
 
 static float positions[COUNT][3];
@@ -185,6 +192,19 @@ static int check_file(const geoidx* index) {
     return failed;
 }
 
+static int check_surfaces(const geoidx* index, const geoidx_mesh* mesh) {
+    geoidx_surface *kept = NULL, *own = NULL;
+    geoidx_surface_point a, b;
+    EXPECT(surface_of_index(index, &kept) == GEOIDX_OK);
+    EXPECT(surface_create(mesh, NULL, &own) == GEOIDX_OK);
+    EXPECT(vertex_point(kept, COUNT - 1, &a) == GEOIDX_OK && vertex_point(own, COUNT - 1, &b) == GEOIDX_OK);
+    EXPECT(a.triangle == b.triangle && memcmp(a.weights, b.weights, sizeof a.weights) == 0);
+    EXPECT(vertex_point(kept, COUNT, &a) == GEOIDX_ERROR_INVALID_ARGUMENT);
+    surface_close(kept);
+    surface_close(own);
+    return 0;
+}
+
 static int check_solver(const geoidx_mesh* mesh) {
     geoidx_solver* solver = NULL;
     const uint32_t source = 0, target = COUNT - 1;
@@ -209,6 +229,7 @@ int geoidx_header_test(void) {
     build_options_init(&options);
     build_options_init_sized(&options, options.struct_size);
     options.level_count = 1;
+    options.store_mesh = 1;
     options.patches[0] = 4;
     EXPECT(build(&mesh, NULL, NULL) == GEOIDX_ERROR_INVALID_ARGUMENT && strlen(last_error()) > 0);
     EXPECT(build(&mesh, &options, &index) == GEOIDX_OK);
@@ -218,6 +239,7 @@ int geoidx_header_test(void) {
     failed = check_queries(index);
     if (!failed) failed = check_memory(index);
     if (!failed) failed = check_file(index);
+    if (!failed) failed = check_surfaces(index, &mesh);
     if (!failed) failed = check_solver(&mesh);
     close_index(index);
     return failed;
