@@ -52,6 +52,7 @@ BuildInput::BuildInput(const test::Soup& soup, const CaseOptions& chosen)
     options_.target_error = chosen.target_error;
     options_.weld_tolerance = chosen.weld_tolerance;
     options_.seed = chosen.seed;
+    options_.store_mesh = chosen.store_mesh;
     for (const auto& [a, b] : surface_.edges()) edge_bounds_.push_back(straight(a, b));
     const bool by_surface = chosen.metric == GEOIDX_METRIC_EXACT || chosen.metric == GEOIDX_METRIC_WEIGHTED;
     if (chosen.own_lengths && by_surface)

@@ -12,6 +12,7 @@ namespace geodesic::campaign {
 using test::IndexHandle;
 using test::QueryHandle;
 using test::SolverHandle;
+using test::SurfaceHandle;
 
 // A call that must succeed.
 void succeed(geoidx_status status, const char* call);
@@ -29,6 +30,7 @@ public:
     // The metric knows the ways along edges, and finds none of them longer than the sum of these; by
     // Surface::edges().
     const std::vector<double>& edge_bounds() const { return edge_bounds_; }
+    Eigen::Vector3d position(uint32_t id) const { return soup_.positions[id]; }
     // No metric of this kind is shorter.
     double straight(uint32_t a, uint32_t b) const;
 

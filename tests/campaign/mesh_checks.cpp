@@ -109,6 +109,40 @@ void check_without_positions(const BuildInput& input, const geoidx* index,
     }
 }
 
+// What a surface says of its vertices and of positions around them, as bits.
+std::string bits_of_surface(const BuildInput& input, const geoidx_surface* surface) {
+    std::string text;
+    const auto add = [&text](const auto& value) {
+        text.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    for (uint32_t id = 0; id < input.surface().vertex_count(); ++id) {
+        geoidx_surface_point point{};
+        add(geoidx_vertex_point(surface, id, &point));
+        add(point);
+        Eigen::Vector3d beside = input.position(id) + Eigen::Vector3d(0.3, -0.2, 0.1);
+        double distance = 0;
+        succeed(geoidx_closest_point(surface, beside.data(), &point, &distance), "geoidx_closest_point");
+        add(point);
+        add(distance);
+    }
+    return text;
+}
+
+// The surface of the mesh that the files keep is that of the mesh that they were built from.
+void check_kept_mesh(const BuildInput& input, const std::vector<std::vector<std::byte>>& files) {
+    geoidx_surface_options options;
+    geoidx_surface_options_init(&options);
+    options.weld_tolerance = input.options().weld_tolerance;
+    geoidx_surface* made = nullptr;
+    succeed(geoidx_surface_create(&input.mesh(), &options, &made), "geoidx_surface_create");
+    const std::string own = bits_of_surface(input, SurfaceHandle(made).get());
+    for (const auto& file : files) {
+        succeed(geoidx_surface_of_index(opened(input, file).get(), &made), "geoidx_surface_of_index");
+        expect(bits_of_surface(input, SurfaceHandle(made).get()) == own, "the kept mesh is the mesh",
+               "%zu bytes", file.size());
+    }
+}
+
 void check_info(const BuildInput& input, const geoidx_info& info) {
     expect(info.vertex_count == input.mesh().vertex_count, "info: vertex_count", "%llu",
            static_cast<unsigned long long>(info.vertex_count));
@@ -138,6 +172,7 @@ void check_case(const test::Soup& soup, const CaseOptions& options) {
     std::vector<std::vector<std::byte>> files; // by codec
     for (const uint32_t codec : CODECS) files.push_back(saved(built.get(), codec));
     check_without_positions(input, built.get(), files);
+    if (options.store_mesh) check_kept_mesh(input, files);
     const Subject subject(input, std::move(built), longest);
     check_queries(subject, solver.get(), truths, dice);
     for (const auto& file : files) check_forms(opened(input, file).get(), files);

@@ -54,6 +54,7 @@ void make_plainer(MeshCase& failing, SameFailure& still_fails) {
     };
     attempt([](CaseOptions& o) { o.threads = 1; });
     attempt([](CaseOptions& o) { o.opened = false; });
+    attempt([](CaseOptions& o) { o.store_mesh = false; });
     attempt([](CaseOptions& o) { o.floats = false; });
     attempt([](CaseOptions& o) { o.own_lengths = false; });
     attempt([](CaseOptions& o) { o.cost_seed = 0; });

@@ -62,6 +62,7 @@ void each_option(CaseOptions& options, const Visit& visit) {
     visit("floats", options.floats);
     visit("opened", options.opened);
     visit("query_seed", options.query_seed);
+    visit("store_mesh", options.store_mesh);
 }
 
 }
@@ -77,6 +78,7 @@ CaseOptions random_options(Dice& dice, const test::Soup& soup) {
     if (dice.chance(0.1)) options.weld_tolerance = diagonal(soup) * dice.pick({1e-9, 1e-3, 0.02});
     options.query_seed = dice.bits();
     options.target_error = dice.pick({0.0, 0.0005, 0.0005, 1e-9});
+    options.store_mesh = dice.chance(0.4);
     return options;
 }
 

@@ -26,6 +26,7 @@ struct CaseOptions {
     bool floats = false;      // positions are floats, and those of the mesh are rounded to them
     bool opened = false;      // an index that was saved and opened again is asked, too
     uint64_t query_seed = 0;
+    bool store_mesh = false; // the index keeps the mesh
 };
 
 CaseOptions random_options(Dice& dice, const test::Soup& soup);

@@ -273,6 +273,27 @@ TEST_CASE("out of memory while opening with the mesh, whose positions the file l
     });
 }
 
+TEST_CASE("out of memory while a surface is made of the mesh that an index keeps") {
+    const TestMesh mesh = hills(6, 6);
+    for (const bool is_double : {false, true}) {
+        const FloatMesh floats(mesh);
+        const geoidx_mesh view = is_double ? mesh.view() : floats.view();
+        auto options = options_of(GEOIDX_ENGINE_OVERLAY);
+        options.store_mesh = 1;
+        geoidx* built = nullptr;
+        require_success(geoidx_build(&view, &options, &built));
+        const IndexHandle index(built);
+        const uint64_t failed = try_with_faults(Source::process, 1, [&](Fault& fault) {
+            geoidx_surface* surface = nullptr;
+            const geoidx_status status =
+                fault.disturb([&] { return geoidx_surface_of_index(index.get(), &surface); });
+            CHECK((status == GEOIDX_OK) == (surface != nullptr));
+            geoidx_surface_close(surface);
+        });
+        CHECK(failed > 20);
+    }
+}
+
 TEST_CASE("out of memory while opening a file") {
     const TemporaryDirectory directory;
     const std::string path = (directory.path() / "index.gidx").string();

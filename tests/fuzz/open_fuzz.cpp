@@ -1,6 +1,6 @@
 // Opens files whose content was changed and whose checksums are right, and queries those that open. The first
 // byte chooses: the rest as a file by itself, or changes to a small index of either engine, with positions or
-// without, six bytes each: section, position, value.
+// without, or with the mesh, six bytes each: section, position, value.
 #include <cstring>
 #include <map>
 #include <string>
@@ -50,7 +50,7 @@ const SmallMesh& small_mesh() {
     return mesh;
 }
 
-Bytes small_index(uint32_t engine, uint32_t flags) {
+Bytes small_index(uint32_t engine, uint32_t flags, uint32_t store_mesh = 0) {
     const geoidx_mesh mesh = small_mesh().view();
     geoidx_build_options options;
     geoidx_build_options_init(&options);
@@ -58,6 +58,7 @@ Bytes small_index(uint32_t engine, uint32_t flags) {
     options.level_count = 2;
     options.patches[0] = options.patches[1] = 2;
     options.threads = 1;
+    options.store_mesh = store_mesh;
     geoidx* index = nullptr;
     fuzz::require(geoidx_build(&mesh, &options, &index) == GEOIDX_OK, "the small index is built");
     geoidx_save_options how;
@@ -164,19 +165,44 @@ void open_without_positions(const void* data, size_t size) {
     geoidx_close(index);
 }
 
+// Verify looks at the mesh, too. Where it finds nothing, there is a surface.
+void open_with_mesh(const void* data, size_t size) {
+    geoidx* index = nullptr;
+    const geoidx_status status = geoidx_open_memory(data, size, nullptr, &index);
+    FirstIssue first{size};
+    const geoidx_status verified = geoidx_verify(data, size, FirstIssue::take, &first);
+    fuzz::require(first.status == verified, "verify returns what it tells first");
+    fuzz::require(status == GEOIDX_OK || verified == status, "verify refuses what does not open");
+    if (!index) return;
+    geoidx_info info{};
+    info.struct_size = sizeof info;
+    fuzz::require(geoidx_get_info(index, &info) == GEOIDX_OK, "info is given");
+    geoidx_surface* surface = nullptr;
+    const geoidx_status made = geoidx_surface_of_index(index, &surface);
+    fuzz::require((made == GEOIDX_OK) == (surface != nullptr), "there is a surface or an error");
+    if (info.has_mesh) fuzz::require(made == verified, "a surface is made where verify finds nothing");
+    geoidx_surface_close(surface);
+    geoidx_close(index);
 }
 
-constexpr uint8_t WITHOUT_POSITIONS = 0x80; // choices from here on
+}
+
+constexpr uint8_t WITHOUT_POSITIONS = 0x80, WITH_MESH = 0xC0; // choices from here on
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     static const Bytes originals[] = {small_index(GEOIDX_ENGINE_GRAPH, 0),
                                       small_index(GEOIDX_ENGINE_OVERLAY, 0)};
     static const Bytes without_positions[] = {small_index(GEOIDX_ENGINE_GRAPH, GEOIDX_SAVE_NO_POSITIONS),
                                               small_index(GEOIDX_ENGINE_OVERLAY, GEOIDX_SAVE_NO_POSITIONS)};
+    static const Bytes with_mesh[] = {small_index(GEOIDX_ENGINE_GRAPH, 0, 1),
+                                      small_index(GEOIDX_ENGINE_OVERLAY, 0, 1)};
     fuzz::Input input({data, size});
     const uint8_t choice = input.byte();
     if (choice % 3 == 2) {
         open(input.rest().data(), input.rest().size());
+    } else if (choice >= WITH_MESH) {
+        const Bytes file = changed(with_mesh[choice % 3], input);
+        open_with_mesh(file.data(), file.size());
     } else if (choice >= WITHOUT_POSITIONS) {
         const Bytes file = changed(without_positions[choice % 3], input);
         open_without_positions(file.data(), file.size());

@@ -14,19 +14,21 @@ const TestMesh& small_mesh() {
 }
 
 // A few KB, two levels, all sections with content.
-Bytes small_index(uint32_t engine = GEOIDX_ENGINE_GRAPH, uint32_t flags = 0) {
+Bytes small_index(uint32_t engine = GEOIDX_ENGINE_GRAPH, uint32_t flags = 0, uint32_t store_mesh = 0) {
     auto options = build_options(GEOIDX_METRIC_EXACT, 2);
     options.engine = engine;
+    options.store_mesh = store_mesh;
     options.patches[0] = options.patches[1] = 2;
     return save(build(small_mesh(), options).get(), GEOIDX_CODEC_PACKED, flags);
 }
 
-// Of both engines, with positions and without.
+// Of both engines, with positions and without, and with the mesh.
 std::vector<Bytes> small_indices() {
     std::vector<Bytes> files;
     for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY})
         for (uint32_t flags : {uint32_t{0}, uint32_t{GEOIDX_SAVE_NO_POSITIONS}})
             files.push_back(small_index(engine, flags));
+    files.push_back(small_index(GEOIDX_ENGINE_OVERLAY, 0, 1));
     return files;
 }
 

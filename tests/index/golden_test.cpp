@@ -1,5 +1,5 @@
-// Golden files: one of each form, one of rounded distances, one with added vertices, and two without
-// positions, which every later version of the library must open (SPEC.md, "Versions").
+// Golden files: one of each form, one of rounded distances, one with added vertices, two without positions,
+// and one with the mesh, which every later version of the library must open (SPEC.md, "Versions").
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -18,6 +18,7 @@ struct Golden {
     uint32_t columns; // of its sheet
     uint32_t flags = 0;
     double target_error = 0; // over 0: there are added vertices
+    bool keeps_mesh = false;
 };
 
 constexpr Golden GOLDEN[] = {
@@ -28,7 +29,8 @@ constexpr Golden GOLDEN[] = {
     {"rounded", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 34},
     {"added", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, 0, 1e-4},
     {"no_positions", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, GEOIDX_SAVE_NO_POSITIONS},
-    {"added_no_positions", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, GEOIDX_SAVE_NO_POSITIONS, 1e-4}};
+    {"added_no_positions", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, GEOIDX_SAVE_NO_POSITIONS, 1e-4},
+    {"with_mesh", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, 0, 0, true}};
 
 std::string path_of(const Golden& golden) {
     return std::string(GEOIDX_GOLDEN_FOLDER "/") + golden.name + ".geoidx";
@@ -57,7 +59,26 @@ geoidx_build_options options_of(const Golden& golden) {
     auto options = build_options(GEOIDX_METRIC_EXACT, 2);
     options.engine = golden.engine;
     options.target_error = golden.target_error;
+    options.store_mesh = golden.keeps_mesh;
     return options;
+}
+
+// That of the mesh which the index keeps has its vertices in their places.
+void check_surface(const geoidx* index, const geoidx_mesh& mesh) {
+    geoidx_surface* made = nullptr;
+    require_success(geoidx_surface_of_index(index, &made));
+    const SurfaceHandle surface(made);
+    const auto* const positions = static_cast<const double*>(mesh.positions);
+    for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        geoidx_surface_point point{};
+        require_success(geoidx_vertex_point(made, v, &point));
+        const uint32_t* const corners = mesh.triangles + 3 * size_t{point.triangle};
+        const auto corner = std::ranges::max_element(point.weights) - point.weights;
+        CHECK(corners[corner] == v);
+        double distance = -1;
+        require_success(geoidx_closest_point(made, positions + 3 * size_t{v}, &point, &distance));
+        CHECK(distance == 0);
+    }
 }
 
 }
@@ -95,6 +116,8 @@ TEST_CASE("golden files: they open, belong to their mesh and answer near the tru
         CHECK(info.file_flags == golden.flags);
         CHECK(info.format_major == 2);
         CHECK((golden.target_error > 0) == (info.added_vertex_count > 0));
+        CHECK((info.has_mesh == 1) == golden.keeps_mesh);
+        if (golden.keeps_mesh) check_surface(index.get(), view);
         CHECK((golden.columns > 30) == (info.table_entries >= 65536)); // distances are rounded
         double sum = 0;
         uint64_t distances = 0, apart = 0;
@@ -121,7 +144,7 @@ TEST_CASE("golden files: they open, belong to their mesh and answer near the tru
 
 TEST_CASE("golden files: the forms of one index answer the same bits") {
     const uint32_t count = mesh_of(GOLDEN[0]).vertex_count();
-    constexpr std::pair<size_t, size_t> SAME[] = {{0, 1}, {0, 2}, {0, 6}, {5, 7}};
+    constexpr std::pair<size_t, size_t> SAME[] = {{0, 1}, {0, 2}, {0, 6}, {5, 7}, {0, 8}};
     for (const auto& [a, b] : SAME) {
         const auto one = open(content_of(GOLDEN[a]), mesh_of(GOLDEN[a]));
         const auto other = open(content_of(GOLDEN[b]), mesh_of(GOLDEN[b]));

@@ -120,6 +120,9 @@ void add_bits(Bytes& bits, const T& value) {
     bits.insert(bits.end(), bytes.begin(), bytes.end());
 }
 
+// A whole number.
+double drawn(std::mt19937& random, uint32_t below) { return static_cast<double>(random() % below); }
+
 // Points inside of triangles, some of which are degenerate or there twice, so that a call may also fail.
 std::vector<geoidx_surface_point> points_on(const geoidx_mesh& mesh, uint32_t count) {
     std::mt19937 random(3);
@@ -128,7 +131,7 @@ std::vector<geoidx_surface_point> points_on(const geoidx_mesh& mesh, uint32_t co
         const uint64_t last = random() % 6;
         point.triangle =
             static_cast<uint32_t>(last < 5 ? mesh.triangle_count - 1 - last : random() % mesh.triangle_count);
-        const double u = (random() % 97 + 1) / 100.0, v = (1 - u) * (random() % 97 + 1) / 100.0;
+        const double u = drawn(random, 97) / 100 + 0.01, v = (1 - u) * (drawn(random, 97) / 100 + 0.01);
         point.weights[0] = u;
         point.weights[1] = v;
         point.weights[2] = 1 - u - v;
@@ -139,7 +142,7 @@ std::vector<geoidx_surface_point> points_on(const geoidx_mesh& mesh, uint32_t co
 void add_closest_points(Bytes& bits, const geoidx_mesh& mesh, const geoidx_surface* surface) {
     std::mt19937 random(4);
     for (uint32_t i = 0; i < 200; ++i) {
-        const double position[] = {random() % 600 / 1.0, random() % 140 / 10.0, random() % 60 / 10.0 - 3};
+        const double position[] = {drawn(random, 600), drawn(random, 140) / 10, drawn(random, 60) / 10 - 3};
         geoidx_surface_point point{};
         double distance = 0;
         require_success(geoidx_closest_point(surface, position, &point, &distance));

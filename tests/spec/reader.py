@@ -166,10 +166,17 @@ class Fields:
         self.at += array.nbytes
         return array
 
-    def planes(self, count):
-        """u32 numbers, of which all lowest bytes stand first."""
-        planes = self.take("u1", 4 * count).reshape(4, count).astype("u4")
-        return planes[0] | planes[1] << 8 | planes[2] << 16 | planes[3] << 24
+    def planes(self, count, size=4):
+        """Numbers of 4 or 8 bytes, of which all lowest bytes stand first."""
+        planes = self.take("u1", size * count).reshape(size, count)
+        return numpy.ascontiguousarray(planes.T).view(f"<u{size}").reshape(count)
+
+    def differences(self, count, columns, size=4):
+        """The rows of a matrix, each number as its difference from the one above, with a sign in the lowest bit."""
+        stored = self.planes(count * columns, size)
+        one = stored.dtype.type(1)
+        differences = stored >> one ^ (~(stored & one) + one)
+        return differences.reshape(count, columns).cumsum(axis=0, dtype=stored.dtype)
 
     def rest(self, kind):
         return self.take(kind, (len(self.content) - self.at) // numpy.dtype(kind).itemsize)
@@ -207,13 +214,13 @@ class Index:
             self.sections, self.fingerprint = read_sections(file.read())
         meta = self.sections["META"].bytes()
         require(len(meta) == 184, "META of another size")
-        (self.id_count, triangle_count) = struct.unpack_from("<QQ", meta)
+        (self.id_count, self.triangle_count) = struct.unpack_from("<QQ", meta)
         (self.engine,) = struct.unpack_from("<I", meta, 104)
         (self.codec,) = struct.unpack_from("<I", meta, 116)
         self._read_hierarchy()
         if mesh:
             counts = tuple(map(len, mesh))
-            require(counts == (self.id_count, triangle_count), "a mesh of another size")
+            require(counts == (self.id_count, self.triangle_count), "a mesh of another size")
             require(fingerprint_of(*mesh) == self.fingerprint, "another mesh")
         self._read_vertices()
         self._read_positions(mesh)
@@ -261,6 +268,20 @@ class Index:
             self.positions = self._positions_of(mesh[0], origin, of_held)
         coordinates = self.positions.astype("<i4").tobytes()
         require(xxhash.xxh3_64_intdigest(coordinates) == checksum, "the checksum of the positions does not match")
+
+    def kept_mesh(self):
+        """The positions and triangles that the file keeps, or None."""
+        if "MESH" not in self.sections:
+            return None
+        fields = Fields(self.sections["MESH"].bytes())
+        (position_type,) = fields.take("<u4", 1)
+        require(position_type in (0, 1), "another type of positions")
+        triangles = fields.differences(3 * self.triangle_count, 1).reshape(-1, 3)
+        size = 8 if position_type else 4
+        points = fields.differences(self.id_count, 3, size).view(f"<f{size}")
+        require(fields.at == len(fields.content), "bytes behind the mesh")
+        require(fingerprint_of(points, triangles) == self.fingerprint, "another mesh is kept")
+        return points, triangles
 
     def _positions_of(self, points, origin, of_added):
         """In steps: of the lowest id of each number, and of the added vertices, which no id has."""

@@ -205,6 +205,23 @@ class ReaderTest(unittest.TestCase):
                     with self.assertRaisesRegex(Refused, "checksum of the positions"):
                         Index(paths[1], (points.astype("f4"), triangles))
 
+    def test_mesh_that_is_kept(self):
+        mesh, kept, without = (FOLDER / name for name in ("kept.off", "kept.geoidx", "without.geoidx"))
+        points, triangles = write_procedural(mesh)
+        self.assertLess(points.min(), 0)  # of either sign, so that differences of bits wrap around
+        for engine in ("overlay", "graph"):
+            for codec in ("packed", "lossless", "mapped"):
+                with self.subTest(engine=engine, codec=codec):
+                    form = ("--engine", engine, "--codec", codec, "--patches", "4,3")
+                    run("build", mesh, "-o", kept, *form, "--store-mesh")
+                    index = Index(kept)
+                    found_points, found_triangles = index.kept_mesh()
+                    self.assertEqual(found_points.tobytes(), points.astype("<f8").tobytes())
+                    numpy.testing.assert_array_equal(found_triangles, triangles)
+                    run("convert", kept, "-o", without, "--codec", codec, "--no-mesh")
+                    self.assertIsNone(Index(without).kept_mesh())
+                    self.assert_same(index, Index(without))
+
     def assert_same(self, a, b):
         numpy.testing.assert_array_equal(a.positions, b.positions)
         for leaf in a.leaves:
