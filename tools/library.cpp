@@ -86,6 +86,12 @@ Surface make_surface(const TriangleMesh& mesh, const std::string& path, double w
     return Surface(surface);
 }
 
+Surface surface_of(const geoidx& index, const std::string& path) {
+    geoidx_surface* surface = nullptr;
+    require_ok(geoidx_surface_of_index(&index, &surface), path);
+    return Surface(surface);
+}
+
 Solver make_solver(const TriangleMesh& mesh, const std::string& path, const geoidx_build_options& options) {
     const geoidx_mesh view = view_of(mesh);
     geoidx_solver* solver = nullptr;

@@ -48,6 +48,8 @@ std::vector<unsigned char> saved_bytes(const geoidx& index, const geoidx_save_op
 Query make_query(const geoidx& index, const std::string& path);
 
 Surface make_surface(const TriangleMesh& mesh, const std::string& path, double weld_tolerance = 0);
+// Of the mesh that the index keeps.
+Surface surface_of(const geoidx& index, const std::string& path);
 
 Solver make_solver(const TriangleMesh& mesh, const std::string& path, const geoidx_build_options& options);
 

@@ -344,6 +344,35 @@ class Outputs(unittest.TestCase):
         self.assertEqual(run(*asked, "6", "--png", self.mesh).returncode, 1)
         self.assertFalse(same.exists())
 
+    def test_path_of_a_file_that_keeps_its_mesh(self):
+        without = self.folder / "without.geoidx"
+        for codec in ("lossless", "mapped", "packed"):
+            whole = self.folder / f"whole_{codec}.geoidx"
+            output_of("build", self.mesh, "-o", whole, "--store-mesh", "--codec", codec)
+            for quality in ("straight", "exact"):
+                asked = "0", "6", "--quality", quality
+                self.assertEqual(output_of("path", whole, *asked), output_of("path", whole, self.mesh, *asked))
+                self.assertEqual(output_of("path", whole, *asked).decode().splitlines(), self.path(*asked[2:]))
+        shown = strict_json(output_of("info", whole, "--json"))
+        self.assertEqual((shown["has_mesh"], shown["sections"][-1]["tag"]), (1, "MESH"))
+        shown = strict_json(output_of("convert", whole, "-o", without, "--no-mesh", "--json"))
+        self.assertEqual(shown["has_mesh"], 0)
+        self.assertEqual(without.read_bytes(), self.index.read_bytes())
+
+    def test_path_without_a_mesh(self):
+        whole = self.folder / "whole_again.geoidx"
+        output_of("build", self.mesh, "-o", whole, "--store-mesh")
+        for asked in ((self.index, "0", "6"), (self.index, self.mesh, "0"), (whole, "0"), (whole, "0", "1", "2", "3")):
+            done = run("path", *asked)
+            self.assertEqual((done.returncode, done.stdout), (2, b""))
+        self.assertIn(b"keeps no mesh", run("path", self.index, "0", "6").stderr)
+        done = run("path", whole, "0", "6", "--png", self.folder / "no.png")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(b"--png needs MESH", done.stderr)
+        done = run("path", whole, "0", "16")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"vertex 16 is out of range", done.stderr)
+
     def test_json_of_bench(self):
         shown = strict_json(output_of("bench", self.index, "--queries", "3", "--seed", "9", "--json"))
         self.assertEqual((shown["queries"], shown["seed"], shown["vertex_count"]), (3, 9, 16))

@@ -25,6 +25,7 @@ struct BuildArguments {
     uint32_t exact_vertices = 0;
     double rounding = 0;
     double target_error = 0;
+    bool store_mesh = false;
     double delta = 0;
     uint32_t levels = 0;
     std::vector<uint32_t> patches;
@@ -48,6 +49,7 @@ geoidx_build_options build_options(const BuildArguments& arguments, ProgressBar&
     options.exact_vertices = arguments.exact_vertices;
     options.rounding = arguments.rounding;
     options.target_error = arguments.target_error;
+    options.store_mesh = arguments.store_mesh ? 1 : 0;
     options.delta = arguments.delta;
     options.seed = arguments.seed;
     options.threads = arguments.threads;
@@ -109,6 +111,8 @@ void add_shape_options(CLI::App& command, BuildArguments& arguments) {
                     "of the overlay engine: mean error, as a share, above which vertices are added to the "
                     "borders of patches; 0: never")
         ->capture_default_str();
+    command.add_flag("--store-mesh", arguments.store_mesh,
+                     "keep the mesh in the file, which then is enough for 'geoidx path'");
     add_form_options(command, arguments.form);
     command.add_option("--delta", arguments.delta, "pruning threshold, % of the bounding-box diagonal")
         ->capture_default_str();

@@ -39,6 +39,7 @@ void add_convert(CLI::App& app) {
     command->add_option("FILE", arguments->input, "index file")->required();
     command->add_option("-o,--output", arguments->output, "index file to write; - is stdout")->required();
     add_form_options(*command, arguments->form);
+    command->add_flag("--no-mesh", arguments->form.no_mesh, "leave out the mesh that the index keeps");
     add_mesh_option(*command, arguments->mesh);
     command->add_flag("--json", arguments->json, "print a JSON object: what info prints of the new file");
     command->callback([arguments] { convert(*arguments); });

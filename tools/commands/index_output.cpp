@@ -16,6 +16,7 @@ geoidx_save_options options_of(const FileForm& form) {
     geoidx_save_options_init(&options);
     options.codec = static_cast<uint32_t>(std::ranges::find(CODEC_NAMES, form.codec) - CODEC_NAMES.begin());
     if (form.no_positions) options.flags |= GEOIDX_SAVE_NO_POSITIONS;
+    if (form.no_mesh) options.flags |= GEOIDX_SAVE_NO_MESH;
     return options;
 }
 
@@ -51,7 +52,8 @@ geoidx_info info_of_saved(const geoidx& index, const FileForm& form, const std::
     const geoidx_save_options options = options_of(form);
     geoidx_info info = info_of(index, path);
     if (info.engine == GEOIDX_ENGINE_OVERLAY) info.codec = options.codec;
-    info.file_flags = options.flags;
+    info.file_flags = options.flags & GEOIDX_SAVE_NO_POSITIONS;
+    if (form.no_mesh) info.has_mesh = 0;
     return info;
 }
 

@@ -12,6 +12,7 @@ namespace geodesic::tools {
 struct FileForm {
     std::string codec;
     bool no_positions = false;
+    bool no_mesh = false;
 };
 // --codec, whose default is the first of the names, and --no-positions.
 void add_form_options(CLI::App& command, FileForm& form);

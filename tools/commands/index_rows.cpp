@@ -57,6 +57,7 @@ std::vector<IndexRow> general_rows(const geoidx_info& info, const std::string& p
         {"seed", "seed", std::to_string(info.seed)},
         {"codec", "codec", info.codec < CODEC_NAMES.size() ? CODEC_NAMES[info.codec] : "unknown", true},
         {"has_positions", "positions in the file", info.file_flags & GEOIDX_SAVE_NO_POSITIONS ? "0" : "1"},
+        {"has_mesh", "mesh in the file", std::to_string(info.has_mesh)},
         {"smallest_step", "distances are multiples of, in the finest table", printed(info.smallest_step)},
         {"largest_step", "in the coarsest table", printed(info.largest_step)},
         {"file_size", "file size (bytes)", std::to_string(size_of_file(path))},

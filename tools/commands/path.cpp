@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "tools/commands/arguments.h"
 #include "tools/commands/commands.h"
@@ -17,7 +18,7 @@ namespace geodesic::tools {
 namespace {
 
 struct PathArguments {
-    std::string index, mesh;
+    std::string index, mesh; // the latter is empty if it is the one that the index keeps
     std::vector<std::string> ids;
     std::string quality = "straight";
     std::string output;
@@ -32,31 +33,21 @@ struct Way {
     std::vector<geoidx_path_point> points;
 };
 
-// A vertex as the corner of a triangle that is not degenerate.
-geoidx_surface_point point_at(const TriangleMesh& mesh, uint32_t id, const PathArguments& arguments) {
-    if (id >= mesh.vertex_count())
-        throw Failure(arguments.mesh + ": vertex " + std::to_string(id) + " is out of range: the mesh has " +
-                      std::to_string(mesh.vertex_count()) + " vertices");
-    for (size_t t = 0; t < mesh.triangle_count(); ++t) {
-        const uint32_t* const ids = mesh.triangles.data() + 3 * t;
-        const auto* const found = std::find(ids, ids + 3, id);
-        if (found == ids + 3 || ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0]) continue;
-        geoidx_surface_point point{};
-        point.triangle = static_cast<uint32_t>(t);
-        point.weights[found - ids] = 1;
-        return point;
-    }
-    throw Failure(arguments.mesh + ": no triangle uses vertex " + std::to_string(id));
+geoidx_surface_point point_at(const geoidx_surface& surface, uint32_t id, const std::string& path) {
+    geoidx_surface_point point{};
+    require_ok(geoidx_vertex_point(&surface, id, &point), path);
+    return point;
 }
 
-Way way_between(const geoidx& index, const TriangleMesh& mesh, const PathArguments& arguments, uint32_t a,
-                uint32_t b) {
-    const Surface surface = make_surface(mesh, arguments.mesh, arguments.weld_tolerance);
+Way way_between(const geoidx& index, const geoidx_surface& surface, const PathArguments& arguments,
+                std::span<const uint32_t> ends) {
+    const std::string& of = arguments.mesh.empty() ? arguments.index : arguments.mesh;
     const Query query = make_query(index, arguments.index);
-    const geoidx_surface_point source = point_at(mesh, a, arguments), target = point_at(mesh, b, arguments);
+    const geoidx_surface_point source = point_at(surface, ends[0], of),
+                               target = point_at(surface, ends[1], of);
     const uint32_t quality = arguments.quality == "exact" ? GEOIDX_PATH_EXACT : GEOIDX_PATH_STRAIGHT;
     Way way;
-    require_ok(geoidx_query_path(query.get(), surface.get(), &source, &target, quality, &way.length),
+    require_ok(geoidx_query_path(query.get(), &surface, &source, &target, quality, &way.length),
                arguments.index);
     uint64_t count = 0;
     require_ok(geoidx_query_path_points(query.get(), nullptr, 0, &count), arguments.index);
@@ -134,22 +125,42 @@ void require_outputs(const PathArguments& arguments) {
     if (picture == STANDARD_OUTPUT) throw CLI::ValidationError("--png: standard output is for the length");
     if (!arguments.output.empty()) require_writable(arguments.output, inputs);
     if (picture.empty()) return;
+    if (arguments.mesh.empty()) throw CLI::ValidationError("--png needs MESH, also where the file keeps it");
     require_writable(picture, inputs);
     if (is_same_path(picture, arguments.output)) throw Failure(picture + ": is both -o and --png");
+}
+
+// Of three words before the options the first is the mesh.
+void take_mesh(PathArguments& arguments) {
+    if (arguments.ids.size() < 3) return;
+    arguments.mesh = arguments.ids.front();
+    arguments.ids.erase(arguments.ids.begin());
+}
+
+// The path is on the mesh of the command line or, without one, on that of the file.
+void require_mesh(const geoidx& index, const PathArguments& arguments) {
+    if (!arguments.mesh.empty()) return;
+    if (!info_of(index, arguments.index).has_mesh)
+        throw CLI::ValidationError(arguments.index +
+                                   " keeps no mesh, so that MESH is needed: geoidx path FILE MESH A B");
 }
 
 void path(const PathArguments& arguments) {
     const std::vector<uint32_t> ids = vertex_ids(arguments.ids);
     const Writer writer = arguments.output.empty() ? nullptr : writer_of(arguments.output);
     require_outputs(arguments);
-    const TriangleMesh mesh = read_mesh(arguments.mesh);
-    const Index index = open_index(arguments.index, &mesh);
-    const Way way = way_between(*index, mesh, arguments, ids[0], ids[1]);
+    std::optional<TriangleMesh> mesh;
+    if (!arguments.mesh.empty()) mesh = read_mesh(arguments.mesh);
+    const Index index = open_index(arguments.index, mesh ? &*mesh : nullptr);
+    require_mesh(*index, arguments);
+    const Surface surface = mesh ? make_surface(*mesh, arguments.mesh, arguments.weld_tolerance)
+                                 : surface_of(*index, arguments.index);
+    const Way way = way_between(*index, *surface, arguments, ids);
     if (writer) {
         const std::string text = writer(way);
         write_file(arguments.output, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
     }
-    if (!arguments.picture.file.empty()) write_picture(arguments.picture, *index, mesh, way, ids);
+    if (!arguments.picture.file.empty()) write_picture(arguments.picture, *index, *mesh, way, ids);
     if (arguments.json) {
         JsonObject()
             .text("index", arguments.index)
@@ -172,8 +183,13 @@ void add_path(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("path", "print the path between two vertices: its length, then its points");
     command->add_option("FILE", arguments->index, "index file")->required();
-    command->add_option("MESH", arguments->mesh, "the mesh that the index was built from")->required();
-    command->add_option("A B", arguments->ids, "vertex ids")->required()->expected(2);
+    command
+        ->add_option(
+            "MESH A B", arguments->ids,
+            "the mesh that the index was built from, unless the file keeps it (build --store-mesh), and "
+            "two vertex ids")
+        ->required()
+        ->expected(2, 3);
     command
         ->add_option("--quality", arguments->quality,
                      "straight: locally shortest, from the index; exact: a shortest path")
@@ -185,7 +201,10 @@ void add_path(CLI::App& app) {
         ->description("picture of the path to write, on the distances from A");
     command->add_option("--weld-tolerance", arguments->weld_tolerance, "that the index was built with");
     command->add_flag("--json", arguments->json, "print a JSON object");
-    command->callback([arguments] { path(*arguments); });
+    command->callback([arguments] {
+        take_mesh(*arguments);
+        path(*arguments);
+    });
 }
 
 }
