@@ -248,6 +248,20 @@ public:
         handle_.reset(made);
     }
 
+    // Of the mesh that the index keeps (geoidx_build_options.store_mesh); it outlives the index.
+    static surface of(const index& keeping) {
+        geoidx_surface* made = nullptr;
+        check(geoidx_surface_of_index(keeping.get(), &made));
+        return surface(made);
+    }
+
+    // A corner of one of the vertex' triangles.
+    geoidx_surface_point vertex_point(std::uint32_t vertex) const {
+        geoidx_surface_point point{};
+        check(geoidx_vertex_point(get(), vertex, &point));
+        return point;
+    }
+
     // The nearest point of the surface, and how far it is.
     std::pair<geoidx_surface_point, double> closest_point(const std::array<double, 3>& position) const {
         std::pair<geoidx_surface_point, double> closest{};
@@ -261,6 +275,8 @@ private:
     struct close {
         void operator()(geoidx_surface* handle) const noexcept { geoidx_surface_close(handle); }
     };
+    explicit surface(geoidx_surface* handle) : handle_(handle) {}
+
     std::unique_ptr<geoidx_surface, close> handle_;
 };
 

@@ -48,10 +48,12 @@ bool finds_what_is_near(const gdx::index& index) {
 }
 
 bool walks_right(const gdx::index& index, const geoidx_mesh& mesh) {
-    const gdx::surface surface(mesh);
+    auto keeping = gdx::build_options();
+    keeping.store_mesh = 1;
+    const gdx::surface surface = gdx::surface::of(gdx::index::build(mesh, keeping));
     gdx::query query = index.make_query();
     const auto [from, height] = surface.closest_point({0.25, 0.5, 3});
-    const geoidx_surface_point corner = surface.closest_point({1, 0, 0}).first;
+    const geoidx_surface_point corner = surface.vertex_point(1);
     const double straight = std::hypot(0.75, 0.5);
     const auto path = query.find_path(surface, from, corner, GEOIDX_PATH_EXACT);
     std::vector<float> field(4);
