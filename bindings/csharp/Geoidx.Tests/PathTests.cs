@@ -90,6 +90,38 @@ namespace Geoidx.Tests
         }
 
         [Fact]
+        public void AnIndexKeepsItsMesh()
+        {
+            GeodesicMesh mesh = Shapes.Plane(Side);
+            using GeodesicIndex plain = GeodesicIndex.Build(mesh);
+            Assert.False(plain.Info.HasMesh);
+            Assert.Throws<GeodesicArgumentException>(() => new GeodesicSurface(plain));
+            using GeodesicIndex built = GeodesicIndex.Build(mesh, new BuildOptions { StoreMesh = true });
+            Assert.Equal(plain.ToBytes(), built.ToBytes(mesh: false));
+            using var own = new GeodesicSurface(mesh);
+            GeodesicSurface kept;
+            using (GeodesicIndex opened = GeodesicIndex.Open(built.ToBytes(GeodesicCodec.Mapped)))
+            {
+                Assert.True(opened.Info.HasMesh);
+                kept = new GeodesicSurface(opened);
+            }
+            using (kept)
+            using (GeodesicQuery query = built.CreateQuery())
+            {
+                SurfacePoint from = kept.VertexPoint(0), to = kept.ClosestPoint(9.3, 7.9, 1);
+                Assert.Equal(own.ClosestPoint(9.3, 7.9, 1), to);
+                Assert.Equal(own.VertexPoint(0), from);
+                Assert.True(query.TryFindPath(kept, from, to, out double length));
+                Assert.True(query.TryFindPath(own, from, to, out double same));
+                Assert.Equal(same, length);
+                Assert.Equal(Math.Sqrt(9.3 * 9.3 + 7.9 * 7.9), length, 9);
+            }
+            Assert.Throws<ArgumentNullException>(() => new GeodesicSurface((GeodesicIndex)null!));
+            Assert.Throws<GeodesicArgumentException>(() => own.VertexPoint(Side * Side));
+            Assert.Throws<GeodesicArgumentException>(() => own.VertexPoint(-1));
+        }
+
+        [Fact]
         public void WhatIsWrongIsRefused()
         {
             using GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(Side));

@@ -109,6 +109,13 @@ namespace Geoidx
         /// </summary>
         public double TargetError { get; set; }
 
+        /// <summary>
+        /// Whether the index keeps the mesh, so that its file alone is enough for points of the surface and paths
+        /// (<see cref="GeodesicSurface(GeodesicIndex)"/>): some 20 bytes a vertex in single precision, 30 in double.
+        /// Default: no.
+        /// </summary>
+        public bool StoreMesh { get; set; }
+
         /// <summary>Whether an edge with more than two triangles makes the mesh unusable. Default: no.</summary>
         public bool RefuseEdgesOfMany { get; set; }
 

@@ -58,12 +58,13 @@ namespace Geoidx
         /// False leaves out those of the vertices, some 3.5 bytes each; the file then opens with
         /// <see cref="OpenOptions.ExpectedMesh"/> only. Null: <see cref="GeodesicInfo.HasPositions"/>.
         /// </param>
+        /// <param name="mesh">False leaves out the mesh that the index keeps.</param>
         /// <exception cref="ArgumentException">The path has half of a surrogate pair.</exception>
         /// <exception cref="GeodesicArgumentException">The codec is none.</exception>
         /// <exception cref="GeodesicIOException">The file cannot be written.</exception>
-        public unsafe void Save(string path, GeodesicCodec? codec = null, bool? positions = null)
+        public unsafe void Save(string path, GeodesicCodec? codec = null, bool? positions = null, bool mesh = true)
         {
-            NativeSaveOptions options = NativeOptions(codec, positions);
+            NativeSaveOptions options = NativeOptions(codec, positions, mesh);
             NativeMethods.geoidx_save(Handle, NativeText.CheckedPath(path), &options).ThrowIfError();
         }
 
@@ -74,11 +75,12 @@ namespace Geoidx
         /// False leaves out those of the vertices, some 3.5 bytes each; the file then opens with
         /// <see cref="OpenOptions.ExpectedMesh"/> only. Null: <see cref="GeodesicInfo.HasPositions"/>.
         /// </param>
+        /// <param name="mesh">False leaves out the mesh that the index keeps.</param>
         /// <exception cref="GeodesicArgumentException">The codec is none.</exception>
-        public void Save(Stream stream, GeodesicCodec? codec = null, bool? positions = null)
+        public void Save(Stream stream, GeodesicCodec? codec = null, bool? positions = null, bool mesh = true)
         {
             if (stream == null) throw new ArgumentNullException(nameof(stream));
-            byte[] bytes = ToBytes(codec, positions);
+            byte[] bytes = ToBytes(codec, positions, mesh);
             stream.Write(bytes, 0, bytes.Length);
         }
 
@@ -88,10 +90,11 @@ namespace Geoidx
         /// False leaves out those of the vertices, some 3.5 bytes each; the file then opens with
         /// <see cref="OpenOptions.ExpectedMesh"/> only. Null: <see cref="GeodesicInfo.HasPositions"/>.
         /// </param>
+        /// <param name="mesh">False leaves out the mesh that the index keeps.</param>
         /// <exception cref="GeodesicArgumentException">The codec is none.</exception>
-        public unsafe byte[] ToBytes(GeodesicCodec? codec = null, bool? positions = null)
+        public unsafe byte[] ToBytes(GeodesicCodec? codec = null, bool? positions = null, bool mesh = true)
         {
-            NativeSaveOptions options = NativeOptions(codec, positions);
+            NativeSaveOptions options = NativeOptions(codec, positions, mesh);
             NativeMethods.geoidx_save_memory(Handle, &options, null, 0, out ulong size).ThrowIfError();
             var bytes = new byte[checked((int)size)];
             fixed (byte* first = bytes)
@@ -130,11 +133,12 @@ namespace Geoidx
             return status;
         }
 
-        private NativeSaveOptions NativeOptions(GeodesicCodec? codec, bool? positions)
+        private NativeSaveOptions NativeOptions(GeodesicCodec? codec, bool? positions, bool mesh)
         {
             NativeSaveOptions native = NativeDefaults.SaveOptions();
             native.codec = (uint)(codec ?? Info.Codec);
             if (!(positions ?? Info.HasPositions)) native.flags |= (uint)SaveFlags.NoPositions;
+            if (!mesh) native.flags |= (uint)SaveFlags.NoMesh;
             return native;
         }
 

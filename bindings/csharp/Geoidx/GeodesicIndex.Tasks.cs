@@ -22,14 +22,15 @@ namespace Geoidx
             Task.Run(() => Open(path, options), cancellationToken);
 
         /// <summary>
-        /// Writes the index to a file, as <see cref="Save(string, GeodesicCodec?, bool?)"/> does, on a thread of the
+        /// Writes the index to a file, as <see cref="Save(string, GeodesicCodec?, bool?, bool)"/> does, on a thread of the
         /// pool; once begun, this is not cancelled.
         /// </summary>
         public Task SaveAsync(
             string path,
             GeodesicCodec? codec = null,
             bool? positions = null,
+            bool mesh = true,
             CancellationToken cancellationToken = default) =>
-            Task.Run(() => Save(path, codec, positions), cancellationToken);
+            Task.Run(() => Save(path, codec, positions, mesh), cancellationToken);
     }
 }

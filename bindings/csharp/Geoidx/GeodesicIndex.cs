@@ -35,7 +35,7 @@ namespace Geoidx
         public int VertexCount => checked((int)Info.VertexCount);
 
         // The queries' leases keep the native index open beyond Dispose.
-        private IndexHandle Handle =>
+        internal IndexHandle Handle =>
             isDisposed ? throw new ObjectDisposedException(nameof(GeodesicIndex)) : handle;
 
         /// <summary>Builds the index of a mesh.</summary>

@@ -46,6 +46,7 @@ namespace Geoidx
             ErrorFarMax = native.error_far_max;
             ErrorSeveralMean = native.error_several_mean;
             ErrorSeveralMax = native.error_several_max;
+            HasMesh = native.has_mesh != 0;
         }
 
         /// <summary>What a distance is.</summary>
@@ -166,6 +167,9 @@ namespace Geoidx
         /// <summary>The largest relative error that was found of MSAD from several sources.</summary>
         public double ErrorSeveralMax { get; }
 
+        /// <summary>Whether the index keeps the mesh, <see cref="BuildOptions.StoreMesh"/>.</summary>
+        public bool HasMesh { get; }
+
         /// <summary>Each property in a line of its own.</summary>
         public override string ToString() =>
             string.Join("\n", Array.ConvertAll(Properties(), property => FormattableString.Invariant(property)));
@@ -207,6 +211,7 @@ namespace Geoidx
             $"{nameof(ErrorFarMax)}: {ErrorFarMax}",
             $"{nameof(ErrorSeveralMean)}: {ErrorSeveralMean}",
             $"{nameof(ErrorSeveralMax)}: {ErrorSeveralMax}",
+            $"{nameof(HasMesh)}: {HasMesh}",
         };
 
         private string PatchCountsText() => string.Join(" / ", PatchCounts);

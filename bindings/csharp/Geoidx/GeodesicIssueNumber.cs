@@ -101,6 +101,9 @@ namespace Geoidx
         /// <summary>The content of section HOPS: the tables of a mapped file.</summary>
         Hops = 112,
 
+        /// <summary>The content of section MESH: the mesh that the index keeps.</summary>
+        Mesh = 113,
+
         /// <summary>No single section is at fault: the index is over a limit, or out of proportion to its file.</summary>
         WholeIndex = 200,
     }

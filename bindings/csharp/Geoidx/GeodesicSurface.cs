@@ -22,7 +22,35 @@ namespace Geoidx
             handle = SurfaceHandle.Create(pinned.Native, weldTolerance);
         }
 
+        /// <summary>
+        /// Makes the surface of the mesh that an index keeps, <see cref="BuildOptions.StoreMesh"/>: the same as that of
+        /// the mesh which it was built from. It may be used when the index is disposed.
+        /// </summary>
+        /// <param name="index">The index.</param>
+        /// <exception cref="GeodesicArgumentException">
+        /// The index keeps no mesh, see <see cref="GeodesicInfo.HasMesh"/>.
+        /// </exception>
+        /// <exception cref="GeodesicException">
+        /// The mesh in the file is not the one that the index was built from.
+        /// </exception>
+        public GeodesicSurface(GeodesicIndex index)
+        {
+            if (index == null) throw new ArgumentNullException(nameof(index));
+            handle = SurfaceHandle.Of(index.Handle);
+        }
+
         internal SurfaceHandle Handle => handle;
+
+        /// <summary>A vertex as a point of the surface: a corner of one of its triangles.</summary>
+        /// <exception cref="GeodesicArgumentException">
+        /// The vertex is out of range, or no triangle that is not degenerate uses it.
+        /// </exception>
+        public unsafe SurfacePoint VertexPoint(int vertex)
+        {
+            SurfacePoint point;
+            NativeMethods.geoidx_vertex_point(handle, vertex, &point).ThrowIfError();
+            return point;
+        }
 
         /// <summary>The point of the surface that is nearest to a position in space.</summary>
         /// <exception cref="GeodesicArgumentException">A coordinate is not finite.</exception>

@@ -96,7 +96,7 @@ class Layout(unittest.TestCase):
     def test_constants(self):
         expected = {prefix + member.name: int(member) for prefix, enum in ENUMS.items() for member in enum}
         names = "POSITION_FLOAT", "POSITION_DOUBLE", "METRIC_UNFOLDABLE", "MAX_LEVELS", "NO_SOURCE"
-        flags = "OPEN_PAIRS", "OPEN_BORROW", "OPEN_NO_LABELS", "SAVE_NO_POSITIONS"
+        flags = "OPEN_PAIRS", "OPEN_BORROW", "OPEN_NO_LABELS", "SAVE_NO_POSITIONS", "SAVE_NO_MESH"
         for name in names + flags:
             expected["GEOIDX_" + name] = getattr(_native, name)
         for name, number in zip(("MAJOR", "MINOR", "PATCH"), _native.HEADER_VERSION):

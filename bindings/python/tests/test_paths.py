@@ -77,6 +77,39 @@ class Paths(unittest.TestCase):
         self.assertIsNone(query.next_step(surface, a))
         self.assertEqual(query.point_sssd(surface, a, b), math.inf)
 
+    def test_an_index_keeps_its_mesh(self):
+        with self.assertRaisesRegex(geoidx.InvalidArgumentError, "store_mesh"):
+            self.index.surface()
+        self.assertFalse(self.index.info.has_mesh)
+        for dtype in (np.float32, np.float64):
+            vertices, faces = hills(9, 8)[0].astype(dtype), hills(9, 8)[1]
+            kept = geoidx.Index.build(vertices, faces, store_mesh=True)
+            opened = geoidx.Index.from_bytes(kept.to_bytes(codec="mapped"))
+            self.assertTrue(kept.info.has_mesh and opened.info.has_mesh)
+            surface, own = opened.surface(), geoidx.Surface(vertices, faces)
+            opened.close()
+            for position in vertices.astype(float) + 0.3:
+                for found, right in zip(surface.closest_point(position), own.closest_point(position)):
+                    self.assertEqual(found, right)
+            query = kept.query()
+            ends = [surface.vertex_point(vertex) for vertex in (0, len(vertices) - 1)]
+            paths = [query.path(on, *ends) for on in (surface, own)]
+            self.assertEqual(paths[0].length, paths[1].length)
+            np.testing.assert_array_equal(paths[0].points, paths[1].points)
+            np.testing.assert_array_equal(paths[0].positions[[0, -1]], vertices[[0, -1]])
+            plain = geoidx.Index.build(vertices, faces)
+            self.assertEqual(kept.to_bytes(mesh=False), plain.to_bytes())
+
+    def test_a_vertex_is_a_point(self):
+        for vertex in range(len(self.mesh[0])):
+            point = self.surface.vertex_point(vertex)
+            corner = self.mesh[1][point["triangle"][0]][point["weights"][0].argmax()]
+            self.assertEqual((corner, point["weights"][0].max()), (vertex, 1))
+        with self.assertRaises(geoidx.InvalidArgumentError):
+            self.surface.vertex_point(len(self.mesh[0]))
+        with self.assertRaises(geoidx.InvalidArgumentError):
+            self.surface.vertex_point(-1)
+
     def position(self, mesh, point):
         return point["weights"] @ mesh[0][mesh[1][point["triangle"]]]
 

@@ -35,6 +35,9 @@ def ask(vertices: NDArray[np.float32], faces: NDArray[np.int64]) -> None:
             distances = query.prepared(faces)
             distances = query.prepared(2, out=np.empty((), np.float32))
             surface = geoidx.Surface(vertices, faces, weld_tolerance=0.5)
+            surface = index.surface() if index.info.has_mesh else surface
+            corner: NDArray[np.void] = surface.vertex_point(np.int64(3))
+            distance = query.point_sssd(surface, corner, corner)
             foot, height = surface.closest_point([1, 2, 3.5])
             way: geoidx.Path | None = query.path(surface, foot, foot, quality="exact")
             if way is not None:

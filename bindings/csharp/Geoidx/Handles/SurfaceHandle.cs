@@ -15,6 +15,13 @@ namespace Geoidx
             throw status.ToExceptionOfOptions();
         }
 
+        internal static SurfaceHandle Of(IndexHandle index)
+        {
+            GeodesicStatus status = NativeMethods.geoidx_surface_of_index(index, out IntPtr surface);
+            if (status == GeodesicStatus.Ok) return new SurfaceHandle(surface);
+            throw status.ToException();
+        }
+
         protected override void CloseNative() => NativeMethods.geoidx_surface_close(handle);
     }
 }

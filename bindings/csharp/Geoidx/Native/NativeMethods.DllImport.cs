@@ -177,6 +177,14 @@ namespace Geoidx
             IntPtr surface);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_surface_of_index(
+            IndexHandle index, out IntPtr surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        internal static extern GeodesicStatus geoidx_vertex_point(
+            SurfaceHandle surface, int vertex, SurfacePoint* point);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_closest_point(
             SurfaceHandle surface, double* position, SurfacePoint* point, double* distance);
 

@@ -175,6 +175,14 @@ namespace Geoidx
             IntPtr surface);
 
         [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_surface_of_index(
+            IndexHandle index, out IntPtr surface);
+
+        [LibraryImport(Library)]
+        internal static partial GeodesicStatus geoidx_vertex_point(
+            SurfaceHandle surface, int vertex, SurfacePoint* point);
+
+        [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_closest_point(
             SurfaceHandle surface, double* position, SurfacePoint* point, double* distance);
 

@@ -58,6 +58,8 @@ namespace Geoidx
         internal uint reserved;
         internal double rounding;
         internal double target_error;
+        internal uint store_mesh;
+        internal uint reserved_at_end;
     }
 
     // Borrow is never passed: it is for memory that stays in place until the index is closed, which a span is not.
@@ -84,6 +86,7 @@ namespace Geoidx
     internal enum SaveFlags
     {
         NoPositions = 1,
+        NoMesh = 2,
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -144,6 +147,8 @@ namespace Geoidx
         internal double error_far_max;
         internal double error_several_mean;
         internal double error_several_max;
+        internal uint has_mesh;
+        internal uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -45,6 +45,7 @@ namespace Geoidx
             native.exact_vertices = NotNegative(options.ExactVertices, nameof(options.ExactVertices));
             native.rounding = options.Rounding;
             native.target_error = options.TargetError;
+            native.store_mesh = options.StoreMesh ? 1u : 0u;
             native.refuse_edges_of_many = options.RefuseEdgesOfMany ? 1u : 0u;
         }
 

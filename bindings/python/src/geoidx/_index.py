@@ -24,6 +24,7 @@ from ._native import Allocator, library
 from ._options import BuildOptions, Codec, Engine, OpenOptions, SaveOptions, as_engine
 from ._query import Query
 from ._sections import Section, read_sections
+from ._surface import Surface, surface_of
 
 
 def _is_vertex(value: object) -> bool:
@@ -88,6 +89,7 @@ class Index(Closable):
         seed: int = 0,
         threads: int = 0,
         refuse_edges_of_many: bool = False,
+        store_mesh: bool = False,
         progress: Progress | None = None,
         allocator: Allocator | None = None,
     ) -> Index:
@@ -114,6 +116,8 @@ class Index(Closable):
         lloyd_iterations: relaxations of the patches' seeds.
         threads: 0: one per processor.
         refuse_edges_of_many: an edge with more than two triangles is a BadMeshError.
+        store_mesh: keeps the mesh in the index, so that its file alone is enough for `surface`: some 20 bytes a vertex
+            of float32, 30 of float64.
         progress: called on this thread with a fraction of 0 .. 1 and the name of a stage. Returning False cancels
             the build (CancelledError); what it raises stops the build and is raised here, as is KeyboardInterrupt.
 
@@ -134,6 +138,7 @@ class Index(Closable):
         struct.seed = whole_number(seed, "seed", UINT64_MAX)
         struct.threads = whole_number(threads, "threads")
         struct.refuse_edges_of_many = bool(refuse_edges_of_many)
+        struct.store_mesh = bool(store_mesh)
         if allocator:
             struct.allocator = allocator
         out = c_void_p()
@@ -224,7 +229,14 @@ class Index(Closable):
         check(status, path)
         return cls(handle)
 
-    def save(self, path: Path, *, codec: Codec | str | None = None, positions: bool | None = None) -> None:
+    def save(
+        self,
+        path: Path,
+        *,
+        codec: Codec | str | None = None,
+        positions: bool | None = None,
+        mesh: bool = True,
+    ) -> None:
         """Writes the index to a file, replacing what is there at once or, on failure (FileError), not at all.
 
         codec: "packed", the smallest file, "lossless", with a PNG of float32 for each table, or "mapped", more than
@@ -232,13 +244,16 @@ class Index(Closable):
             always lossless. Answers are the same bits.
         positions: False leaves out those of the vertices, some 3.5 bytes each; the file then opens with expected_mesh
             only. None: `info.has_positions`.
+        mesh: False leaves out the mesh that the index keeps.
         """
-        options = self._save_options(codec, positions)
+        options = self._save_options(codec, positions, mesh)
         check(library.geoidx_save(self._handle, native_path(path), options.struct), path)
 
-    def to_bytes(self, *, codec: Codec | str | None = None, positions: bool | None = None) -> bytes:
+    def to_bytes(
+        self, *, codec: Codec | str | None = None, positions: bool | None = None, mesh: bool = True
+    ) -> bytes:
         """The bytes of the file, as `save` writes it."""
-        options = self._save_options(codec, positions)
+        options = self._save_options(codec, positions, mesh)
         buffer = np.empty(self._likely_size(), np.uint8)
         needed = self._encode(options, buffer)
         if needed > buffer.size:
@@ -246,10 +261,11 @@ class Index(Closable):
             self._encode(options, buffer)
         return buffer[:needed].tobytes()
 
-    def _save_options(self, codec: Codec | str | None, positions: bool | None) -> SaveOptions:
+    def _save_options(self, codec: Codec | str | None, positions: bool | None, mesh: bool) -> SaveOptions:
         return SaveOptions(
             self.info.codec if codec is None else codec,
             self.info.has_positions if positions is None else bool(positions),
+            bool(mesh),
         )
 
     def _likely_size(self) -> int:
@@ -282,6 +298,15 @@ class Index(Closable):
     def sections(self) -> tuple[Section, ...]:
         """The sections of the file that the index was opened from, in its order; of an index that was built, none."""
         return read_sections(self._handle)
+
+    def surface(self) -> Surface:
+        """The surface of the mesh that the index keeps (`store_mesh` of `build`), which outlives the index.
+
+        It is the same as the `Surface` of the vertices and faces that the index was built from. Raises
+        InvalidArgumentError if the index keeps none, see `info.has_mesh`, and CorruptError if the mesh in the file is
+        not the one that the index was built from.
+        """
+        return surface_of(self._handle)
 
     @property
     def vertex_count(self) -> int:

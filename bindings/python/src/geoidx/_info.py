@@ -74,6 +74,8 @@ class Info:
     error_several_mean: float
     """Of MSAD from several sources."""
     error_several_max: float
+    has_mesh: bool
+    """Whether the index keeps the mesh, see `store_mesh` of `Index.build`."""
 
     @property
     def level_count(self) -> int:
@@ -88,6 +90,7 @@ def info_of(struct: _native.Info) -> Info:
         metric_unfoldable=bool(struct.metric_flags & _native.METRIC_UNFOLDABLE),
         engine=Engine(struct.engine),
         codec=Codec(struct.codec),
+        has_mesh=bool(struct.has_mesh),
         has_positions=not struct.file_flags & _native.SAVE_NO_POSITIONS,
         patch_count=tuple(struct.patch_count[: struct.level_count]),
     )

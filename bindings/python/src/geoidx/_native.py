@@ -33,6 +33,7 @@ OPEN_PAIRS = 1
 OPEN_BORROW = 2
 OPEN_NO_LABELS = 4
 SAVE_NO_POSITIONS = 1
+SAVE_NO_MESH = 2
 
 NO_SOURCE = 0xFFFFFFFF
 """What `nearest` gives for a vertex that no source reaches."""
@@ -98,6 +99,8 @@ class BuildOptions(Structure):
         ("reserved", c_uint32),
         ("rounding", c_double),
         ("target_error", c_double),
+        ("store_mesh", c_uint32),
+        ("reserved_at_end", c_uint32),
     ]
 
 
@@ -158,6 +161,8 @@ class Info(Structure):
         ("error_far_max", c_double),
         ("error_several_mean", c_double),
         ("error_several_max", c_double),
+        ("has_mesh", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -243,6 +248,8 @@ FUNCTIONS = {
     "geoidx_surface_options_init_sized": (None, [POINTER(SurfaceOptions), c_uint32]),
     "geoidx_surface_create": (c_int32, [POINTER(Mesh), POINTER(SurfaceOptions), _HANDLE_OUT]),
     "geoidx_surface_close": (None, [c_void_p]),
+    "geoidx_surface_of_index": (c_int32, [c_void_p, _HANDLE_OUT]),
+    "geoidx_vertex_point": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "geoidx_closest_point": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
     "geoidx_query_point_sssd": (
         c_int32,

@@ -95,12 +95,14 @@ class OpenOptions:
 class SaveOptions:
     """The options of saving an index."""
 
-    def __init__(self, codec: Codec | str, positions: bool) -> None:
+    def __init__(self, codec: Codec | str, positions: bool, mesh: bool) -> None:
         self.struct = _native.SaveOptions()
         library.geoidx_save_options_init_sized(byref(self.struct), sizeof(self.struct))
         self.struct.codec = as_codec(codec)
         if not positions:
             self.struct.flags |= _native.SAVE_NO_POSITIONS
+        if not mesh:
+            self.struct.flags |= _native.SAVE_NO_MESH
 
 
 _Member = TypeVar("_Member", Engine, Codec)

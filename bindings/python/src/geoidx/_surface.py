@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Doubles, address, as_array, broadcast, doubles, id_list
+from ._arrays import Doubles, Vertex, address, as_array, broadcast, doubles, id_list
+from ._arrays import vertex as as_vertex
 from ._errors import InvalidArgumentError, check
 from ._handle import Closable, Handle
 from ._mesh import MeshView
@@ -98,6 +99,12 @@ class Surface(Closable):
         """For the library's functions."""
         return self._handle
 
+    def vertex_point(self, vertex: Vertex) -> SurfacePoints:
+        """A vertex as (1,) `surface_points`: a corner of one of its triangles."""
+        point: NDArray[Any] = np.zeros(1, SURFACE_POINT)
+        check(library.geoidx_vertex_point(self._handle, as_vertex(vertex), address(point)))
+        return point
+
     def closest_point(self, position: ArrayLike) -> tuple[SurfacePoints, float]:
         """The point of the surface that is nearest to (x, y, z), as (1,) `surface_points`, and how far it is."""
         place = doubles(np.atleast_2d(as_array(position, "position")), "position", 1, 3)
@@ -105,3 +112,13 @@ class Surface(Closable):
         distance = c_double()
         check(library.geoidx_closest_point(self._handle, address(place), address(point), byref(distance)))
         return point, distance.value
+
+
+def surface_of(index: Handle) -> Surface:
+    """Of the mesh that an index keeps."""
+    out = c_void_p()
+    status = library.geoidx_surface_of_index(index, byref(out))
+    surface = Surface.__new__(Surface)
+    Closable.__init__(surface, Handle(out, library.geoidx_surface_close))
+    check(status)
+    return surface

@@ -51,6 +51,7 @@ class IssueNumber(IntEnum):
     SEGM = 110
     OVOV = 111
     HOPS = 112
+    MESH = 113
     WHOLE_INDEX = 200
 
 
