@@ -536,10 +536,20 @@ typedef struct geoidx_surface_point {
     double weights[3];
 } geoidx_surface_point;
 
+/* The options of the index that a surface is used with. Costs, which an index does not keep, are for paths by
+ * its metric: the same arrays as in geoidx_build_options. A surface can have those of edges and those of faces
+ * at once, for several indices; an index of another metric, and one of GEOIDX_METRIC_EDGES without edge costs,
+ * does not ask for them. */
 typedef struct geoidx_surface_options {
     uint32_t struct_size;
-    uint32_t reserved;     /* not read */
-    double weld_tolerance; /* of the index that it is used with, as in geoidx_build_options; default 0 */
+    uint32_t reserved;                  /* not read */
+    double weld_tolerance;              /* as in geoidx_build_options; default 0 */
+    const uint32_t* edge_cost_vertices; /* two ids an edge */
+    const double* edge_costs;
+    const double* face_costs;
+    uint64_t face_cost_count; /* the mesh's triangle_count; 0 (default): none, face_costs is not read */
+    uint32_t edge_cost_count; /* 0 (default): none, its arrays are not read */
+    uint32_t points_per_edge; /* that the index of face_costs was built with; default 12 */
 } geoidx_surface_options;
 
 GEOIDX_API void geoidx_surface_options_init_sized(geoidx_surface_options* options, uint32_t struct_size);

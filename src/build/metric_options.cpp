@@ -13,6 +13,7 @@
 #include "format/error.h"
 #include "src/metric/callback.h"
 #include "src/metric/edge_graph.h"
+#include "src/metric/given_costs.h"
 #include "src/metric/weighted_surface.h"
 #include "src/metric/window_propagation.h"
 
@@ -20,58 +21,18 @@ namespace geodesic {
 
 namespace {
 
-constexpr uint32_t MOST_POINTS_PER_EDGE = 1000;
-
 [[noreturn]] void bad_mesh(const std::string& detail) { throw Error(GEOIDX_ERROR_BAD_MESH, detail); }
-
-uint32_t vertex_of_id(const Intake& intake, uint32_t id) {
-    if (id >= intake.vertex_of_id.size()) refuse_argument("an edge cost names vertex " + std::to_string(id));
-    return intake.vertex_of_id[id];
-}
-
-std::string edge_name(uint32_t a, uint32_t b) {
-    return "the edge between vertices " + std::to_string(a) + " and " + std::to_string(b);
-}
 
 // The length of each edge or, where the caller gives a cost for it, that cost.
 std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options& options) {
     std::vector<double> costs = edge_lengths(intake.mesh);
-    if (options.edge_cost_count == 0) return costs;
-    if (!options.edge_cost_vertices || !options.edge_costs)
-        refuse_argument("edge_cost_count is set, but not its arrays");
-    std::vector<uint8_t> given(costs.size(), 0);
-    for (uint32_t i = 0; i < options.edge_cost_count; ++i) {
-        const uint32_t a = options.edge_cost_vertices[2 * size_t{i}];
-        const uint32_t b = options.edge_cost_vertices[2 * size_t{i} + 1];
-        const double cost = options.edge_costs[i];
-        if (!(cost >= 0) || !std::isfinite(cost))
-            refuse_argument(edge_name(a, b) + " has the cost " + std::to_string(cost));
-        const uint32_t from = vertex_of_id(intake, a), to = vertex_of_id(intake, b);
-        const uint32_t edge = from == NONE || to == NONE ? NONE : find_edge(intake.mesh, from, to);
-        if (edge == NONE) refuse_argument(edge_name(a, b) + " is given a cost, but is no edge of the mesh");
-        costs[edge] = given[edge] ? std::min(costs[edge], cost) : cost;
-        given[edge] = 1;
-    }
+    for (const auto& [edge, cost] : checked_edge_costs(intake, edge_costs_of(options))) costs[edge] = cost;
     return costs;
 }
 
-// The cost of each face. If several triangles are one face, the cheapest counts. The costs of dropped
-// triangles are checked, too.
 std::vector<double> face_costs(const Intake& intake, const geoidx_build_options& options) {
     if (!options.face_costs) refuse_argument("metric is GEOIDX_METRIC_WEIGHTED, but face_costs is NULL");
-    if (options.face_cost_count != intake.face_of_triangle.size())
-        refuse_argument("face_cost_count is " + std::to_string(options.face_cost_count) +
-                        ", but the mesh has " + std::to_string(intake.face_of_triangle.size()) +
-                        " triangles");
-    std::vector<double> costs(intake.mesh.face_count(), UNREACHABLE);
-    for (uint64_t t = 0; t < options.face_cost_count; ++t) {
-        const double cost = options.face_costs[t];
-        if (!(cost > 0) || !std::isfinite(cost))
-            refuse_argument("triangle " + std::to_string(t) + " has the cost " + std::to_string(cost));
-        const uint32_t face = intake.face_of_triangle[t];
-        if (face != NONE) costs[face] = std::min(costs[face], cost);
-    }
-    return costs;
+    return checked_face_costs(intake, face_costs_of(options));
 }
 
 // The sides of one of the caller's triangles, each opposite to a corner.
@@ -120,10 +81,6 @@ std::vector<double> own_lengths(const geoidx_mesh& mesh, const Intake& intake,
     return lengths;
 }
 
-uint64_t hash_of(const void* data, uint64_t size, uint64_t seed) {
-    return XXH3_64bits_withSeed(data, size, seed);
-}
-
 }
 
 IntakeOptions intake_options(const geoidx_build_options& options) {
@@ -143,9 +100,7 @@ std::unique_ptr<Metric> make_metric(const geoidx_mesh& mesh, const Intake& intak
         return std::make_unique<CallbackMetric>(options.metric_callback, options.metric_user,
                                                 intake.id_of_vertex);
     case GEOIDX_METRIC_WEIGHTED:
-        if (options.points_per_edge > MOST_POINTS_PER_EDGE)
-            refuse_argument("points_per_edge is " + std::to_string(options.points_per_edge) + ", more than " +
-                            std::to_string(MOST_POINTS_PER_EDGE));
+        check_points_per_edge(options.points_per_edge);
         return std::make_unique<WeightedMetric>(intake.mesh, face_costs(intake, options),
                                                 options.points_per_edge, own_lengths(mesh, intake, options));
     default:
@@ -161,15 +116,11 @@ uint32_t metric_flags(const geoidx_build_options& options) {
 uint64_t metric_fingerprint(const geoidx_build_options& options) {
     const bool by_surface = options.metric == GEOIDX_METRIC_EXACT || options.metric == GEOIDX_METRIC_WEIGHTED;
     uint64_t hash = 0;
-    if (options.metric == GEOIDX_METRIC_EDGES && options.edge_cost_count > 0) {
-        hash = hash_of(options.edge_cost_vertices, 2 * uint64_t{options.edge_cost_count} * sizeof(uint32_t),
-                       hash);
-        hash = hash_of(options.edge_costs, options.edge_cost_count * sizeof(double), hash);
-    }
+    if (options.metric == GEOIDX_METRIC_EDGES) hash = fingerprint(edge_costs_of(options));
     if (options.metric == GEOIDX_METRIC_WEIGHTED)
-        hash = hash_of(options.face_costs, options.face_cost_count * sizeof(double), options.points_per_edge);
+        hash = fingerprint(face_costs_of(options), options.points_per_edge);
     if (by_surface && options.edge_length_count > 0)
-        hash = hash_of(options.edge_lengths, options.edge_length_count * sizeof(double), hash);
+        hash = XXH3_64bits_withSeed(options.edge_lengths, options.edge_length_count * sizeof(double), hash);
     return hash;
 }
 

@@ -94,7 +94,8 @@ struct geoidx_solver {
 };
 
 struct geoidx_surface {
-    explicit geoidx_surface(geodesic::Intake&& intake) : surface(std::move(intake)), boxes(surface) {}
+    geoidx_surface(geodesic::Intake&& intake, geodesic::SurfaceCosts&& costs)
+        : surface(std::move(intake), std::move(costs)), boxes(surface) {}
 
     geodesic::Surface surface;
     geodesic::FaceBoxes boxes;

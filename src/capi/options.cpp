@@ -32,5 +32,7 @@ void geoidx_open_options_init_sized(geoidx_open_options* options, uint32_t struc
 }
 
 void geoidx_surface_options_init_sized(geoidx_surface_options* options, uint32_t struct_size) {
-    init_sized(options, struct_size, {});
+    geoidx_surface_options defaults{};
+    defaults.points_per_edge = 12;
+    init_sized(options, struct_size, defaults);
 }

@@ -376,7 +376,7 @@ geoidx_status geoidx_query_prepare_target(geoidx_query* query, const geoidx_surf
         require(target, "target is NULL");
         const Surface& on = surface->surface;
         const SurfacePoint to = checked_point(on, *target, "target");
-        PointQueries(query->index, query->query, on).face_point_of(to); // throws where it cannot be one
+        require_path_end(query->index, on, to, "target");
         query->walk = Walk{to};
         query->walk_vertices = on.vertex_count();
         query->walk_faces = on.face_count();

@@ -9,6 +9,7 @@
 #include "src/capi/status.h"
 #include "src/capi/structs.h"
 #include "src/file/kept_mesh.h"
+#include "src/path/costs.h"
 
 using namespace geodesic;
 
@@ -19,9 +20,10 @@ geoidx_status geoidx_surface_create(const geoidx_mesh* mesh, const geoidx_surfac
         require(out, "out is NULL");
         require(mesh, "mesh is NULL");
         const auto all_options = whole_or_default(options, geoidx_surface_options_init);
-        *out = std::make_unique<geoidx_surface>(
-                   take_in(whole(*mesh, geoidx_mesh_init), {.weld_tolerance = all_options.weld_tolerance}))
-                   .release();
+        Intake intake =
+            take_in(whole(*mesh, geoidx_mesh_init), {.weld_tolerance = all_options.weld_tolerance});
+        SurfaceCosts costs = surface_costs(intake, all_options);
+        *out = std::make_unique<geoidx_surface>(std::move(intake), std::move(costs)).release();
     });
 }
 

@@ -49,4 +49,17 @@ double straight_nearby(const Surface& surface, const SurfacePoint& a, const Surf
     return least;
 }
 
+std::optional<SurfacePoint> point_in_face(const Surface& surface, const SurfacePoint& point, uint32_t face) {
+    std::optional<SurfacePoint> found;
+    for_each_alias(surface, point, [&](const SurfacePoint& alias) {
+        if (alias.face == face) found = alias;
+    });
+    return found;
+}
+
+bool is_same_point(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    const auto found = point_in_face(surface, a, b.face);
+    return found && found->weights == b.weights;
+}
+
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "src/index/face_point.h"
@@ -51,5 +52,11 @@ void for_each_alias(const Surface& surface, const SurfacePoint& point, const Use
         return;
     }
 }
+
+// The point with the weights of a face, if it lies in that face.
+std::optional<SurfacePoint> point_in_face(const Surface& surface, const SurfacePoint& point, uint32_t face);
+
+// Whether two points are one, be it of different faces.
+bool is_same_point(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
 
 }

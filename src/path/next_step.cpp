@@ -4,21 +4,13 @@
 #include <optional>
 #include <utility>
 
+#include "geoidx.h"
 #include "src/path/nearby.h"
 #include "src/path/straighten.h"
 
 namespace geodesic {
 
 namespace {
-
-// The point with the weights of a face, if it lies in that face.
-std::optional<SurfacePoint> point_in_face(const Surface& surface, const SurfacePoint& point, uint32_t face) {
-    std::optional<SurfacePoint> found;
-    for_each_alias(surface, point, [&](const SurfacePoint& alias) {
-        if (alias.face == face) found = alias;
-    });
-    return found;
-}
 
 // Where a point lies in a strip: the last face that it is a point of.
 struct StripPlace {
@@ -44,7 +36,7 @@ bool is_between(const Eigen::Vector3d& begin, const Eigen::Vector3d& at, const E
 
 // Makes the path begin at a point of the strip, and drops the faces before it. From a point on the path the
 // path stays as it is.
-void go_on_from(const Surface& surface, const StripPlace& place, StraightPath& left) {
+void go_on_from(const Surface& surface, const StripPlace& place, StripWay& left) {
     auto& [strip, path] = left;
     const size_t passed = place.face;
     const Eigen::Vector3d end = passed < strip.portals.size()
@@ -66,7 +58,7 @@ void go_on_from(const Surface& surface, const StripPlace& place, StraightPath& l
 }
 
 // The first piece of the path that is longer than 0: several portals may lie where it begins.
-Step first_step(const Surface& surface, const StraightPath& left) {
+Step first_step(const Surface& surface, const StripWay& left) {
     const auto& [strip, path] = left;
     Step step{strip.source, strip.target, path.length};
     const Eigen::Vector3d begin = position_of(surface, strip.source);
@@ -79,37 +71,61 @@ Step first_step(const Surface& surface, const StraightPath& left) {
     return step;
 }
 
-// The step from one of the points of a path that leads over vertices to the next one.
-Step step_from(const Surface& surface, const std::vector<SurfacePoint>& points, size_t i) {
-    double distance = 0;
-    for (size_t k = i; k + 1 < points.size(); ++k)
-        distance += (position_of(surface, points[k + 1]) - position_of(surface, points[k])).norm();
-    return {points[i], point_in_face(surface, points[i + 1], points[i].face).value(), distance};
+// A point on a piece of a path, and the share of the piece that lies before it.
+struct PiecePlace {
+    SurfacePoint point; // of the face of the piece
+    size_t piece;
+    double share;
+};
+
+// Points between the ends of a piece are none of a path over vertices.
+std::optional<PiecePlace> place_on_path(const Surface& surface, const SurfacePath& path,
+                                        const SurfacePoint& point, bool is_over_vertices) {
+    for (size_t i = 0; i < path.pieces.size(); ++i) {
+        const auto at = point_in_face(surface, point, path.points[i].face);
+        if (!at) continue;
+        if (at->weights == path.points[i].weights) return PiecePlace{*at, i, 0};
+        const Eigen::Vector3d begin = position_of(surface, path.points[i]),
+                              end = position_of(surface, path.points[i + 1]), here = position_of(surface, *at);
+        if (is_over_vertices || here == end || !is_between(begin, here, end)) continue;
+        return PiecePlace{*at, i, (here - begin).norm() / (end - begin).norm()};
+    }
+    return std::nullopt;
 }
 
-// Where the metric does not unfold. The points that were passed before are left behind.
-Step step_over_vertices(const Index& index, Query& query, const Surface& surface, const SurfacePoint& from,
-                        Walk& walk) {
-    std::vector<SurfacePoint>& points = walk.points;
-    for (size_t i = 0; i + 1 < points.size(); ++i) {
-        const auto at = point_in_face(surface, from, points[i].face);
-        if (!at || at->weights != points[i].weights) continue;
-        points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(i));
-        return step_from(surface, points, 0);
+// Where a piece ends, as a point of its face.
+SurfacePoint next_in_face(const Surface& surface, const SurfacePath& path, size_t piece) {
+    return point_in_face(surface, path.points[piece + 1], path.points[piece].face).value();
+}
+
+// Steps along a path that stays as it was found. The pieces that were passed before are left behind.
+Step step_on_path(const Index& index, Query& query, const Surface& surface, const SurfacePoint& from,
+                  Walk& walk) {
+    SurfacePath& path = walk.found;
+    auto place = place_on_path(surface, path, from, index.description.metric != GEOIDX_METRIC_WEIGHTED);
+    if (!place) {
+        path = find_path(index, query, surface, from, walk.target, PathQuality::STRAIGHT);
+        place = PiecePlace{path.points.front(), 0, 0};
     }
-    points = find_path(index, query, surface, from, walk.target, PathQuality::STRAIGHT).points;
-    return step_from(surface, points, 0);
+    double distance = -place->share * path.pieces[place->piece];
+    for (size_t i = place->piece; i < path.pieces.size(); ++i) distance += path.pieces[i];
+    const Step step{place->point, next_in_face(surface, path, place->piece), distance};
+    const auto passed = static_cast<std::ptrdiff_t>(place->piece);
+    path.points.erase(path.points.begin(), path.points.begin() + passed);
+    path.pieces.erase(path.pieces.begin(), path.pieces.begin() + passed);
+    return step;
 }
 
 }
 
 Step next_step(const Index& index, Query& query, const Surface& surface, const SurfacePoint& from,
                Walk& walk) {
-    const PointQueries points(index, query, surface);
+    require_path_end(index, surface, from, "from");
     const auto target = point_in_face(surface, walk.target, from.face);
     if (target && target->weights == from.weights) return {from, from, 0};
-    if (!points.unfolds()) return step_over_vertices(index, query, surface, from, walk);
-    StraightPath left = std::exchange(walk.left, {}); // lost if memory runs out on the way
+    if (index.description.metric != GEOIDX_METRIC_EXACT)
+        return step_on_path(index, query, surface, from, walk);
+    StripWay left = std::exchange(walk.left, {}); // lost if memory runs out on the way
     if (const auto place = place_in_strip(surface, left.strip, from))
         go_on_from(surface, *place, left);
     else

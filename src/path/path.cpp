@@ -7,36 +7,21 @@
 #include "format/error.h"
 #include "geoidx.h"
 #include "src/path/corridor_path.h"
+#include "src/path/costs.h"
+#include "src/path/face_points.h"
 #include "src/path/nearby.h"
 #include "src/path/search.h"
 #include "src/path/sides.h"
 #include "src/path/straighten.h"
+#include "src/path/vertex_path.h"
+#include "src/path/weighted_path.h"
 
 namespace geodesic {
 
 namespace {
 
-[[noreturn]] void no_path() {
-    throw Error(GEOIDX_ERROR_NO_PATH, "the two points are in different components of the surface");
-}
-
 bool is_at(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
     return position_of(surface, a) == position_of(surface, b);
-}
-
-// Adds a point, but replaces one at the same place: the next piece lies in the face of the later one.
-void add_point(const Surface& surface, const SurfacePoint& point, std::vector<SurfacePoint>& points) {
-    if (!points.empty() && is_at(surface, points.back(), point)) points.pop_back();
-    points.push_back(point);
-}
-
-SurfacePath path_of_points(const Surface& surface, std::vector<SurfacePoint>&& points,
-                           const SurfacePoint& target) {
-    if (points.size() < 2) points.push_back(target);
-    double length = 0;
-    for (size_t i = 1; i < points.size(); ++i)
-        length += (position_of(surface, points[i]) - position_of(surface, points[i - 1])).norm();
-    return {std::move(points), length};
 }
 
 SurfacePath path_of_strip(const Surface& surface, const Strip& strip, const StripPath& path) {
@@ -44,23 +29,8 @@ SurfacePath path_of_strip(const Surface& surface, const Strip& strip, const Stri
     for (size_t i = 0; i < strip.portals.size(); ++i)
         add_point(surface, point_at(surface, strip.faces[i + 1], strip.portals[i], path.shares[i]), points);
     add_point(surface, strip.target, points);
-    return path_of_points(surface, std::move(points), strip.target);
-}
-
-// Each vertex as a point of a face that it shares with the next one.
-SurfacePath path_of_vertices(const Surface& surface, const SurfacePoint& source,
-                             const std::vector<uint32_t>& vertices, const SurfacePoint& target) {
-    std::vector<SurfacePoint> points{source};
-    for (size_t i = 0; i < vertices.size(); ++i) {
-        uint32_t face = target.face;
-        if (i + 1 < vertices.size())
-            face = *std::ranges::find_if(surface.vertex_faces[vertices[i]], [&](uint32_t f) {
-                return corner_of(surface, f, vertices[i + 1]) != NONE;
-            });
-        add_point(surface, point_at(surface, face, {vertices[i], vertices[i]}, 0), points);
-    }
-    add_point(surface, target, points);
-    return path_of_points(surface, std::move(points), target);
+    return path_of_points(std::move(points), strip.target,
+                          [&](const auto& all, size_t i) { return distance_to_next(surface, all, i); });
 }
 
 class PathFinder {
@@ -71,7 +41,7 @@ public:
           target_(target) {}
 
     SurfacePath find(PathQuality quality);
-    StraightPath find_straight();
+    StripWay find_straight();
 
 private:
     double distance(size_t end, uint32_t vertex) {
@@ -81,7 +51,7 @@ private:
     TargetDistances distances_from(size_t end) {
         return {[this, end](uint32_t vertex) { return distance(end, vertex); }, {}};
     }
-    std::optional<StraightPath> led_by(size_t end);
+    std::optional<StripWay> led_by(size_t end);
     double least_distance(double distance) const;
     bool belongs(uint32_t vertex, double slack, double length);
 
@@ -105,18 +75,18 @@ bool PathFinder::belongs(uint32_t vertex, double slack, double length) {
 }
 
 // Led by the distances from one end, from the other one on.
-std::optional<StraightPath> PathFinder::led_by(size_t end) {
+std::optional<StripWay> PathFinder::led_by(size_t end) {
     const TargetDistances distances = distances_from(end);
     auto strip = end == 1 ? search_strip(surface_, source_, target_, distances)
                           : search_strip(surface_, target_, source_, distances);
     if (!strip) return std::nullopt;
     if (end == 0) turn_back(*strip);
     StripPath path = straighten(surface_, *strip);
-    return StraightPath{std::move(*strip), std::move(path)};
+    return StripWay{std::move(*strip), std::move(path)};
 }
 
 // The errors of the two fields may lead to different ways around a bump.
-StraightPath PathFinder::find_straight() {
+StripWay PathFinder::find_straight() {
     constexpr double SAME = 1e-9; // lengths of one way, as a share
     query_.prepare_end(1, points_.face_point_of(target_));
     query_.prepare_end(0, points_.face_point_of(source_));
@@ -132,14 +102,7 @@ StraightPath PathFinder::find_straight() {
 
 SurfacePath PathFinder::find(PathQuality quality) {
     if (is_at(surface_, source_, target_) && points_.sssd(source_, target_) == 0)
-        return path_of_points(surface_, {source_}, target_);
-    if (!points_.unfolds()) {
-        query_.prepare_end(1, points_.face_point_of(target_));
-        const TargetDistances distances = distances_from(1);
-        const auto vertices = search_edges(surface_, source_, target_, distances);
-        if (!vertices) no_path();
-        return path_of_vertices(surface_, source_, *vertices, target_);
-    }
+        return path_of_strip(surface_, {source_, target_, {source_.face}, {}}, {});
     auto [strip, path] = find_straight();
     if (quality == PathQuality::EXACT && strip.faces.size() > 1) {
         const Corridor corridor =
@@ -153,12 +116,34 @@ SurfacePath PathFinder::find(PathQuality quality) {
 
 }
 
-SurfacePath find_path(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
-                      const SurfacePoint& target, PathQuality quality) {
-    return PathFinder(index, query, surface, source, target).find(quality);
+void require_path_end(const Index& index, const Surface& surface, const SurfacePoint& point,
+                      const char* name) {
+    const Description& about = index.description;
+    require_same_mesh(index, surface);
+    if (about.metric == GEOIDX_METRIC_EXACT && about.metric_fingerprint != 0)
+        refuse_argument("the index was built with edge_lengths, which do not say how triangles lie: there are "
+                        "no paths");
+    if (about.metric == GEOIDX_METRIC_WEIGHTED) require_face_costs(index, surface);
+    if (about.metric == GEOIDX_METRIC_EDGES || about.metric == GEOIDX_METRIC_CALLBACK)
+        require_vertex_path_end(index, surface, point, name);
+    face_point_on(index, surface, point, false); // throws where the index has no such point
 }
 
-StraightPath find_straight_path(const Index& index, Query& query, const Surface& surface,
+SurfacePath find_path(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
+                      const SurfacePoint& target, PathQuality quality) {
+    require_path_end(index, surface, source, "source");
+    require_path_end(index, surface, target, "target");
+    switch (index.description.metric) {
+    case GEOIDX_METRIC_EXACT:
+        return PathFinder(index, query, surface, source, target).find(quality);
+    case GEOIDX_METRIC_WEIGHTED:
+        return find_weighted_path(index, query, surface, source, target, quality);
+    default:
+        return find_vertex_path(index, query, surface, source, target);
+    }
+}
+
+StripWay find_straight_path(const Index& index, Query& query, const Surface& surface,
                                 const SurfacePoint& source, const SurfacePoint& target) {
     return PathFinder(index, query, surface, source, target).find_straight();
 }

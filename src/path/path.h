@@ -1,32 +1,25 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "src/path/point_queries.h"
 #include "src/path/strip.h"
+#include "src/path/surface_path.h"
 
 namespace geodesic {
 
-// A path over a surface: the piece from each point to the next lies in the face of the first of them.
-struct SurfacePath {
-    std::vector<SurfacePoint> points;
-    double length = 0;
-};
+// Throws an Error where no path by the metric of the index can end at a point of the surface: MESH_MISMATCH
+// where it is of another mesh, INVALID_ARGUMENT, with the point's name, where the surface lacks costs that
+// the metric needs, where that has lengths of edges, which do not say how triangles lie, or where paths end
+// at vertices only and the point is none.
+void require_path_end(const Index& index, const Surface& surface, const SurfacePoint& point,
+                      const char* name);
 
-enum class PathQuality { STRAIGHT, EXACT };
-
-// Finds a path between two points of a surface, led by the distances of an index. Throws Error NO_PATH where
-// there is none.
+// Finds a path between two points of a surface, led by the distances of an index. Throws Error as
+// require_path_end does, and NO_PATH where there is none.
 SurfacePath find_path(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
                       const SurfacePoint& target, PathQuality quality);
 
-// A path of STRAIGHT quality as its strip, for metrics that unfold.
-struct StraightPath {
-    Strip strip;
-    StripPath path;
-};
-StraightPath find_straight_path(const Index& index, Query& query, const Surface& surface,
+// A path of STRAIGHT quality by the exact metric, with its strip. Throws Error as find_path does.
+StripWay find_straight_path(const Index& index, Query& query, const Surface& surface,
                                 const SurfacePoint& source, const SurfacePoint& target);
 
 }

@@ -11,10 +11,8 @@ namespace geodesic {
 
 PointQueries::PointQueries(const Index& index, Query& query, const Surface& surface)
     : index_(index), query_(query), surface_(surface) {
+    require_same_mesh(index, surface);
     const Description& about = index.description;
-    if (about.mesh_fingerprint != surface.fingerprint || about.id_count != surface.vertex_of_id.size() ||
-        about.triangle_count != surface.face_of_triangle.size())
-        throw Error(GEOIDX_ERROR_MESH_MISMATCH, "the surface is of another mesh than the index");
     const bool is_known = about.metric == GEOIDX_METRIC_EXACT || about.metric == GEOIDX_METRIC_EDGES;
     if (!is_known || about.metric_fingerprint != 0)
         refuse_argument("the metric of the index does not tell what a way within a triangle costs");
@@ -23,17 +21,7 @@ PointQueries::PointQueries(const Index& index, Query& query, const Surface& surf
 bool PointQueries::unfolds() const { return index_.description.metric == GEOIDX_METRIC_EXACT; }
 
 FacePoint PointQueries::face_point_of(const SurfacePoint& point) const {
-    const auto& corners = surface_.faces[point.face];
-    std::array<uint32_t, 3> numbers;
-    std::array<double, 3> lengths;
-    for (size_t k = 0; k < 3; ++k) {
-        numbers[k] = number_of(corners[k]);
-        lengths[k] =
-            (surface_.positions[corners[(k + 1) % 3]] - surface_.positions[corners[(k + 2) % 3]]).norm();
-    }
-    if (std::ranges::find(numbers, NONE) != numbers.end())
-        refuse_argument("the surface has a triangle that the index does not: they differ in weld_tolerance");
-    return face_point(numbers, lengths, point.weights, unfolds());
+    return face_point_on(index_, surface_, point, unfolds());
 }
 
 // The distance of two points, by what the index says of it. No way is shorter than the straight line in

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "src/path/face_points.h"
 #include "src/path/surface.h"
 #include "src/query/query.h"
 
@@ -30,7 +31,7 @@ public:
 
     // The point as the query takes it.
     FacePoint face_point_of(const SurfacePoint& point) const;
-    uint32_t number_of(uint32_t vertex) const { return index_.number_of_id[surface_.id_of_vertex[vertex]]; }
+    uint32_t number_of(uint32_t vertex) const { return geodesic::number_of(index_, surface_, vertex); }
     bool unfolds() const;
 
 private:

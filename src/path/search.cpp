@@ -2,40 +2,18 @@
 
 #include <algorithm>
 #include <memory_resource>
-#include <queue>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "src/path/edge_crossing.h"
 #include "src/path/nearby.h"
+#include "src/path/open_nodes.h"
 
 namespace geodesic {
 
 namespace {
 
 using Eigen::Vector3d;
-
-// What a search has open, by what is expected in all.
-template <class Node>
-class Open {
-public:
-    void push(double expected, Node&& node) {
-        queue_.push({expected, static_cast<uint32_t>(nodes_.size())});
-        nodes_.push_back(std::move(node));
-    }
-    bool empty() const { return queue_.empty(); }
-    uint32_t pop() {
-        const uint32_t node = queue_.top().second;
-        queue_.pop();
-        return node;
-    }
-    const Node& operator[](uint32_t i) const { return nodes_[i]; }
-
-private:
-    using Entry = std::pair<double, uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
-    std::vector<Node> nodes_;
-};
 
 class FaceSearch {
 public:
@@ -74,7 +52,7 @@ private:
     std::vector<SurfacePoint> sources_;
     std::pmr::monotonic_buffer_resource memory_{1 << 14};
     std::pmr::unordered_map<uint32_t, SurfacePoint> targets_{&memory_}; // by face
-    Open<Node> open_;
+    OpenNodes<Node> open_;
     std::pmr::unordered_map<uint32_t, double> rest_{&memory_}; // distances that have been asked for
     std::pmr::unordered_set<uint32_t> closed_faces_{&memory_}, closed_vertices_{&memory_};
 };
@@ -165,6 +143,77 @@ Strip FaceSearch::strip_to(uint32_t index) const {
     return strip;
 }
 
+class EdgeSearch {
+public:
+    EdgeSearch(const Surface& surface, std::span<const VertexEnd> targets,
+               const std::function<double(uint32_t)>& distance_to_target,
+               const std::function<double(uint32_t, uint32_t)>& edge_length)
+        : surface_(surface), targets_(targets), distance_to_target_(distance_to_target),
+          edge_length_(edge_length) {}
+
+    std::optional<std::vector<uint32_t>> run(std::span<const VertexEnd> sources);
+
+private:
+    struct Node {
+        uint32_t vertex; // NONE: the target
+        double length;
+        uint32_t before;
+    };
+
+    void reach(uint32_t vertex, double length, uint32_t before);
+    void leave(uint32_t index);
+    std::vector<uint32_t> vertices_to(uint32_t index) const;
+
+    const Surface& surface_;
+    std::span<const VertexEnd> targets_;
+    const std::function<double(uint32_t)>& distance_to_target_;
+    const std::function<double(uint32_t, uint32_t)>& edge_length_;
+    OpenNodes<Node> open_;
+    std::unordered_set<uint32_t> closed_;
+    std::vector<uint32_t> neighbours_;
+};
+
+void EdgeSearch::reach(uint32_t vertex, double length, uint32_t before) {
+    const double rest = length < UNREACHABLE ? distance_to_target_(vertex) : UNREACHABLE;
+    if (rest < UNREACHABLE) open_.push(length + rest, {vertex, length, before});
+}
+
+void EdgeSearch::leave(uint32_t index) {
+    const Node node = open_[index];
+    const auto target = std::ranges::find(targets_, node.vertex, &VertexEnd::vertex);
+    if (target != targets_.end()) {
+        const double length = node.length + target->distance;
+        open_.push(length, {NONE, length, index});
+    }
+    neighbours_.clear();
+    for (const uint32_t face : surface_.vertex_faces[node.vertex])
+        for (const uint32_t other : surface_.faces[face])
+            if (other != node.vertex && !closed_.contains(other)) neighbours_.push_back(other);
+    std::ranges::sort(neighbours_);
+    const auto repeated = std::ranges::unique(neighbours_);
+    neighbours_.erase(repeated.begin(), repeated.end());
+    for (const uint32_t other : neighbours_)
+        reach(other, node.length + edge_length_(node.vertex, other), index);
+}
+
+std::vector<uint32_t> EdgeSearch::vertices_to(uint32_t index) const {
+    std::vector<uint32_t> vertices;
+    for (uint32_t i = open_[index].before; i != NONE; i = open_[i].before)
+        vertices.push_back(open_[i].vertex);
+    std::ranges::reverse(vertices);
+    return vertices;
+}
+
+std::optional<std::vector<uint32_t>> EdgeSearch::run(std::span<const VertexEnd> sources) {
+    for (const auto& [vertex, distance] : sources) reach(vertex, distance, NONE);
+    while (!open_.empty()) {
+        const uint32_t index = open_.pop();
+        if (open_[index].vertex == NONE) return vertices_to(index);
+        if (closed_.insert(open_[index].vertex).second) leave(index);
+    }
+    return std::nullopt;
+}
+
 }
 
 std::optional<Strip> search_strip(const Surface& surface, const SurfacePoint& source,
@@ -172,42 +221,11 @@ std::optional<Strip> search_strip(const Surface& surface, const SurfacePoint& so
     return FaceSearch(surface, source, target, distances).run();
 }
 
-std::optional<std::vector<uint32_t>> search_edges(const Surface& surface, const SurfacePoint& source,
-                                                  const SurfacePoint& target,
-                                                  const TargetDistances& distances) {
-    struct Node {
-        uint32_t vertex; // NONE: the target
-        double length;
-        uint32_t before;
-    };
-    Open<Node> open;
-    const Vector3d from = position_of(surface, source), to = position_of(surface, target);
-    const auto reach = [&](uint32_t vertex, double length, uint32_t before) {
-        const double rest = distances.at_vertex(vertex);
-        if (rest < UNREACHABLE) open.push(length + rest, {vertex, length, before});
-    };
-    for (const uint32_t corner : surface.faces[source.face])
-        reach(corner, (surface.positions[corner] - from).norm(), NONE);
-    std::unordered_map<uint32_t, bool> closed;
-    while (!open.empty()) {
-        const uint32_t index = open.pop();
-        const Node node = open[index];
-        if (node.vertex == NONE) {
-            std::vector<uint32_t> vertices;
-            for (uint32_t i = node.before; i != NONE; i = open[i].before) vertices.push_back(open[i].vertex);
-            std::ranges::reverse(vertices);
-            return vertices;
-        }
-        if (!closed.try_emplace(node.vertex, true).second) continue;
-        const Vector3d at = surface.positions[node.vertex];
-        if (corner_of(surface, target.face, node.vertex) != NONE)
-            open.push(node.length + (to - at).norm(), {NONE, node.length + (to - at).norm(), index});
-        for (const uint32_t face : surface.vertex_faces[node.vertex])
-            for (const uint32_t other : surface.faces[face])
-                if (other != node.vertex && !closed.contains(other))
-                    reach(other, node.length + (surface.positions[other] - at).norm(), index);
-    }
-    return std::nullopt;
+std::optional<std::vector<uint32_t>>
+search_edges(const Surface& surface, std::span<const VertexEnd> sources, std::span<const VertexEnd> targets,
+             const std::function<double(uint32_t)>& distance_to_target,
+             const std::function<double(uint32_t, uint32_t)>& edge_length) {
+    return EdgeSearch(surface, targets, distance_to_target, edge_length).run(sources);
 }
 
 }

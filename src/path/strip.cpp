@@ -42,8 +42,8 @@ double length_of(const Surface& surface, const Strip& strip, const std::vector<d
     return length + (position_of(surface, strip.target) - last).norm();
 }
 
-Strip with_part(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces, Replaced portals,
-                const std::vector<Portal>& new_portals) {
+Strip with_replaced(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces,
+                    Replaced portals, const std::vector<Portal>& new_portals) {
     Strip whole{strip.source, strip.target, {}, {}};
     const auto join = [](auto& all, const auto& old, Replaced part, const auto& own) {
         all.assign(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(part.first));
@@ -52,6 +52,12 @@ Strip with_part(const Strip& strip, Replaced faces, const std::vector<uint32_t>&
     };
     join(whole.faces, strip.faces, faces, new_faces);
     join(whole.portals, strip.portals, portals, new_portals);
+    return whole;
+}
+
+Strip with_part(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces, Replaced portals,
+                const std::vector<Portal>& new_portals) {
+    Strip whole = with_replaced(strip, faces, new_faces, portals, new_portals);
     drop_returns(whole);
     return whole;
 }

@@ -24,11 +24,16 @@ struct Strip {
     std::vector<Portal> portals;
 };
 
-// A path in a strip: shares[i] tells where it passes portal i, from 0 at `a` to 1 at `b`. It bends only where
-// a share is 0 or 1.
+// A path in a strip: shares[i] tells where it passes portal i, from 0 at `a` to 1 at `b`. By the exact metric
+// it bends only where a share is 0 or 1.
 struct StripPath {
     std::vector<double> shares;
     double length = 0;
+};
+
+struct StripWay {
+    Strip strip;
+    StripPath path;
 };
 
 Eigen::Vector3d position_at(const Surface& surface, const Portal& portal, double share);
@@ -47,10 +52,12 @@ Eigen::Vector3d position_after(const Surface& surface, const Strip& strip, const
 double length_of(const Surface& surface, const Strip& strip, const std::vector<double>& shares);
 
 // A strip with other faces and portals in the place of some of its own, given as positions from the first one
-// up to, but without, the last one.
+// up to, but without, the last one. with_part() also drops returns.
 struct Replaced {
     size_t first, last;
 };
+Strip with_replaced(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces,
+                    Replaced portals, const std::vector<Portal>& new_portals);
 Strip with_part(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces, Replaced portals,
                 const std::vector<Portal>& new_portals);
 

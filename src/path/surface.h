@@ -13,10 +13,18 @@
 
 namespace geodesic {
 
+// What a surface knows of costs; empty where none are given.
+struct SurfaceCosts {
+    std::vector<double> of_face;                  // per face: what a unit of length costs
+    std::unordered_map<uint64_t, double> of_edge; // of some edges, by edge_key() of the two vertices
+    uint64_t face_fingerprint = 0, edge_fingerprint = 0; // as an index has them; 0 where there are none
+    uint32_t points_per_edge = 0;                        // of the metric of `of_face`
+};
+
 // A clean mesh as paths need it: positions, faces, and the faces around each vertex. Faces that share an edge
 // are found around one of its ends, however many there are.
 struct Surface {
-    explicit Surface(Intake&& intake);
+    explicit Surface(Intake&& intake, SurfaceCosts&& costs = {});
 
     std::vector<Eigen::Vector3d> positions;
     std::vector<std::array<uint32_t, 3>> faces;
@@ -28,6 +36,7 @@ struct Surface {
     std::unordered_map<uint32_t, std::array<uint32_t, 3>> corners_of_duplicate; // as in Intake
     uint64_t fingerprint = 0;
     double bounding_box_diagonal = 0, average_edge = 0;
+    SurfaceCosts costs;
 
     uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size()); }
     uint32_t face_count() const { return static_cast<uint32_t>(faces.size()); }

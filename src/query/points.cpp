@@ -106,14 +106,19 @@ void Query::nearest_sources_by_fields(const PointSources& sources) {
     }
 }
 
+// A vertex needs no distances within its faces, which metrics of edges do not know.
 void Query::prepare_end(size_t end, const FacePoint& point) {
     end_fields_[end].clear();
-    if (takes(point)) {
-        std::get<OverlayQuery>(engine_).prepare_end(end, point);
+    const bool is_vertex = point.vertex != NONE;
+    if (auto* const overlay = std::get_if<OverlayQuery>(&engine_); overlay && (is_vertex || takes(point))) {
+        overlay->prepare_end(end, point);
         return;
     }
     point_field_.assign(index_.numbering().vertex_count(), INFINITE);
-    add_point_field(point, 0);
+    if (is_vertex)
+        std::visit([&](auto& engine) { engine.msad({&point.vertex, 1}, INFINITE, point_field_); }, engine_);
+    else
+        add_point_field(point, 0);
     end_fields_[end].assign(point_field_.begin(), point_field_.end());
 }
 

@@ -4,67 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/capi/refusals.h"
-#include "tests/path/path_cases.h"
+#include "tests/path/walks.h"
 
 using namespace geodesic::test;
 
 namespace {
-
-constexpr double CLOSE = 1e-9;
-
-struct Step {
-    std::array<geoidx_path_point, 2> points;
-    double distance = -1;
-};
-
-Step step_from(const PathCase& on, const geoidx_surface_point& from) {
-    Step step;
-    require_success(
-        geoidx_query_next_step(on.query.get(), on.surface.get(), &from, step.points.data(), &step.distance));
-    return step;
-}
-
-void prepare(const PathCase& on, const geoidx_surface_point& target) {
-    require_success(geoidx_query_prepare_target(on.query.get(), on.surface.get(), &target));
-}
-
-// That it lies on one triangle, from where it was asked for.
-double check_step(const PathCase& on, const geoidx_surface_point& from, const Step& step) {
-    CHECK(step.points[0].point.triangle == step.points[1].point.triangle);
-    CHECK((on.position(from) - on.position(step.points[0].point)).norm() < CLOSE);
-    for (const auto& [point, position] : step.points) {
-        double weights = 0;
-        for (const double weight : point.weights) {
-            CHECK(weight >= 0);
-            weights += weight;
-        }
-        CHECK(weights == doctest::Approx(1).epsilon(1e-12));
-        CHECK((on.position(point) - Eigen::Vector3d(position[0], position[1], position[2])).norm() < CLOSE);
-    }
-    return (on.position(step.points[1].point) - on.position(step.points[0].point)).norm();
-}
-
-// The length of the whole way. Where `share` is less than 1, whoever walks asks again before the end of each
-// step.
-double walk(const PathCase& on, geoidx_surface_point from, const geoidx_surface_point& target,
-            double share = 1) {
-    prepare(on, target);
-    const size_t most = static_cast<size_t>(static_cast<double>(200 + 20 * on.soup.triangles.size()) / share);
-    double length = 0;
-    for (size_t steps = 0;; ++steps) {
-        REQUIRE(steps < most);
-        const Step step = step_from(on, from);
-        length += check_step(on, from, step) * (share < 1 && steps % 3 != 2 ? share : 1);
-        if (step.distance == 0) break;
-        from = step.points[1].point;
-        if (share < 1 && steps % 3 != 2)
-            for (size_t k = 0; k < 3; ++k)
-                from.weights[k] = (1 - share) * step.points[0].point.weights[k] + share * from.weights[k];
-    }
-    CHECK((on.position(from) - on.position(target)).norm() < CLOSE);
-    return length;
-}
 
 // Whoever follows the steps goes along the straight path, or a shorter one; whoever asks again within
 // triangles, too.
@@ -92,13 +36,6 @@ void check_walks(const PathCase& on, size_t count) {
             CHECK(length <= straight * (1 + 1e-9) + CLOSE);
         }
     }
-}
-
-geoidx_surface_point corner(uint32_t triangle, size_t k) {
-    geoidx_surface_point point{};
-    point.triangle = triangle;
-    point.weights[k] = 1;
-    return point;
 }
 
 }

@@ -23,6 +23,19 @@ inline geoidx_build_options path_options(uint32_t engine = GEOIDX_ENGINE_OVERLAY
     return options;
 }
 
+// With the same costs, which must outlive both.
+inline geoidx_surface_options surface_options(const geoidx_build_options& build) {
+    geoidx_surface_options options;
+    geoidx_surface_options_init(&options);
+    options.edge_cost_count = build.edge_cost_count;
+    options.edge_cost_vertices = build.edge_cost_vertices;
+    options.edge_costs = build.edge_costs;
+    options.face_costs = build.face_costs;
+    options.face_cost_count = build.face_cost_count;
+    options.points_per_edge = build.points_per_edge;
+    return options;
+}
+
 struct PathCase {
     explicit PathCase(Soup given, const geoidx_build_options& options = path_options())
         : soup(std::move(given)) {
@@ -35,7 +48,8 @@ struct PathCase {
         index.reset(new_index);
         REQUIRE(geoidx_query_create(new_index, &new_query) == GEOIDX_OK);
         query.reset(new_query);
-        REQUIRE(geoidx_surface_create(&view, nullptr, &new_surface) == GEOIDX_OK);
+        const geoidx_surface_options of_surface = surface_options(options);
+        REQUIRE(geoidx_surface_create(&view, &of_surface, &new_surface) == GEOIDX_OK);
         surface.reset(new_surface);
         REQUIRE(geoidx_solver_create(&view, &options, &new_solver) == GEOIDX_OK);
         solver.reset(new_solver);

@@ -4,77 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/QR>
-
 #include "tests/capi/refusals.h"
-#include "tests/path/path_cases.h"
+#include "tests/path/path_checks.h"
 
 using namespace geodesic::test;
-using Eigen::Vector3d;
 
 namespace {
-
-std::vector<geoidx_path_point> points_of(const PathCase& on) {
-    uint64_t count = 0;
-    REQUIRE(geoidx_query_path_points(on.query.get(), nullptr, 0, &count) == GEOIDX_OK);
-    std::vector<geoidx_path_point> points(count);
-    REQUIRE(geoidx_query_path_points(on.query.get(), points.data(), count, &count) == GEOIDX_OK);
-    return points;
-}
-
-// How far a position is from the plane of a triangle's inside, by weights of its own.
-double distance_from_triangle(const Soup& soup, uint32_t triangle, const Vector3d& at) {
-    const auto& [a, b, c] = soup.triangles[triangle];
-    Eigen::Matrix<double, 3, 2> sides;
-    sides << soup.positions[b] - soup.positions[a], soup.positions[c] - soup.positions[a];
-    Eigen::Vector2d w = sides.colPivHouseholderQr().solve(at - soup.positions[a]);
-    w = w.cwiseMax(0);
-    if (w.sum() > 1) w /= w.sum();
-    return (soup.positions[a] + sides * w - at).norm();
-}
-
-// That it leads over triangles from one point to the other and is as long as it says.
-void check_path(const PathCase& on, const geoidx_surface_point& from, const geoidx_surface_point& to,
-                double length) {
-    const auto points = points_of(on);
-    REQUIRE(points.size() >= 2);
-    const auto at = [&](size_t i) {
-        return Vector3d(points[i].position[0], points[i].position[1], points[i].position[2]);
-    };
-    constexpr double CLOSE = 1e-9;
-    CHECK((at(0) - on.position(from)).norm() < CLOSE);
-    CHECK((at(points.size() - 1) - on.position(to)).norm() < CLOSE);
-    double sum = 0;
-    for (size_t i = 0; i < points.size(); ++i) {
-        REQUIRE(points[i].point.triangle < on.soup.triangles.size());
-        double weights = 0;
-        for (const double weight : points[i].point.weights) {
-            CHECK(weight >= 0);
-            weights += weight;
-        }
-        CHECK(weights == doctest::Approx(1).epsilon(1e-12));
-        CHECK((on.position(points[i].point) - at(i)).norm() < CLOSE);
-        if (i + 1 == points.size()) break;
-        CHECK(distance_from_triangle(on.soup, points[i].point.triangle, at(i + 1)) < 1e-8);
-        sum += (at(i + 1) - at(i)).norm();
-    }
-    CHECK(sum == doctest::Approx(length).epsilon(1e-12));
-}
-
-double path_length(const PathCase& on, const geoidx_surface_point& from, const geoidx_surface_point& to,
-                   uint32_t quality) {
-    double length = -1;
-    require_success(geoidx_query_path(on.query.get(), on.surface.get(), &from, &to, quality, &length));
-    check_path(on, from, to, length);
-    return length;
-}
-
-geoidx_surface_point corner(uint32_t triangle, size_t k) {
-    geoidx_surface_point point{};
-    point.triangle = triangle;
-    point.weights[k] = 1;
-    return point;
-}
 
 void check_paths(const PathCase& on, size_t count) {
     std::mt19937_64 random(3);

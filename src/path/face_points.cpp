@@ -1,0 +1,37 @@
+#include "src/path/face_points.h"
+
+#include <algorithm>
+
+#include "format/error.h"
+#include "geoidx.h"
+
+namespace geodesic {
+
+void require_same_mesh(const Index& index, const Surface& surface) {
+    const Description& about = index.description;
+    if (about.mesh_fingerprint != surface.fingerprint || about.id_count != surface.vertex_of_id.size() ||
+        about.triangle_count != surface.face_of_triangle.size())
+        throw Error(GEOIDX_ERROR_MESH_MISMATCH, "the surface is of another mesh than the index");
+}
+
+uint32_t vertex_at(const Surface& surface, const SurfacePoint& point) {
+    const auto corner = std::ranges::find(point.weights, 1.0);
+    return corner == point.weights.end() ? NONE : surface.faces[point.face][corner - point.weights.begin()];
+}
+
+FacePoint face_point_on(const Index& index, const Surface& surface, const SurfacePoint& point, bool unfolds,
+                        double cost) {
+    const auto& corners = surface.faces[point.face];
+    std::array<uint32_t, 3> numbers;
+    std::array<double, 3> lengths;
+    for (size_t k = 0; k < 3; ++k) {
+        numbers[k] = number_of(index, surface, corners[k]);
+        lengths[k] = cost * (surface.positions[corners[(k + 1) % 3]] -
+                             surface.positions[corners[(k + 2) % 3]]).norm();
+    }
+    if (std::ranges::find(numbers, NONE) != numbers.end())
+        refuse_argument("the surface has a triangle that the index does not: they differ in weld_tolerance");
+    return face_point(numbers, lengths, point.weights, unfolds);
+}
+
+}

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "src/index/face_point.h"
+#include "src/path/surface.h"
+#include "src/query/index.h"
+
+namespace geodesic {
+
+// Throws Error MESH_MISMATCH where the surface is of another mesh than the index.
+void require_same_mesh(const Index& index, const Surface& surface);
+
+// The number that the index has for a vertex, or NONE.
+inline uint32_t number_of(const Index& index, const Surface& surface, uint32_t vertex) {
+    return index.number_of_id[surface.id_of_vertex[vertex]];
+}
+
+// The vertex that a point is at, or NONE.
+uint32_t vertex_at(const Surface& surface, const SurfacePoint& point);
+
+// The point as queries take it; `unfolds` as in FacePoint. Lengths in the face count `cost` times. Throws
+// Error INVALID_ARGUMENT where the index does not have all corners of the face.
+FacePoint face_point_on(const Index& index, const Surface& surface, const SurfacePoint& point, bool unfolds,
+                        double cost = 1);
+
+}

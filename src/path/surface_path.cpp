@@ -1,0 +1,34 @@
+#include "src/path/surface_path.h"
+
+#include "format/error.h"
+#include "geoidx.h"
+
+namespace geodesic {
+
+void no_path() {
+    throw Error(GEOIDX_ERROR_NO_PATH, "the two points are in different components of the surface");
+}
+
+void add_point(const Surface& surface, const SurfacePoint& point, std::vector<SurfacePoint>& points) {
+    if (!points.empty() && position_of(surface, points.back()) == position_of(surface, point))
+        points.pop_back();
+    points.push_back(point);
+}
+
+SurfacePath
+path_of_points(std::vector<SurfacePoint>&& points, const SurfacePoint& target,
+               const std::function<double(const std::vector<SurfacePoint>&, size_t)>& length_of_piece) {
+    SurfacePath path{std::move(points), {}, 0};
+    if (path.points.size() < 2) path.points.push_back(target);
+    for (size_t i = 0; i + 1 < path.points.size(); ++i) {
+        path.pieces.push_back(length_of_piece(path.points, i));
+        path.length += path.pieces.back();
+    }
+    return path;
+}
+
+double distance_to_next(const Surface& surface, const std::vector<SurfacePoint>& points, size_t i) {
+    return (position_of(surface, points[i + 1]) - position_of(surface, points[i])).norm();
+}
+
+}

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "src/path/surface.h"
+
+namespace geodesic {
+
+// A path over a surface: the piece from each point to the next lies in the face of the first of them.
+struct SurfacePath {
+    std::vector<SurfacePoint> points;
+    std::vector<double> pieces; // how long each is, as the metric has it
+    double length = 0;          // their sum
+};
+
+enum class PathQuality { STRAIGHT, EXACT };
+
+// Throws Error NO_PATH.
+[[noreturn]] void no_path();
+
+// Adds a point, but replaces one at the same place: the next piece lies in the face of the later one.
+void add_point(const Surface& surface, const SurfacePoint& point, std::vector<SurfacePoint>& points);
+
+// The path over these points, of which there may be only the target. length_of_piece(i) is that from point i
+// to the next one.
+SurfacePath path_of_points(std::vector<SurfacePoint>&& points, const SurfacePoint& target,
+                           const std::function<double(const std::vector<SurfacePoint>&, size_t)>& length_of_piece);
+
+// How far two consecutive points are apart in space.
+double distance_to_next(const Surface& surface, const std::vector<SurfacePoint>& points, size_t i);
+
+}

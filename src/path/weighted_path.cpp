@@ -1,0 +1,147 @@
+#include "src/path/weighted_path.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "src/path/costs.h"
+#include "src/path/detours.h"
+#include "src/path/face_points.h"
+#include "src/path/nearby.h"
+#include "src/path/slide.h"
+#include "src/path/weighted_search.h"
+
+namespace geodesic {
+
+namespace {
+
+class WeightedPathFinder {
+public:
+    WeightedPathFinder(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
+                       const SurfacePoint& target)
+        : index_(index), query_(query), surface_(surface), source_(source), target_(target) {}
+
+    SurfacePath find(PathQuality quality);
+
+private:
+    double cost(uint32_t face) const { return surface_.costs.of_face[face]; }
+    double distance(size_t end, uint32_t vertex);
+    FacePoint end_at(const SurfacePoint& point) const;
+    std::optional<StripWay> led_by(size_t end);
+    void take_if_shorter(std::optional<StripWay>&& other);
+    double limit() const;
+    SurfacePath path() const;
+    SurfacePoint in_cheapest_face(const SurfacePoint& from, const SurfacePoint& to) const;
+
+    const Index& index_;
+    Query& query_;
+    const Surface& surface_;
+    const SurfacePoint source_, target_;
+    StripWay best_;
+};
+
+double WeightedPathFinder::distance(size_t end, uint32_t vertex) {
+    const uint32_t number = number_of(index_, surface_, vertex);
+    return number == NONE ? UNREACHABLE : double{query_.end_distance(end, number)};
+}
+
+// The point in the cheapest face that it lies in: from there a way leads over a corner.
+FacePoint WeightedPathFinder::end_at(const SurfacePoint& point) const {
+    SurfacePoint cheapest = point;
+    for_each_alias(surface_, point, [&](const SurfacePoint& alias) {
+        if (cost(alias.face) < cost(cheapest.face)) cheapest = alias;
+    });
+    return face_point_on(index_, surface_, cheapest, false, cost(cheapest.face));
+}
+
+// Led by the distances from one end, from the other one on.
+std::optional<StripWay> WeightedPathFinder::led_by(size_t end) {
+    constexpr uint32_t POINTS = 3; // of an edge: enough to find the faces of the way
+    const auto rest = [this, end](uint32_t vertex) { return distance(end, vertex); };
+    auto way = search_weighted(surface_, end == 1
+                                             ? WeightedSearchRequest{source_, target_, rest, POINTS}
+                                             : WeightedSearchRequest{target_, source_, rest, POINTS});
+    if (!way || end == 1) return way;
+    turn_back(way->strip);
+    std::ranges::reverse(way->path.shares);
+    return way;
+}
+
+void WeightedPathFinder::take_if_shorter(std::optional<StripWay>&& other) {
+    if (!other || other->strip.faces == best_.strip.faces) return;
+    slide(surface_, other->strip, other->path);
+    try_detours(surface_, *other);
+    if (best_.strip.faces.empty() || other->path.length < best_.path.length) best_ = std::move(*other);
+}
+
+// Of ways that may be shorter than the best one: longer by the errors that were measured of the index, and by
+// what lies between the points of edges and its vertices.
+double WeightedPathFinder::limit() const {
+    constexpr double LEAST_ERROR = 1e-3;
+    const double error = std::max(LEAST_ERROR, index_.description.error.p999);
+    double dearest = 0;
+    for (const uint32_t face : {best_.strip.faces.front(), best_.strip.faces.back()})
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t a = surface_.faces[face][k], b = surface_.faces[face][(k + 1) % 3];
+            dearest = std::max(dearest, cost(face) * (surface_.positions[a] - surface_.positions[b]).norm());
+        }
+    return (1 + error) * best_.path.length + dearest;
+}
+
+SurfacePath WeightedPathFinder::find(PathQuality quality) {
+    if (is_same_point(surface_, source_, target_))
+        return path_of_points({source_}, target_, [](const auto&, size_t) { return 0.0; });
+    query_.prepare_end(1, end_at(target_));
+    query_.prepare_end(0, end_at(source_));
+    auto way = led_by(1);
+    if (!way) no_path();
+    take_if_shorter(std::move(way));
+    take_if_shorter(led_by(0));
+    if (quality == PathQuality::EXACT) {
+        const auto rest = [this](uint32_t vertex) { return distance(1, vertex); };
+        take_if_shorter(search_weighted(
+            surface_, {source_, target_, rest, surface_.costs.points_per_edge, limit()}));
+    }
+    return path();
+}
+
+// Where a piece leads along an edge, a point in the face there that costs least.
+SurfacePoint WeightedPathFinder::in_cheapest_face(const SurfacePoint& from, const SurfacePoint& to) const {
+    for (size_t k = 0; k < 3; ++k) {
+        if (from.weights[k] != 0 || to.weights[k] != 0) continue;
+        const auto& corners = surface_.faces[from.face];
+        const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
+        const uint32_t face = cheapest_face_at(surface_, from.face, a, b);
+        SurfacePoint found{face, {}};
+        found.weights[corner_of(surface_, face, a)] = from.weights[(k + 1) % 3];
+        found.weights[corner_of(surface_, face, b)] = from.weights[(k + 2) % 3];
+        return found;
+    }
+    return from;
+}
+
+SurfacePath WeightedPathFinder::path() const {
+    const Strip& strip = best_.strip;
+    const std::vector<double>& shares = best_.path.shares;
+    std::vector<SurfacePoint> points;
+    SurfacePoint from = strip.source;
+    for (size_t i = 0; i < strip.faces.size(); ++i) {
+        const bool is_last = i == strip.portals.size();
+        const SurfacePoint to =
+            is_last ? strip.target : point_at(surface_, strip.faces[i], strip.portals[i], shares[i]);
+        add_point(surface_, in_cheapest_face(from, to), points);
+        if (!is_last) from = point_at(surface_, strip.faces[i + 1], strip.portals[i], shares[i]);
+    }
+    add_point(surface_, strip.target, points);
+    return path_of_points(std::move(points), strip.target, [&](const auto& all, size_t i) {
+        return cost(all[i].face) * distance_to_next(surface_, all, i);
+    });
+}
+
+}
+
+SurfacePath find_weighted_path(const Index& index, Query& query, const Surface& surface,
+                               const SurfacePoint& source, const SurfacePoint& target, PathQuality quality) {
+    return WeightedPathFinder(index, query, surface, source, target).find(quality);
+}
+
+}
