@@ -537,9 +537,9 @@ typedef struct geoidx_surface_point {
 } geoidx_surface_point;
 
 /* The options of the index that a surface is used with. Costs, which an index does not keep, are for paths by
- * its metric: the same arrays as in geoidx_build_options. A surface can have those of edges and those of faces
- * at once, for several indices; an index of another metric, and one of GEOIDX_METRIC_EDGES without edge costs,
- * does not ask for them. */
+ * its metric: the same arrays as in geoidx_build_options. A surface can have those of edges and those of
+ * faces at once, for several indices; an index of another metric, and one of GEOIDX_METRIC_EDGES without edge
+ * costs, does not ask for them. */
 typedef struct geoidx_surface_options {
     uint32_t struct_size;
     uint32_t reserved;                  /* not read */
@@ -710,9 +710,9 @@ GEOIDX_API geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t sour
 GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32_t* targets,
                                                uint64_t target_count, float* distances);
 
-/* The functions below take points of the surface. They serve indices of GEOIDX_METRIC_EXACT without
- * edge_lengths and of GEOIDX_METRIC_EDGES without edge costs; with another metric, what a way within a
- * triangle costs is not known: GEOIDX_ERROR_INVALID_ARGUMENT. By GEOIDX_METRIC_EDGES a way leads from a point
+/* The functions below take points of the surface. geoidx_query_point_sssd and geoidx_query_point_msad serve
+ * indices of GEOIDX_METRIC_EXACT without edge_lengths and of GEOIDX_METRIC_EDGES without edge costs; with
+ * another metric they are GEOIDX_ERROR_INVALID_ARGUMENT. By GEOIDX_METRIC_EDGES a way leads from a point
  * straight to the corners of its triangle, and along edges from there. `surface` must be of the index's mesh,
  * and stay open during the call only. */
 
@@ -757,12 +757,31 @@ GEOIDX_API geoidx_status geoidx_query_point_nearest_targets(
 /* ---- Paths
  * ------------------------------------------------------------------------------ */
 
+/* Which metrics have paths, and where these lead. `surface` needs the costs that the index was built with;
+ * without them, or with others, GEOIDX_ERROR_INVALID_ARGUMENT.
+ *
+ * - GEOIDX_METRIC_EXACT: over the surface.
+ * - GEOIDX_METRIC_WEIGHTED: over the surface, bent at edges between triangles of different cost. The length
+ * is the sum of the pieces' lengths, each times the cost of its triangle, along an edge that of the cheapest
+ *   one there. It is never below the true distance and, unlike that of geoidx_solver_distances, not tied to
+ *   points_per_edge points, so that it is mostly a little shorter.
+ * - GEOIDX_METRIC_EDGES: over vertices, along edges. With edge costs, both ends must be at vertices, since
+ *   what a way within a triangle costs is not known; the length is the sum of the costs.
+ * - GEOIDX_METRIC_CALLBACK: over vertices, along edges of the mesh, whatever the metric is between them: the
+ *   library knows it between vertices only, so that a path cannot turn elsewhere. Both ends must be at
+ *   vertices. The length is the sum of the index's distances (geoidx_query_sssd) between consecutive
+ * vertices, the least of those that its distances lead to. Where the metric is much shorter than ways along
+ * edges, many vertices are looked at.
+ *
+ * With edge_lengths there are no paths, since positions do not say how the triangles lie:
+ * GEOIDX_ERROR_INVALID_ARGUMENT. */
 enum {
     /* A path that is locally shortest: no vertex that it passes can be passed on a shorter side. Its length
      * is never below the distance and mostly equal to it. */
     GEOIDX_PATH_STRAIGHT = 0,
     /* A shortest path: distances are computed by the metric itself in a corridor, the vertices over which the
-     * index allows a way as short, by the largest errors that are stated for it. */
+     * index allows a way as short, by the largest errors that are stated for it. By GEOIDX_METRIC_WEIGHTED it
+     * is searched over points_per_edge points of each edge there and then made locally shortest. */
     GEOIDX_PATH_EXACT = 1
 };
 
@@ -773,7 +792,7 @@ typedef struct geoidx_path_point {
 } geoidx_path_point;
 
 /* Finds a path and keeps it in the query until the next call; *length is the sum of the lengths of its
- * pieces. `quality` is a GEOIDX_PATH_*; not read by GEOIDX_METRIC_EDGES, whose path leads over vertices.
+ * pieces, as the metric has it. `quality` is a GEOIDX_PATH_*; paths over vertices are the same by both.
  * GEOIDX_ERROR_NO_PATH if the points are in different components. Between a point and itself there is a path
  * of length 0. A path has its own scratch from the global heap. */
 GEOIDX_API geoidx_status geoidx_query_path(geoidx_query* query, const geoidx_surface* surface,
@@ -798,9 +817,11 @@ GEOIDX_API geoidx_status geoidx_query_prepare_target(geoidx_query* query, const 
  * other. Steps that begin where the one before ended lead to the target as GEOIDX_PATH_STRAIGHT does; at the
  * target both points are the same. *distance, how long the way is from `from` on, is 0 there; it may be NULL.
  * The first step takes as long as a path, whose triangles are kept. From any point of these a step takes a
- * few microseconds (by GEOIDX_METRIC_EDGES from points of the path only); from elsewhere a new path is found.
+ * few microseconds (by other metrics than GEOIDX_METRIC_EXACT from points of the path only); from elsewhere
+ * a new path is found.
  * GEOIDX_ERROR_NO_PATH if the target is in another component; GEOIDX_ERROR_INVALID_ARGUMENT if none was
- * prepared. By GEOIDX_METRIC_EDGES steps lead from corner to corner. `surface` is the one of the target. */
+ * prepared. Where paths lead over vertices, steps do from corner to corner. `surface` is the one of the
+ * target. */
 GEOIDX_API geoidx_status geoidx_query_next_step(geoidx_query* query, const geoidx_surface* surface,
                                                 const geoidx_surface_point* from, geoidx_path_point* step,
                                                 double* distance);

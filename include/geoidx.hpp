@@ -236,13 +236,24 @@ private:
     std::unique_ptr<geoidx, close> handle_;
 };
 
+inline geoidx_surface_options surface_options() {
+    geoidx_surface_options options;
+    geoidx_surface_options_init(&options);
+    return options;
+}
+
 // A mesh with its adjacency, shared by threads, for points of the surface.
 class surface {
 public:
-    explicit surface(const geoidx_mesh& mesh, double weld_tolerance = 0) {
-        geoidx_surface_options options;
-        geoidx_surface_options_init(&options);
-        options.weld_tolerance = weld_tolerance;
+    explicit surface(const geoidx_mesh& mesh, double weld_tolerance = 0)
+        : surface(mesh, [&] {
+              geoidx_surface_options options = surface_options();
+              options.weld_tolerance = weld_tolerance;
+              return options;
+          }()) {}
+
+    // With the costs that an index was built with.
+    surface(const geoidx_mesh& mesh, const geoidx_surface_options& options) {
         geoidx_surface* made = nullptr;
         check(geoidx_surface_create(&mesh, &options, &made));
         handle_.reset(made);

@@ -12,7 +12,7 @@ namespace geodesic {
 // that names what is wrong.
 
 struct GivenEdgeCosts {
-    uint32_t count; // 0: the arrays are not read
+    uint32_t count;           // 0: the arrays are not read
     const uint32_t* vertices; // two ids an edge
     const double* costs;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "src/path/costs.h"
 #include "src/path/nearby.h"
@@ -35,9 +36,7 @@ public:
 
 private:
     double cost(uint32_t face) const { return surface_.costs.of_face[face]; }
-    uint32_t vertex_of(size_t portal) const {
-        return vertex_at(strip_.portals[portal], path_.shares[portal]);
-    }
+    uint32_t vertex_of(size_t portal) const;
     Vector3d begin_of(size_t face) const { return position_before(surface_, strip_, path_, face); }
     Vector3d end_of(size_t face) const {
         return face == strip_.portals.size() ? position_of(surface_, strip_.target) : begin_of(face + 1);
@@ -51,6 +50,7 @@ private:
     void apply(const Change& change);
     bool take(const Change& change, PointRange range);
     std::optional<Turn::Fan> fan_around(const Pass& pass, const std::vector<uint32_t>& forbidden) const;
+    bool leads_through(const Pass& pass, const std::vector<uint32_t>& spokes) const;
     bool try_vertex(const Pass& pass);
     bool may_help(uint32_t beside, size_t face, uint32_t a, uint32_t b) const;
     Change through(uint32_t beside, size_t face, uint32_t a, uint32_t b) const;
@@ -63,6 +63,14 @@ private:
     StripPath& path_;
 };
 
+// The vertex that the path passes a portal at or close to, or NONE.
+uint32_t Detours::vertex_of(size_t portal) const {
+    constexpr double CLOSE = 0.03;
+    const double share = path_.shares[portal];
+    const auto& [a, b] = strip_.portals[portal];
+    return share < CLOSE ? a : share > 1 - CLOSE ? b : NONE;
+}
+
 // All portals that the path passes at the vertex of this one.
 Pass Detours::pass_from(size_t portal) const {
     Pass pass{portal, portal, vertex_of(portal)};
@@ -70,14 +78,10 @@ Pass Detours::pass_from(size_t portal) const {
     return pass;
 }
 
-// The points from a few before a portal to a few behind another one, or up to the next vertex.
+// The points from a few before a portal to a few behind another one.
 PointRange Detours::around(size_t first, size_t last) const {
     constexpr size_t MOST = 8;
-    PointRange range{first, last + 2};
-    for (size_t i = 0; i < MOST && range.first > 0 && vertex_of(range.first - 1) == NONE; ++i) --range.first;
-    for (size_t i = 0; i < MOST && range.last <= strip_.portals.size() && vertex_of(range.last - 1) == NONE; ++i)
-        ++range.last;
-    return range;
+    return {first - std::min(first, MOST), std::min(last + 2 + MOST, strip_.portals.size() + 1)};
 }
 
 PointRange Detours::around_face(size_t face) const {
@@ -95,7 +99,9 @@ void Detours::apply(const Change& change) {
 // Makes a change if that makes the path shorter when points slide within the range only.
 bool Detours::take(const Change& change, PointRange range) {
     StripWay part{part_of(surface_, strip_, path_, range), {}};
-    const auto share = [&](size_t point) { return path_.shares.begin() + static_cast<std::ptrdiff_t>(point); };
+    const auto share = [&](size_t point) {
+        return path_.shares.begin() + static_cast<std::ptrdiff_t>(point);
+    };
     part.path.shares.assign(share(range.first), share(range.last - 1));
     const double before = weighted_length(surface_, part.strip, part.path.shares);
     Change local = change;
@@ -105,7 +111,10 @@ bool Detours::take(const Change& change, PointRange range) {
     slide(surface_, part.strip, part.path);
     if (!(part.path.length < before - path_.length * SHORTER_DETOUR)) return false;
     path_.length += part.path.length - before;
-    apply({{range.first, range.last}, part.strip.faces, {range.first, range.last - 1}, part.strip.portals,
+    apply({{range.first, range.last},
+           part.strip.faces,
+           {range.first, range.last - 1},
+           part.strip.portals,
            part.path.shares});
     return true;
 }
@@ -117,6 +126,14 @@ std::optional<Turn::Fan> Detours::fan_around(const Pass& pass, const std::vector
     for (const uint32_t other_end : forbidden) turn.forbid(other_end);
     return turn.below(UNREACHABLE, strip_.faces[pass.first], begin_of(pass.first) - at,
                       strip_.faces[pass.last + 1], end_of(pass.last + 1) - at);
+}
+
+// Whether the path passes the edges from the vertex to these others already.
+bool Detours::leads_through(const Pass& pass, const std::vector<uint32_t>& spokes) const {
+    const auto portals = std::span(strip_.portals).subspan(pass.first, pass.last + 1 - pass.first);
+    return std::ranges::equal(portals, spokes, [&](const Portal& portal, uint32_t spoke) {
+        return !portal.is_vertex() && portal.joins({pass.vertex, spoke});
+    });
 }
 
 // Where it comes back into the face that it came from, straight on, or else on either side.
@@ -131,11 +148,12 @@ bool Detours::try_vertex(const Pass& pass) {
     for (size_t side = 0; side < 2; ++side) {
         const auto fan = fan_around(pass, forbidden);
         if (!fan) return false;
+        forbidden = fan->spokes;
+        if (leads_through(pass, fan->spokes)) continue;
         Change change{{pass.first + 1, pass.last + 1}, fan->faces, portals, {}, {}};
         for (const uint32_t spoke : fan->spokes) change.new_portals.push_back({pass.vertex, spoke});
         change.new_shares.resize(fan->spokes.size(), 0);
         if (take(change, range)) return true;
-        forbidden = fan->spokes;
     }
     return false;
 }
@@ -161,8 +179,11 @@ Change Detours::through(uint32_t beside, size_t face, uint32_t a, uint32_t b) co
     const auto share = [&](const Vector3d& point) {
         return std::clamp((point - surface_.positions[a]).dot(along) / along.squaredNorm(), 0.0, 1.0);
     };
-    return {{face, face + 1}, {own, beside, own}, {face, face},
-            {{a, b}, {a, b}}, {share(begin_of(face)), share(end_of(face))}};
+    return {{face, face + 1},
+            {own, beside, own},
+            {face, face},
+            {{a, b}, {a, b}},
+            {share(begin_of(face)), share(end_of(face))}};
 }
 
 bool Detours::try_beside(size_t face) {

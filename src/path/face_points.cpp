@@ -26,8 +26,8 @@ FacePoint face_point_on(const Index& index, const Surface& surface, const Surfac
     std::array<double, 3> lengths;
     for (size_t k = 0; k < 3; ++k) {
         numbers[k] = number_of(index, surface, corners[k]);
-        lengths[k] = cost * (surface.positions[corners[(k + 1) % 3]] -
-                             surface.positions[corners[(k + 2) % 3]]).norm();
+        lengths[k] =
+            cost * (surface.positions[corners[(k + 1) % 3]] - surface.positions[corners[(k + 2) % 3]]).norm();
     }
     if (std::ranges::find(numbers, NONE) != numbers.end())
         refuse_argument("the surface has a triangle that the index does not: they differ in weld_tolerance");

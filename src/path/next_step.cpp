@@ -86,7 +86,8 @@ std::optional<PiecePlace> place_on_path(const Surface& surface, const SurfacePat
         if (!at) continue;
         if (at->weights == path.points[i].weights) return PiecePlace{*at, i, 0};
         const Eigen::Vector3d begin = position_of(surface, path.points[i]),
-                              end = position_of(surface, path.points[i + 1]), here = position_of(surface, *at);
+                              end = position_of(surface, path.points[i + 1]),
+                              here = position_of(surface, *at);
         if (is_over_vertices || here == end || !is_between(begin, here, end)) continue;
         return PiecePlace{*at, i, (here - begin).norm() / (end - begin).norm()};
     }

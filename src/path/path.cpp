@@ -121,8 +121,9 @@ void require_path_end(const Index& index, const Surface& surface, const SurfaceP
     const Description& about = index.description;
     require_same_mesh(index, surface);
     if (about.metric == GEOIDX_METRIC_EXACT && about.metric_fingerprint != 0)
-        refuse_argument("the index was built with edge_lengths, which do not say how triangles lie: there are "
-                        "no paths");
+        refuse_argument(
+            "the index was built with edge_lengths, which do not say how triangles lie: there are "
+            "no paths");
     if (about.metric == GEOIDX_METRIC_WEIGHTED) require_face_costs(index, surface);
     if (about.metric == GEOIDX_METRIC_EDGES || about.metric == GEOIDX_METRIC_CALLBACK)
         require_vertex_path_end(index, surface, point, name);
@@ -144,7 +145,7 @@ SurfacePath find_path(const Index& index, Query& query, const Surface& surface, 
 }
 
 StripWay find_straight_path(const Index& index, Query& query, const Surface& surface,
-                                const SurfacePoint& source, const SurfacePoint& target) {
+                            const SurfacePoint& source, const SurfacePoint& target) {
     return PathFinder(index, query, surface, source, target).find_straight();
 }
 

@@ -20,6 +20,6 @@ SurfacePath find_path(const Index& index, Query& query, const Surface& surface, 
 
 // A path of STRAIGHT quality by the exact metric, with its strip. Throws Error as find_path does.
 StripWay find_straight_path(const Index& index, Query& query, const Surface& surface,
-                                const SurfacePoint& source, const SurfacePoint& target);
+                            const SurfacePoint& source, const SurfacePoint& target);
 
 }

@@ -32,7 +32,7 @@ private:
     void differentiate(double smoothing);
     bool is_held(size_t i) const;
     void solve();
-    bool step(double smoothing);
+    bool step(double smoothing, double share_of_length);
     void snap();
 
     std::vector<Rail> rails_;
@@ -96,7 +96,8 @@ void Sliding::differentiate(double smoothing) {
 
 // At an end of its rail, and the path would be shorter beyond.
 bool Sliding::is_held(size_t i) const {
-    return rails_[i].along.isZero(0) || (shares_[i] == 0 && first_[i] > 0) || (shares_[i] == 1 && first_[i] < 0);
+    return rails_[i].along.isZero(0) || (shares_[i] == 0 && first_[i] > 0) ||
+           (shares_[i] == 1 && first_[i] < 0);
 }
 
 // The Newton step of the points that are not held: elimination down and substitution up.
@@ -122,9 +123,8 @@ void Sliding::solve() {
     }
 }
 
-// One step as far as it makes the smoothed length shorter. Returns whether it did by more than rounding.
-bool Sliding::step(double smoothing) {
-    constexpr double SHORTER = 1e-14;
+// One step as far as it makes the smoothed length shorter. Returns whether it did by at least this share.
+bool Sliding::step(double smoothing, double share_of_length) {
     constexpr int MOST_HALVINGS = 30;
     differentiate(smoothing);
     solve();
@@ -137,7 +137,7 @@ bool Sliding::step(double smoothing) {
         const double after = length_of_points(moved, smoothing);
         if (!(after < before)) continue;
         shares_.swap(moved);
-        return after < before * (1 - SHORTER);
+        return after < before * (1 - share_of_length);
     }
     return false;
 }
@@ -152,12 +152,13 @@ void Sliding::snap() {
 
 void Sliding::run() {
     constexpr int MOST_STEPS = 40;
+    constexpr double ENOUGH = 1e-4; // of what smoothing adds to a piece: another step gains less than that
     double costs = 0;
     for (const double cost : cost_) costs += cost;
     const double mean_piece = length() / costs;
     if (!(mean_piece > 0)) return;
-    for (const double smoothing : {1e-1, 1e-3, 1e-5, 1e-7})
-        for (int i = 0; i < MOST_STEPS && step(smoothing * mean_piece); ++i) {
+    for (const double smoothing : {1e-2, 1e-4, 1e-7})
+        for (int i = 0; i < MOST_STEPS && step(smoothing * mean_piece, smoothing * ENOUGH); ++i) {
         }
     snap();
 }

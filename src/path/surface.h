@@ -15,8 +15,8 @@ namespace geodesic {
 
 // What a surface knows of costs; empty where none are given.
 struct SurfaceCosts {
-    std::vector<double> of_face;                  // per face: what a unit of length costs
-    std::unordered_map<uint64_t, double> of_edge; // of some edges, by edge_key() of the two vertices
+    std::vector<double> of_face;                         // per face: what a unit of length costs
+    std::unordered_map<uint64_t, double> of_edge;        // of some edges, by edge_key() of the two vertices
     uint64_t face_fingerprint = 0, edge_fingerprint = 0; // as an index has them; 0 where there are none
     uint32_t points_per_edge = 0;                        // of the metric of `of_face`
 };

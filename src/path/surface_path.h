@@ -24,8 +24,9 @@ void add_point(const Surface& surface, const SurfacePoint& point, std::vector<Su
 
 // The path over these points, of which there may be only the target. length_of_piece(i) is that from point i
 // to the next one.
-SurfacePath path_of_points(std::vector<SurfacePoint>&& points, const SurfacePoint& target,
-                           const std::function<double(const std::vector<SurfacePoint>&, size_t)>& length_of_piece);
+SurfacePath
+path_of_points(std::vector<SurfacePoint>&& points, const SurfacePoint& target,
+               const std::function<double(const std::vector<SurfacePoint>&, size_t)>& length_of_piece);
 
 // How far two consecutive points are apart in space.
 double distance_to_next(const Surface& surface, const std::vector<SurfacePoint>& points, size_t i);

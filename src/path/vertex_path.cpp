@@ -87,9 +87,9 @@ SurfacePath VertexPathFinder::find(const SurfacePoint& source, const SurfacePoin
     if (is_same_point(surface_, source, target))
         return path_of_points({source}, target, [](const auto&, size_t) { return 0.0; });
     query_.prepare_end(1, face_point_on(index_, surface_, target, false));
-    const auto vertices =
-        search_edges(surface_, ends_of(source), ends_of(target), [&](uint32_t v) { return rest_from(v); },
-                     [&](uint32_t a, uint32_t b) { return edge_length(a, b); });
+    const auto vertices = search_edges(
+        surface_, ends_of(source), ends_of(target), [&](uint32_t v) { return rest_from(v); },
+        [&](uint32_t a, uint32_t b) { return edge_length(a, b); });
     if (!vertices) no_path();
     return path_of_points(points_over(source, *vertices, target), target,
                           [&](const auto& points, size_t i) { return length_of_piece(points, i); });

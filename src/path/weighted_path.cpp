@@ -28,6 +28,7 @@ private:
     FacePoint end_at(const SurfacePoint& point) const;
     std::optional<StripWay> led_by(size_t end);
     void take_if_shorter(std::optional<StripWay>&& other);
+    double slack() const;
     double limit() const;
     SurfacePath path() const;
     SurfacePoint in_cheapest_face(const SurfacePoint& from, const SurfacePoint& to) const;
@@ -57,9 +58,9 @@ FacePoint WeightedPathFinder::end_at(const SurfacePoint& point) const {
 std::optional<StripWay> WeightedPathFinder::led_by(size_t end) {
     constexpr uint32_t POINTS = 3; // of an edge: enough to find the faces of the way
     const auto rest = [this, end](uint32_t vertex) { return distance(end, vertex); };
-    auto way = search_weighted(surface_, end == 1
-                                             ? WeightedSearchRequest{source_, target_, rest, POINTS}
-                                             : WeightedSearchRequest{target_, source_, rest, POINTS});
+    auto way =
+        search_weighted(surface_, end == 1 ? WeightedSearchRequest{source_, target_, rest, POINTS, slack()}
+                                           : WeightedSearchRequest{target_, source_, rest, POINTS, slack()});
     if (!way || end == 1) return way;
     turn_back(way->strip);
     std::ranges::reverse(way->path.shares);
@@ -73,18 +74,21 @@ void WeightedPathFinder::take_if_shorter(std::optional<StripWay>&& other) {
     if (best_.strip.faces.empty() || other->path.length < best_.path.length) best_ = std::move(*other);
 }
 
-// Of ways that may be shorter than the best one: longer by the errors that were measured of the index, and by
-// what lies between the points of edges and its vertices.
-double WeightedPathFinder::limit() const {
-    constexpr double LEAST_ERROR = 1e-3;
-    const double error = std::max(LEAST_ERROR, index_.description.error.p999);
+// What the longest edge at either end costs: distances from a point inside of a face lead over a corner.
+double WeightedPathFinder::slack() const {
     double dearest = 0;
-    for (const uint32_t face : {best_.strip.faces.front(), best_.strip.faces.back()})
+    for (const uint32_t face : {source_.face, target_.face})
         for (size_t k = 0; k < 3; ++k) {
             const uint32_t a = surface_.faces[face][k], b = surface_.faces[face][(k + 1) % 3];
             dearest = std::max(dearest, cost(face) * (surface_.positions[a] - surface_.positions[b]).norm());
         }
-    return (1 + error) * best_.path.length + dearest;
+    return dearest;
+}
+
+// Ways may be shorter than the best one where they are longer by the errors that were measured of the index.
+double WeightedPathFinder::limit() const {
+    constexpr double LEAST_ERROR = 1e-3;
+    return (1 + std::max(LEAST_ERROR, index_.description.error.p999)) * best_.path.length;
 }
 
 SurfacePath WeightedPathFinder::find(PathQuality quality) {
@@ -99,7 +103,7 @@ SurfacePath WeightedPathFinder::find(PathQuality quality) {
     if (quality == PathQuality::EXACT) {
         const auto rest = [this](uint32_t vertex) { return distance(1, vertex); };
         take_if_shorter(search_weighted(
-            surface_, {source_, target_, rest, surface_.costs.points_per_edge, limit()}));
+            surface_, {source_, target_, rest, surface_.costs.points_per_edge, slack(), limit()}));
     }
     return path();
 }

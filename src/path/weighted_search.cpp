@@ -23,13 +23,15 @@ public:
 
 private:
     static constexpr uint32_t SOURCE = 0, TARGET = 1; // nodes
+    static constexpr uint32_t MOST_TIMES = 3;         // that a node is left
     struct Node {
         Vector3d at;
-        double rest; // to the target, as far as is known
+        double rest;                        // to the target, as far as is known
         uint32_t edge = NONE, position = 0; // on an edge of the search; of a vertex NONE and its number
         double length = UNREACHABLE;
         uint32_t before = NONE, face = NONE; // that the way arrives through
-        bool is_closed = false;
+        double left_at = UNREACHABLE;        // its length when it was left
+        uint32_t times_left = 0;
     };
     struct Edge {
         uint32_t a, b, cheapest_face, first_node;
@@ -93,7 +95,8 @@ uint32_t SteinerWay::add_edge(uint32_t face, uint32_t a, uint32_t b) {
     edges_.push_back({a, b, cheapest, static_cast<uint32_t>(nodes_.size()), length / (count_ + 1)});
     for (uint32_t i = 1; i <= count_; ++i) {
         const double share = double(i) / (count_ + 1);
-        nodes_.push_back({begin + share * along, rest_on_edge(from_a, from_b, length, share * length), number, i});
+        nodes_.push_back(
+            {begin + share * along, rest_on_edge(from_a, from_b, length, share * length), number, i});
     }
     return number;
 }
@@ -116,8 +119,8 @@ double SteinerWay::rest_on_edge(double from_a, double from_b, double length, dou
 
 void SteinerWay::reach(uint32_t node, double length, uint32_t before, uint32_t face) {
     Node& reached = nodes_[node];
-    const double expected = length + reached.rest;
-    if (reached.is_closed || !(length < reached.length) || !(expected < UNREACHABLE)) return;
+    const double expected = length + std::max(0.0, reached.rest - request_.slack);
+    if (reached.times_left == MOST_TIMES || !(length < reached.length) || !(expected < UNREACHABLE)) return;
     const bool is_limited = request_.limit < UNREACHABLE;
     if (is_limited && expected > request_.limit) return;
     reached.length = length;
@@ -146,7 +149,8 @@ void SteinerWay::leave_source() {
     for (const auto& [face, weights] : sources_) {
         for (size_t k = 0; k < 3; ++k) {
             reach_through(face, node_of_vertex(surface_.faces[face][k]), SOURCE);
-            reach_inside_of(face, surface_.faces[face][(k + 1) % 3], surface_.faces[face][(k + 2) % 3], SOURCE);
+            reach_inside_of(face, surface_.faces[face][(k + 1) % 3], surface_.faces[face][(k + 2) % 3],
+                            SOURCE);
         }
         reach_target(face, SOURCE);
     }
@@ -194,8 +198,9 @@ std::optional<StripWay> SteinerWay::run() {
     while (!open_.empty()) {
         const uint32_t node = open_[open_.pop()];
         if (node == TARGET) return way();
-        if (nodes_[node].is_closed) continue;
-        nodes_[node].is_closed = true;
+        if (!(nodes_[node].length < nodes_[node].left_at)) continue;
+        nodes_[node].left_at = nodes_[node].length;
+        ++nodes_[node].times_left;
         if (nodes_[node].edge == NONE)
             leave_vertex(node);
         else

@@ -12,16 +12,17 @@ struct WeightedSearchRequest {
     SurfacePoint source, target;
     std::function<double(uint32_t)> distance_to_target; // of vertices
     uint32_t points_per_edge;
+    double slack; // by how much those distances may be too long because points are completed by corners
     // Finite: ways that are longer by these distances are not looked at.
     double limit = UNREACHABLE;
 };
 
 // A way from one point to another in the graph of src/metric/weighted_surface.h: over vertices and evenly
 // spaced points on every edge, joined straight through every face and along edges. Without a limit it is A*
-// that leaves every point once, so that distances that are not quite right change the way but never make it
-// endless. With one it is Dijkstra's algorithm, and the way the shortest of those within the limit. Portals
-// of the strip may repeat: a way along an edge lies in the face there that costs least. Nothing if there is
-// no way.
+// that leaves every point a few times at most, so that distances that are not quite right change the way but
+// never make it endless. With one it is Dijkstra's algorithm, and the way the shortest of those within the
+// limit. Portals of the strip may repeat: a way along an edge lies in the face there that costs least.
+// Nothing if there is no way.
 std::optional<StripWay> search_weighted(const Surface& surface, const WeightedSearchRequest& request);
 
 }

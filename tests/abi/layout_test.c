@@ -209,7 +209,13 @@ SIZE(geoidx_surface_point, 32);
 FIELD(geoidx_surface_options, struct_size, 0);
 FIELD(geoidx_surface_options, reserved, 4);
 FIELD(geoidx_surface_options, weld_tolerance, 8);
-SIZE(geoidx_surface_options, 16);
+FIELD(geoidx_surface_options, edge_cost_vertices, 16);
+FIELD(geoidx_surface_options, edge_costs, 24);
+FIELD(geoidx_surface_options, face_costs, 32);
+FIELD(geoidx_surface_options, face_cost_count, 40);
+FIELD(geoidx_surface_options, edge_cost_count, 48);
+FIELD(geoidx_surface_options, points_per_edge, 52);
+SIZE(geoidx_surface_options, 56);
 
 FIELD(geoidx_path_point, point, 0);
 FIELD(geoidx_path_point, position, 32);

@@ -60,8 +60,9 @@ inline void check_path(const PathCase& on, const geoidx_surface_point& from, con
     CHECK(sum == doctest::Approx(length).epsilon(1e-12));
 }
 
-inline double path_length(const PathCase& on, const geoidx_surface_point& from, const geoidx_surface_point& to,
-                          uint32_t quality, const std::vector<double>& cost = {}) {
+inline double path_length(const PathCase& on, const geoidx_surface_point& from,
+                          const geoidx_surface_point& to, uint32_t quality,
+                          const std::vector<double>& cost = {}) {
     double length = -1;
     require_success(geoidx_query_path(on.query.get(), on.surface.get(), &from, &to, quality, &length));
     check_path(on, from, to, length, cost);

@@ -1,4 +1,5 @@
-// Paths over vertices by metrics that know nothing of what lies between: costs of edges, and the caller's own.
+// Paths over vertices by metrics that know nothing of what lies between: costs of edges, and the caller's
+// own.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -175,7 +176,8 @@ std::vector<uint32_t> check_callback_path(const PathCase& on, const geoidx_surfa
         if (ids[k] != ids[k + 1]) sum += index_distance(on, ids[k], ids[k + 1]);
     CHECK(sum == doctest::Approx(length).epsilon(1e-12));
     if (ids.front() != ids.back()) CHECK(std::set(ids.begin(), ids.end()).size() == ids.size());
-    const double steps = walked(on, from, to, [&](uint32_t a, uint32_t b) { return index_distance(on, a, b); });
+    const double steps =
+        walked(on, from, to, [&](uint32_t a, uint32_t b) { return index_distance(on, a, b); });
     CHECK(steps == doctest::Approx(length).epsilon(1e-12));
     return ids;
 }
@@ -278,13 +280,11 @@ TEST_CASE("vertex path: refused between vertices, and without the costs") {
                       GEOIDX_ERROR_INVALID_ARGUMENT, "target is at no vertex");
         prepare(on, fine);
         std::array<geoidx_path_point, 2> step;
-        check_refused(
-            geoidx_query_next_step(on.query.get(), on.surface.get(), &inside, step.data(), nullptr),
-            GEOIDX_ERROR_INVALID_ARGUMENT, "from is at no vertex");
+        check_refused(geoidx_query_next_step(on.query.get(), on.surface.get(), &inside, step.data(), nullptr),
+                      GEOIDX_ERROR_INVALID_ARGUMENT, "from is at no vertex");
         float distance = 0;
-        check_refused(
-            geoidx_query_point_sssd(on.query.get(), on.surface.get(), &inside, &fine, &distance),
-            GEOIDX_ERROR_INVALID_ARGUMENT, "metric");
+        check_refused(geoidx_query_point_sssd(on.query.get(), on.surface.get(), &inside, &fine, &distance),
+                      GEOIDX_ERROR_INVALID_ARGUMENT, "metric");
     }
     const PathCase on(soup, costs.options(GEOIDX_ENGINE_OVERLAY));
     const PathCase plain(soup);

@@ -42,8 +42,8 @@ inline double check_step(const PathCase& on, const geoidx_surface_point& from, c
     return (on.position(step.points[1].point) - on.position(step.points[0].point)).norm();
 }
 
-// The length of the whole way, each step times the cost of its triangle, if there are any. Where `share` is less than 1, whoever walks asks again before the end of each
-// step.
+// The length of the whole way, each step times the cost of its triangle, if there are any. Where `share` is
+// less than 1, whoever walks asks again before the end of each step.
 inline double walk(const PathCase& on, geoidx_surface_point from, const geoidx_surface_point& target,
                    double share = 1, const std::vector<double>& cost = {}) {
     prepare(on, target);

@@ -45,6 +45,23 @@ namespace Geoidx.Tests
         }
 
         [Fact]
+        public void APathByCostsIsTheStraightLineTimesTheCost()
+        {
+            GeodesicMesh plane = Shapes.Plane(Side);
+            var costs = new double[2 * (Side - 1) * (Side - 1)];
+            Array.Fill(costs, 2.5);
+            var options = new BuildOptions { Metric = MetricKind.Weighted, FaceCosts = costs };
+            using GeodesicIndex index = GeodesicIndex.Build(plane, options);
+            using var surface = new GeodesicSurface(plane, options);
+            using GeodesicQuery query = index.CreateQuery();
+            SurfacePoint from = surface.ClosestPoint(0.3, 0.4, 0), to = surface.ClosestPoint(9.3, 7.9, 0);
+            Assert.True(query.TryFindPath(surface, from, to, out double length));
+            Assert.Equal(2.5 * Math.Sqrt(9 * 9 + 7.5 * 7.5), length, 5);
+            using var without = new GeodesicSurface(plane);
+            Assert.Throws<GeodesicArgumentException>(() => query.TryFindPath(without, from, to, out _));
+        }
+
+        [Fact]
         public void FieldsBeginAtPointsWithOffsets()
         {
             using GeodesicIndex index = GeodesicIndex.Build(Shapes.Plane(Side));

@@ -39,6 +39,24 @@ namespace Geoidx
             handle = SurfaceHandle.Of(index.Handle);
         }
 
+        /// <summary>Makes the surface of a mesh for paths by the costs that an index was built with.</summary>
+        /// <param name="mesh">The mesh; its arrays are not needed afterwards.</param>
+        /// <param name="ofIndex">
+        /// The options of the index, of which <see cref="BuildOptions.WeldTolerance"/>, the costs and
+        /// <see cref="BuildOptions.PointsPerEdge"/> count; their arrays are not needed afterwards.
+        /// </param>
+        /// <exception cref="GeodesicException">The status says what failed, the message where.</exception>
+        public GeodesicSurface(GeodesicMesh mesh, BuildOptions ofIndex)
+        {
+            if (mesh == null) throw new ArgumentNullException(nameof(mesh));
+            if (ofIndex == null) throw new ArgumentNullException(nameof(ofIndex));
+            GeodesicLibrary.Load();
+            using PinnedMesh pinned = mesh.Pin();
+            using var callbacks = new BuildCallbacks(ofIndex, null, default);
+            using var options = new PinnedBuildOptions(ofIndex, callbacks);
+            handle = SurfaceHandle.Create(pinned.Native, options.Native);
+        }
+
         internal SurfaceHandle Handle => handle;
 
         /// <summary>A vertex as a point of the surface: a corner of one of its triangles.</summary>

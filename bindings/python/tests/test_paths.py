@@ -40,6 +40,26 @@ class Paths(unittest.TestCase):
             np.testing.assert_allclose(path.positions[[0, -1]], [self.a, self.b], atol=1e-9)
         self.assertLess(abs(self.query.point_sssd(self.surface, source, target) - straight), 0.02 * straight)
 
+    def test_a_path_by_costs_is_the_straight_line_times_the_cost(self):
+        metric = geoidx.Weighted(np.full(len(self.mesh[1]), 2.5))
+        query = geoidx.Index.build(*self.mesh, metric=metric).query()
+        source, target = self.surface.closest_point(self.a)[0], self.surface.closest_point(self.b)[0]
+        path = query.path(geoidx.Surface(*self.mesh, metric=metric), source, target)
+        self.assertAlmostEqual(path.length / math.dist(self.a, self.b), 2.5, places=6)
+        with self.assertRaisesRegex(geoidx.InvalidArgumentError, "face_costs"):
+            query.path(self.surface, source, target)
+
+    def test_a_path_by_costs_of_edges_takes_the_cheap_ones(self):
+        vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        faces = [[0, 1, 2], [0, 2, 3]]
+        metric = geoidx.Edges([[0, 2]], [10])
+        query = geoidx.Index.build(vertices, faces, metric=metric).query()
+        surface = geoidx.Surface(vertices, faces, metric=metric)
+        source, target = geoidx.surface_points(0, [1, 0, 0]), geoidx.surface_points(0, [0, 0, 1])
+        path = query.path(surface, source, target)
+        self.assertAlmostEqual(path.length, 2)
+        self.assertEqual(len(path.points), 3)
+
     def test_fields_begin_at_points_with_offsets(self):
         point = geoidx.surface_points(0, [1, 0, 0])
         vertex = self.mesh[1][0][0]

@@ -90,11 +90,17 @@ namespace Geoidx
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    internal struct NativeSurfaceOptions
+    internal unsafe struct NativeSurfaceOptions
     {
         internal uint struct_size;
         internal uint reserved;
         internal double weld_tolerance;
+        internal int* edge_cost_vertices;
+        internal double* edge_costs;
+        internal double* face_costs;
+        internal ulong face_cost_count;
+        internal uint edge_cost_count;
+        internal uint points_per_edge;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -189,7 +189,17 @@ class SurfacePoint(Structure):
 
 
 class SurfaceOptions(Structure):
-    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("weld_tolerance", c_double)]
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("weld_tolerance", c_double),
+        ("edge_cost_vertices", c_void_p),
+        ("edge_costs", c_void_p),
+        ("face_costs", c_void_p),
+        ("face_cost_count", c_uint64),
+        ("edge_cost_count", c_uint32),
+        ("points_per_edge", c_uint32),
+    ]
 
 
 class PathPoint(Structure):

@@ -15,12 +15,17 @@ from ._arrays import vertex as as_vertex
 from ._errors import InvalidArgumentError, check
 from ._handle import Closable, Handle
 from ._mesh import MeshView
+from ._metrics import MetricLike
 from ._native import library
+from ._options import BuildOptions
 
 SURFACE_POINT = np.dtype(_native.SurfacePoint)
 """A point of the surface: `triangle`, and the `weights` of its three corners."""
 
 SurfacePoints = NDArray[np.void]
+
+COSTS = ("edge_cost_vertices", "edge_costs", "edge_cost_count", "face_costs", "face_cost_count", "points_per_edge")
+"""Options of a build that a surface has, too."""
 
 
 def surface_points(triangles: ArrayLike, weights: ArrayLike) -> SurfacePoints:
@@ -79,13 +84,19 @@ class Surface(Closable):
     """A mesh with its adjacency, for points of the surface: immutable, shared by threads.
 
     vertices, faces, weld_tolerance: as of `Index.build`.
+    metric: that of the index, whose costs paths by `Edges` with costs and by `Weighted` need; others need none.
     """
 
-    def __init__(self, vertices: ArrayLike, faces: ArrayLike, *, weld_tolerance: float = 0.0) -> None:
+    def __init__(
+        self, vertices: ArrayLike, faces: ArrayLike, *, weld_tolerance: float = 0.0, metric: MetricLike = "exact"
+    ) -> None:
         mesh = MeshView(vertices, faces)
         options = _native.SurfaceOptions()
         library.geoidx_surface_options_init_sized(byref(options), sizeof(options))
         options.weld_tolerance = weld_tolerance
+        costs = BuildOptions(metric, weld_tolerance)
+        for name in COSTS:
+            setattr(options, name, getattr(costs.struct, name))
         out = c_void_p()
         status = library.geoidx_surface_create(byref(mesh.struct), byref(options), byref(out))
         super().__init__(Handle(out, library.geoidx_surface_close))
