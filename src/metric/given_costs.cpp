@@ -42,8 +42,8 @@ std::vector<EdgeCost> checked_edge_costs(const Intake& intake, const GivenEdgeCo
             checked_edge_cost(intake, given.vertices[2 * i], given.vertices[2 * i + 1], given.costs[i]));
     const auto parts = [](const EdgeCost& of) { return std::pair(of.edge, of.cost); };
     std::ranges::sort(costs, {}, parts);
-    const auto repeated = std::ranges::unique(costs, {}, &EdgeCost::edge);
-    costs.erase(repeated.begin(), repeated.end());
+    const auto is_same_edge = [](const EdgeCost& a, const EdgeCost& b) { return a.edge == b.edge; };
+    costs.erase(std::unique(costs.begin(), costs.end(), is_same_edge), costs.end());
     return costs;
 }
 

@@ -15,8 +15,9 @@ void require_same_mesh(const Index& index, const Surface& surface) {
 }
 
 uint32_t vertex_at(const Surface& surface, const SurfacePoint& point) {
-    const auto corner = std::ranges::find(point.weights, 1.0);
-    return corner == point.weights.end() ? NONE : surface.faces[point.face][corner - point.weights.begin()];
+    for (size_t k = 0; k < 3; ++k)
+        if (point.weights[k] == 1) return surface.faces[point.face][k];
+    return NONE;
 }
 
 FacePoint face_point_on(const Index& index, const Surface& surface, const SurfacePoint& point, bool unfolds,

@@ -190,8 +190,7 @@ void EdgeSearch::leave(uint32_t index) {
         for (const uint32_t other : surface_.faces[face])
             if (other != node.vertex && !closed_.contains(other)) neighbours_.push_back(other);
     std::ranges::sort(neighbours_);
-    const auto repeated = std::ranges::unique(neighbours_);
-    neighbours_.erase(repeated.begin(), repeated.end());
+    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
     for (const uint32_t other : neighbours_)
         reach(other, node.length + edge_length_(node.vertex, other), index);
 }

@@ -330,3 +330,39 @@ TEST_CASE("weighted path: not where lengths of edges are given") {
             GEOIDX_ERROR_INVALID_ARGUMENT, "edge_lengths");
     }
 }
+
+TEST_CASE("weighted path: costs that a surface cannot have are refused by name") {
+    const Soup soup = grid(3, 3, 1, 1);
+    const geoidx_mesh view = view_of(soup);
+    const std::vector<double> costs(soup.triangles.size(), 2);
+    const std::array<uint32_t, 2> no_edge{0, 15}, edge{0, 1};
+    const double fine = 1, negative = -1;
+    const auto refused = [&](const char* detail, const auto& change) {
+        geoidx_surface_options options;
+        geoidx_surface_options_init(&options);
+        CHECK(options.points_per_edge == 12);
+        change(options);
+        geoidx_surface* surface = nullptr;
+        check_refused(geoidx_surface_create(&view, &options, &surface), GEOIDX_ERROR_INVALID_ARGUMENT,
+                      detail);
+        CHECK(surface == nullptr);
+    };
+    refused("face_costs is NULL", [&](auto& options) { options.face_cost_count = costs.size(); });
+    refused("18 triangles", [&](auto& options) {
+        options.face_costs = costs.data();
+        options.face_cost_count = costs.size() - 1;
+    });
+    refused("points_per_edge", [&](auto& options) {
+        options.face_costs = costs.data();
+        options.face_cost_count = costs.size();
+        options.points_per_edge = 1001;
+    });
+    refused("edge_cost_count", [&](auto& options) { options.edge_cost_count = 1; });
+    const auto with_edge = [](auto& options, const auto& vertices, const double& cost) {
+        options.edge_cost_count = 1;
+        options.edge_cost_vertices = vertices.data();
+        options.edge_costs = &cost;
+    };
+    refused("no edge of the mesh", [&](auto& options) { with_edge(options, no_edge, fine); });
+    refused("has the cost", [&](auto& options) { with_edge(options, edge, negative); });
+}
