@@ -569,9 +569,11 @@ GEOIDX_API void geoidx_surface_close(geoidx_surface* surface);
  * vertices welded as they were when the index was built: it is the surface that geoidx_surface_create makes
  * of the caller's mesh, with the same ids, triangles and bits of every answer, and it outlives the index. An
  * index that keeps no mesh is GEOIDX_ERROR_INVALID_ARGUMENT. GEOIDX_ERROR_CORRUPT if the mesh in the file is
- * not the one that the index was built from. It takes as long as geoidx_surface_create, and as much memory
- * from the global heap, which max_memory of geoidx_open_options does not count. */
-GEOIDX_API geoidx_status geoidx_surface_of_index(const geoidx* index, geoidx_surface** out);
+ * not the one that the index was built from. Of `options`, which may be NULL, the costs count; weld_tolerance
+ * is not read. It takes as long as geoidx_surface_create, and as much memory from the global heap, which
+ * max_memory of geoidx_open_options does not count. */
+GEOIDX_API geoidx_status geoidx_surface_of_index(const geoidx* index, const geoidx_surface_options* options,
+                                                 geoidx_surface** out);
 
 /* A vertex as a point of the surface: a corner of the first of the caller's triangles that are not degenerate
  * and have it, or one that it is welded to. GEOIDX_ERROR_INVALID_ARGUMENT for an id out of range, and for a

@@ -260,9 +260,9 @@ public:
     }
 
     // Of the mesh that the index keeps (geoidx_build_options.store_mesh); it outlives the index.
-    static surface of(const index& keeping) {
+    static surface of(const index& keeping, const geoidx_surface_options& options = surface_options()) {
         geoidx_surface* made = nullptr;
-        check(geoidx_surface_of_index(keeping.get(), &made));
+        check(geoidx_surface_of_index(keeping.get(), &options, &made));
         return surface(made);
     }
 

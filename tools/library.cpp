@@ -88,7 +88,7 @@ Surface make_surface(const TriangleMesh& mesh, const std::string& path, double w
 
 Surface surface_of(const geoidx& index, const std::string& path) {
     geoidx_surface* surface = nullptr;
-    require_ok(geoidx_surface_of_index(&index, &surface), path);
+    require_ok(geoidx_surface_of_index(&index, nullptr, &surface), path);
     return Surface(surface);
 }
 

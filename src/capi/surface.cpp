@@ -13,6 +13,15 @@
 
 using namespace geodesic;
 
+namespace {
+
+geoidx_surface* make_surface(Intake&& intake, const geoidx_surface_options& options) {
+    SurfaceCosts costs = surface_costs(intake, options);
+    return std::make_unique<geoidx_surface>(std::move(intake), std::move(costs)).release();
+}
+
+}
+
 geoidx_status geoidx_surface_create(const geoidx_mesh* mesh, const geoidx_surface_options* options,
                                     geoidx_surface** out) {
     if (out) *out = nullptr;
@@ -20,14 +29,14 @@ geoidx_status geoidx_surface_create(const geoidx_mesh* mesh, const geoidx_surfac
         require(out, "out is NULL");
         require(mesh, "mesh is NULL");
         const auto all_options = whole_or_default(options, geoidx_surface_options_init);
-        Intake intake =
-            take_in(whole(*mesh, geoidx_mesh_init), {.weld_tolerance = all_options.weld_tolerance});
-        SurfaceCosts costs = surface_costs(intake, all_options);
-        *out = std::make_unique<geoidx_surface>(std::move(intake), std::move(costs)).release();
+        *out = make_surface(
+            take_in(whole(*mesh, geoidx_mesh_init), {.weld_tolerance = all_options.weld_tolerance}),
+            all_options);
     });
 }
 
-geoidx_status geoidx_surface_of_index(const geoidx* index, geoidx_surface** out) {
+geoidx_status geoidx_surface_of_index(const geoidx* index, const geoidx_surface_options* options,
+                                      geoidx_surface** out) {
     if (out) *out = nullptr;
     return guarded([&] {
         require(index, "index is NULL");
@@ -35,8 +44,8 @@ geoidx_status geoidx_surface_of_index(const geoidx* index, geoidx_surface** out)
         const Index& of = index->index;
         require(of.keeps_mesh(),
                 "the index keeps no mesh: it was built without store_mesh, or saved without");
-        *out =
-            std::make_unique<geoidx_surface>(unpack_mesh(of.mesh, of.description, of.number_of_id)).release();
+        *out = make_surface(unpack_mesh(of.mesh, of.description, of.number_of_id),
+                            whole_or_default(options, geoidx_surface_options_init));
     });
 }
 

@@ -137,7 +137,8 @@ void check_kept_mesh(const BuildInput& input, const std::vector<std::vector<std:
     succeed(geoidx_surface_create(&input.mesh(), &options, &made), "geoidx_surface_create");
     const std::string own = bits_of_surface(input, SurfaceHandle(made).get());
     for (const auto& file : files) {
-        succeed(geoidx_surface_of_index(opened(input, file).get(), &made), "geoidx_surface_of_index");
+        succeed(geoidx_surface_of_index(opened(input, file).get(), nullptr, &made),
+                "geoidx_surface_of_index");
         expect(bits_of_surface(input, SurfaceHandle(made).get()) == own, "the kept mesh is the mesh",
                "%zu bytes", file.size());
     }

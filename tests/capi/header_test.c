@@ -78,7 +78,8 @@ static geoidx_status (*const solver_distances)(geoidx_solver*, const uint32_t*, 
 
 static geoidx_status (*const surface_create)(const geoidx_mesh*, const geoidx_surface_options*,
                                              geoidx_surface**) = geoidx_surface_create;
-static geoidx_status (*const surface_of_index)(const geoidx*, geoidx_surface**) = geoidx_surface_of_index;
+static geoidx_status (*const surface_of_index)(const geoidx*, const geoidx_surface_options*,
+                                               geoidx_surface**) = geoidx_surface_of_index;
 static void (*const surface_close)(geoidx_surface*) = geoidx_surface_close;
 static geoidx_status (*const vertex_point)(const geoidx_surface*, uint32_t,
                                            geoidx_surface_point*) = geoidx_vertex_point;
@@ -195,7 +196,7 @@ static int check_file(const geoidx* index) {
 static int check_surfaces(const geoidx* index, const geoidx_mesh* mesh) {
     geoidx_surface *kept = NULL, *own = NULL;
     geoidx_surface_point a, b;
-    EXPECT(surface_of_index(index, &kept) == GEOIDX_OK);
+    EXPECT(surface_of_index(index, NULL, &kept) == GEOIDX_OK);
     EXPECT(surface_create(mesh, NULL, &own) == GEOIDX_OK);
     EXPECT(vertex_point(kept, COUNT - 1, &a) == GEOIDX_OK && vertex_point(own, COUNT - 1, &b) == GEOIDX_OK);
     EXPECT(a.triangle == b.triangle && memcmp(a.weights, b.weights, sizeof a.weights) == 0);

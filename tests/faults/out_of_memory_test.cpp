@@ -286,7 +286,7 @@ TEST_CASE("out of memory while a surface is made of the mesh that an index keeps
         const uint64_t failed = try_with_faults(Source::process, 1, [&](Fault& fault) {
             geoidx_surface* surface = nullptr;
             const geoidx_status status =
-                fault.disturb([&] { return geoidx_surface_of_index(index.get(), &surface); });
+                fault.disturb([&] { return geoidx_surface_of_index(index.get(), nullptr, &surface); });
             CHECK((status == GEOIDX_OK) == (surface != nullptr));
             geoidx_surface_close(surface);
         });

@@ -178,7 +178,7 @@ void open_with_mesh(const void* data, size_t size) {
     info.struct_size = sizeof info;
     fuzz::require(geoidx_get_info(index, &info) == GEOIDX_OK, "info is given");
     geoidx_surface* surface = nullptr;
-    const geoidx_status made = geoidx_surface_of_index(index, &surface);
+    const geoidx_status made = geoidx_surface_of_index(index, nullptr, &surface);
     fuzz::require((made == GEOIDX_OK) == (surface != nullptr), "there is a surface or an error");
     if (info.has_mesh) fuzz::require(made == verified, "a surface is made where verify finds nothing");
     geoidx_surface_close(surface);

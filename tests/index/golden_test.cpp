@@ -66,7 +66,7 @@ geoidx_build_options options_of(const Golden& golden) {
 // That of the mesh which the index keeps has its vertices in their places.
 void check_surface(const geoidx* index, const geoidx_mesh& mesh) {
     geoidx_surface* made = nullptr;
-    require_success(geoidx_surface_of_index(index, &made));
+    require_success(geoidx_surface_of_index(index, nullptr, &made));
     const SurfaceHandle surface(made);
     const auto* const positions = static_cast<const double*>(mesh.positions);
     for (uint32_t v = 0; v < mesh.vertex_count; ++v) {

@@ -49,14 +49,14 @@ SurfaceHandle surface_of(const geoidx_mesh& mesh, double weld_tolerance = 0) {
 
 SurfaceHandle surface_of(const geoidx* index) {
     geoidx_surface* surface = nullptr;
-    require_success(geoidx_surface_of_index(index, &surface));
+    require_success(geoidx_surface_of_index(index, nullptr, &surface));
     REQUIRE(surface != nullptr);
     return SurfaceHandle(surface);
 }
 
 geoidx_status status_of_surface(const geoidx* index) {
     geoidx_surface* surface = nullptr;
-    const geoidx_status status = geoidx_surface_of_index(index, &surface);
+    const geoidx_status status = geoidx_surface_of_index(index, nullptr, &surface);
     const SurfaceHandle owned(surface);
     CHECK((status == GEOIDX_OK) == (surface != nullptr));
     return status;
@@ -378,9 +378,11 @@ TEST_CASE("kept mesh: arguments are checked") {
 
     const auto index = open(small_kept_file());
     geoidx_surface* surface = nullptr;
-    check_refused(geoidx_surface_of_index(nullptr, &surface), GEOIDX_ERROR_INVALID_ARGUMENT, "index");
+    check_refused(geoidx_surface_of_index(nullptr, nullptr, &surface), GEOIDX_ERROR_INVALID_ARGUMENT,
+                  "index");
     CHECK(surface == nullptr);
-    check_refused(geoidx_surface_of_index(index.get(), nullptr), GEOIDX_ERROR_INVALID_ARGUMENT, "out");
+    check_refused(geoidx_surface_of_index(index.get(), nullptr, nullptr), GEOIDX_ERROR_INVALID_ARGUMENT,
+                  "out");
 }
 
 TEST_CASE("kept mesh: opening refuses a section that is no mesh of these counts") {

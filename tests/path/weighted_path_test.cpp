@@ -308,6 +308,39 @@ TEST_CASE("weighted path: a surface needs the costs of the index") {
     check_by(&options, "face_costs");
 }
 
+TEST_CASE("weighted path: over the mesh that the index keeps, by the same costs") {
+    std::mt19937_64 random(8);
+    const Soup soup = bumpy_sphere(2, 5);
+    const std::vector<double> costs = random_costs(soup, random, 4);
+    const WeightedCase of(soup, costs);
+    geoidx_build_options options = of.options(GEOIDX_ENGINE_OVERLAY, 12);
+    options.store_mesh = 1;
+    const geoidx_mesh view = view_of(soup);
+    geoidx* built = nullptr;
+    require_success(geoidx_build(&view, &options, &built));
+    const IndexHandle index(built);
+    const geoidx_surface_options of_surface = surface_options(options);
+    geoidx_surface *bare = nullptr, *with_costs = nullptr;
+    require_success(geoidx_surface_of_index(built, nullptr, &bare));
+    require_success(geoidx_surface_of_index(built, &of_surface, &with_costs));
+    const SurfaceHandle without(bare), surface(with_costs);
+    for (size_t i = 0; i < 10; ++i) {
+        const auto from = random_point(soup, random, i), to = random_point(soup, random, i / 4);
+        double length = -1;
+        check_refused(geoidx_query_path(of.on.query.get(), bare, &from, &to, GEOIDX_PATH_STRAIGHT, &length),
+                      GEOIDX_ERROR_INVALID_ARGUMENT, "face_costs");
+        require_success(
+            geoidx_query_path(of.on.query.get(), with_costs, &from, &to, GEOIDX_PATH_STRAIGHT, &length));
+        CHECK(length == of.length(from, to, GEOIDX_PATH_STRAIGHT));
+    }
+    const std::vector<double> too_few(costs.begin(), costs.end() - 1);
+    geoidx_surface_options wrong = of_surface;
+    wrong.face_costs = too_few.data();
+    wrong.face_cost_count = too_few.size();
+    geoidx_surface* none = nullptr;
+    check_refused(geoidx_surface_of_index(built, &wrong, &none), GEOIDX_ERROR_INVALID_ARGUMENT, "face_cost");
+}
+
 TEST_CASE("weighted path: not where lengths of edges are given") {
     const Soup soup = torus(10, 8, 1, 0.4);
     std::vector<double> lengths;

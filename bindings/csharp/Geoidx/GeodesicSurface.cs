@@ -39,6 +39,22 @@ namespace Geoidx
             handle = SurfaceHandle.Of(index.Handle);
         }
 
+        /// <summary>Makes the surface of the mesh that an index keeps for paths by the costs that it was built with.</summary>
+        /// <param name="index">The index.</param>
+        /// <param name="ofIndex">
+        /// The options of the index, of which the costs and <see cref="BuildOptions.PointsPerEdge"/> count; their arrays
+        /// are not needed afterwards.
+        /// </param>
+        /// <exception cref="GeodesicException">The status says what failed, the message where.</exception>
+        public GeodesicSurface(GeodesicIndex index, BuildOptions ofIndex)
+        {
+            if (index == null) throw new ArgumentNullException(nameof(index));
+            if (ofIndex == null) throw new ArgumentNullException(nameof(ofIndex));
+            using var callbacks = new BuildCallbacks(ofIndex, null, default);
+            using var options = new PinnedBuildOptions(ofIndex, callbacks);
+            handle = SurfaceHandle.Of(index.Handle, options.Native);
+        }
+
         /// <summary>Makes the surface of a mesh for paths by the costs that an index was built with.</summary>
         /// <param name="mesh">The mesh; its arrays are not needed afterwards.</param>
         /// <param name="ofIndex">

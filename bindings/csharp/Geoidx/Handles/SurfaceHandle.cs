@@ -13,7 +13,10 @@ namespace Geoidx
             return Create(mesh, options);
         }
 
-        internal static SurfaceHandle Create(NativeMesh mesh, in NativeBuildOptions ofIndex)
+        internal static SurfaceHandle Create(NativeMesh mesh, in NativeBuildOptions ofIndex) =>
+            Create(mesh, OptionsFor(ofIndex));
+
+        private static NativeSurfaceOptions OptionsFor(in NativeBuildOptions ofIndex)
         {
             NativeSurfaceOptions options = NativeDefaults.SurfaceOptions();
             options.weld_tolerance = ofIndex.weld_tolerance;
@@ -23,7 +26,7 @@ namespace Geoidx
             options.face_costs = ofIndex.face_costs;
             options.face_cost_count = ofIndex.face_cost_count;
             options.points_per_edge = ofIndex.points_per_edge;
-            return Create(mesh, options);
+            return options;
         }
 
         private static SurfaceHandle Create(NativeMesh mesh, NativeSurfaceOptions options)
@@ -35,9 +38,17 @@ namespace Geoidx
 
         internal static SurfaceHandle Of(IndexHandle index)
         {
-            GeodesicStatus status = NativeMethods.geoidx_surface_of_index(index, out IntPtr surface);
+            GeodesicStatus status = NativeMethods.geoidx_surface_of_index(index, null, out IntPtr surface);
             if (status == GeodesicStatus.Ok) return new SurfaceHandle(surface);
             throw status.ToException();
+        }
+
+        internal static SurfaceHandle Of(IndexHandle index, in NativeBuildOptions ofIndex)
+        {
+            NativeSurfaceOptions options = OptionsFor(ofIndex);
+            GeodesicStatus status = NativeMethods.geoidx_surface_of_index(index, &options, out IntPtr surface);
+            if (status == GeodesicStatus.Ok) return new SurfaceHandle(surface);
+            throw status.ToExceptionOfOptions();
         }
 
         protected override void CloseNative() => NativeMethods.geoidx_surface_close(handle);

@@ -178,7 +178,7 @@ namespace Geoidx
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_surface_of_index(
-            IndexHandle index, out IntPtr surface);
+            IndexHandle index, NativeSurfaceOptions* options, out IntPtr surface);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern GeodesicStatus geoidx_vertex_point(

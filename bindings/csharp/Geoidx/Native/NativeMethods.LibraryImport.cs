@@ -176,7 +176,7 @@ namespace Geoidx
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_surface_of_index(
-            IndexHandle index, out IntPtr surface);
+            IndexHandle index, NativeSurfaceOptions* options, out IntPtr surface);
 
         [LibraryImport(Library)]
         internal static partial GeodesicStatus geoidx_vertex_point(

@@ -299,14 +299,16 @@ class Index(Closable):
         """The sections of the file that the index was opened from, in its order; of an index that was built, none."""
         return read_sections(self._handle)
 
-    def surface(self) -> Surface:
+    def surface(self, *, metric: MetricLike = "exact") -> Surface:
         """The surface of the mesh that the index keeps (`store_mesh` of `build`), which outlives the index.
+
+        metric: that of the index, whose costs paths by `Edges` with costs and by `Weighted` need; others need none.
 
         It is the same as the `Surface` of the vertices and faces that the index was built from. Raises
         InvalidArgumentError if the index keeps none, see `info.has_mesh`, and CorruptError if the mesh in the file is
         not the one that the index was built from.
         """
-        return surface_of(self._handle)
+        return surface_of(self._handle, metric)
 
     @property
     def vertex_count(self) -> int:

@@ -258,7 +258,7 @@ FUNCTIONS = {
     "geoidx_surface_options_init_sized": (None, [POINTER(SurfaceOptions), c_uint32]),
     "geoidx_surface_create": (c_int32, [POINTER(Mesh), POINTER(SurfaceOptions), _HANDLE_OUT]),
     "geoidx_surface_close": (None, [c_void_p]),
-    "geoidx_surface_of_index": (c_int32, [c_void_p, _HANDLE_OUT]),
+    "geoidx_surface_of_index": (c_int32, [c_void_p, c_void_p, _HANDLE_OUT]),
     "geoidx_vertex_point": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "geoidx_closest_point": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
     "geoidx_query_point_sssd": (

@@ -80,6 +80,16 @@ class Step:
     """How long the way to the target is from where the step begins; 0 at the target."""
 
 
+def _options_for(of_index: BuildOptions) -> _native.SurfaceOptions:
+    """What a surface takes of the options of an index, whose arrays must live as long as these are used."""
+    options = _native.SurfaceOptions()
+    library.geoidx_surface_options_init_sized(byref(options), sizeof(options))
+    options.weld_tolerance = of_index.struct.weld_tolerance
+    for name in COSTS:
+        setattr(options, name, getattr(of_index.struct, name))
+    return options
+
+
 class Surface(Closable):
     """A mesh with its adjacency, for points of the surface: immutable, shared by threads.
 
@@ -91,12 +101,8 @@ class Surface(Closable):
         self, vertices: ArrayLike, faces: ArrayLike, *, weld_tolerance: float = 0.0, metric: MetricLike = "exact"
     ) -> None:
         mesh = MeshView(vertices, faces)
-        options = _native.SurfaceOptions()
-        library.geoidx_surface_options_init_sized(byref(options), sizeof(options))
-        options.weld_tolerance = weld_tolerance
-        costs = BuildOptions(metric, weld_tolerance)
-        for name in COSTS:
-            setattr(options, name, getattr(costs.struct, name))
+        of_index = BuildOptions(metric, weld_tolerance)
+        options = _options_for(of_index)
         out = c_void_p()
         status = library.geoidx_surface_create(byref(mesh.struct), byref(options), byref(out))
         super().__init__(Handle(out, library.geoidx_surface_close))
@@ -125,10 +131,12 @@ class Surface(Closable):
         return point, distance.value
 
 
-def surface_of(index: Handle) -> Surface:
+def surface_of(index: Handle, metric: MetricLike) -> Surface:
     """Of the mesh that an index keeps."""
+    of_index = BuildOptions(metric, 0.0)
+    options = _options_for(of_index)
     out = c_void_p()
-    status = library.geoidx_surface_of_index(index, byref(out))
+    status = library.geoidx_surface_of_index(index, byref(options), byref(out))
     surface = Surface.__new__(Surface)
     Closable.__init__(surface, Handle(out, library.geoidx_surface_close))
     check(status)
