@@ -213,8 +213,8 @@ std::vector<double> CorridorPath::ways_over_edges(const std::vector<uint32_t>& e
             pieces[i] = best;
         }
     }
-    std::vector<double> ways;
-    for (const Piece& piece : pieces) ways.push_back(piece.least);
+    std::vector<double> ways(edges.size());
+    std::ranges::transform(pieces, ways.begin(), &Piece::least);
     return ways;
 }
 
