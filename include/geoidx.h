@@ -536,10 +536,9 @@ typedef struct geoidx_surface_point {
     double weights[3];
 } geoidx_surface_point;
 
-/* The options of the index that a surface is used with. Costs, which an index does not keep, are for paths by
- * its metric: the same arrays as in geoidx_build_options. A surface can have those of edges and those of
- * faces at once, for several indices; an index of another metric, and one of GEOIDX_METRIC_EDGES without edge
- * costs, does not ask for them. */
+/* The options of the index that a surface is used with. An index does not keep the costs that it was built
+ * with: paths by these need the same arrays here as in geoidx_build_options. A surface can have costs of
+ * edges and of faces at once, for several indices; an index that was built without costs ignores them. */
 typedef struct geoidx_surface_options {
     uint32_t struct_size;
     uint32_t reserved;                  /* not read */
@@ -781,9 +780,10 @@ enum {
     /* A path that is locally shortest: no vertex that it passes can be passed on a shorter side. Its length
      * is never below the distance and mostly equal to it. */
     GEOIDX_PATH_STRAIGHT = 0,
-    /* A shortest path: distances are computed by the metric itself in a corridor, the vertices over which the
-     * index allows a way as short, by the largest errors that are stated for it. By GEOIDX_METRIC_WEIGHTED it
-     * is searched over points_per_edge points of each edge there and then made locally shortest. */
+    /* GEOIDX_METRIC_EXACT: the shortest path within a corridor, the vertices that a path as short as the
+     * straight one can lead over unless the index errs by more than the largest error stated for it. There
+     * distances are computed by the metric itself. GEOIDX_METRIC_WEIGHTED: the best path over points_per_edge
+     * points of each edge in a corridor by the p99.9 of the errors, then made locally shortest. */
     GEOIDX_PATH_EXACT = 1
 };
 

@@ -16,8 +16,8 @@ namespace geodesic {
 
 namespace {
 
-// What number a number is stored as the difference from, in its array: the last one, or the same coordinate
-// of the last position.
+// Each number is stored as its difference from one that is so many before it: ids from the last one, and
+// coordinates from the same coordinate of the last position.
 constexpr size_t ONE_BACK = 1, THREE_BACK = 3;
 
 template <class T>
@@ -90,7 +90,8 @@ MeshArrays read_arrays(const format::StoredBytes& packed, const Description& abo
     return arrays;
 }
 
-// As take_in_welded() needs it: ids with one number are one vertex, and those without are none.
+// As take_in_welded() needs it: the first id with the same number, and for those without a number, which no
+// triangle uses, the first of these.
 std::vector<uint32_t> representatives(std::span<const uint32_t> number_of_id) {
     uint32_t numbers = 0, first_unused = NONE;
     for (const uint32_t number : number_of_id)

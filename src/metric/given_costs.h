@@ -50,7 +50,7 @@ std::vector<double> checked_face_costs(const Intake& intake, const GivenFaceCost
 
 void check_points_per_edge(uint32_t points_per_edge);
 
-// Tell costs from others by their numbers, in the caller's order: of edges 0 if there are none.
+// Hashes of the costs in the caller's order, by which an index knows its own; 0 if there are no edge costs.
 uint64_t fingerprint(const GivenEdgeCosts& given);
 uint64_t fingerprint(const GivenFaceCosts& given, uint32_t points_per_edge);
 

@@ -81,7 +81,7 @@ private:
     }
 
     // Fills the distances in the patch's overlay from SOURCES border vertices, the `first` one and those
-    // after it. Behind the last one, it is repeated.
+    // after it. Where fewer are left, the last one is repeated.
     void start(uint32_t patch, size_t first) {
         for (size_t s = 0; s < SOURCES; ++s)
             for_each_in_overlay(index_, patch, static_cast<uint32_t>(std::min(first + s, border_size_ - 1)),
@@ -92,7 +92,7 @@ private:
 
     void hop_down(uint32_t patch, size_t first) {
         const uint32_t count = numbering_.inner_size(patch);
-        // Nothing lies inside of a leaf that would read them.
+        // No hop reads the distances of a leaf.
         float* const inside = patch < numbering_.first_leaf()
                                   ? distances_.get() + size_t{numbering_.first_inner(patch)} * SOURCES
                                   : of_leaf_.get();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -35,7 +36,7 @@ public:
 private:
     SurfacePoint local(const SurfacePoint& point) const;
     std::vector<uint32_t> edges_near(const Strip& strip) const;
-    std::vector<uint32_t> edges_of_shortest();
+    std::vector<uint32_t> edges_of_shortest(const std::vector<double>& over_vertex, double shortest) const;
     template <class Share>
     void solve(const SurfacePoint& from, const SurfacePoint& to, const std::vector<uint32_t>& edges,
                uint32_t points_per_edge, const Share& share);
@@ -44,7 +45,8 @@ private:
     std::vector<double> ways_over_edges(const std::vector<uint32_t>& edges);
     void take_to_surface(Strip& strip) const;
     Strip search();
-    std::optional<Strip> search_by_excess(const std::vector<uint32_t>& edges);
+    std::optional<Strip> search_by_excess(const std::vector<uint32_t>& edges,
+                                          const std::vector<double>& over_vertex);
     bool is_shortest(const StripPath& path) const;
     void try_strip(Strip&& found, Strip& strip, StripPath& path) const;
     std::span<const double> inside(uint32_t a, uint32_t b) const;
@@ -86,39 +88,42 @@ std::vector<uint32_t> CorridorPath::edges_near(const Strip& strip) const {
     return edges;
 }
 
-// How long the shortest ways over the vertices are. Afterwards distances are from the target.
+// How long the shortest way from end to end over each vertex is.
 std::vector<double> CorridorPath::ways_over_vertices() {
-    solver_->solve({{}, {}, {&source_, 1}, {&target_, 1}});
-    std::vector<double> length;
-    for (uint32_t v = 0; v < part_.vertex_count(); ++v) length.push_back(solver_->distance(v));
-    solve_from_target({}, 0);
-    for (uint32_t v = 0; v < part_.vertex_count(); ++v) length[v] += solver_->distance(v);
+    std::vector<uint32_t> all(part_.vertex_count());
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<double> length(all.size(), 0);
+    for (const SurfacePoint* end : {&source_, &target_}) {
+        solver_->solve({{}, all, {end, 1}, {}});
+        for (const uint32_t v : all) length[v] += solver_->distance(v);
+    }
     return length;
 }
 
-// Those of the faces that a shortest path can cross. Any point of a face is at most 1 / sqrt(3) of its
+// Those of the faces that a path of this length can cross. Any point of a face is at most 1 / sqrt(3) of its
 // longest edge from a corner, which is so much farther from each end of the path than the point, at most.
-std::vector<uint32_t> CorridorPath::edges_of_shortest() {
-    constexpr double CORNER = 0.5774;
+std::vector<uint32_t> CorridorPath::edges_of_shortest(const std::vector<double>& over_vertex,
+                                                      double shortest) const {
+    constexpr double CORNER = 0.5774; // 1 / sqrt(3), rounded up
     const Mesh& mesh = corridor_.mesh;
-    const std::vector<double> length = ways_over_vertices();
     std::vector<uint32_t> edges;
     for (const auto& corners : mesh.faces) {
         double least = UNREACHABLE, longest_edge = 0;
         for (size_t k = 0; k < 3; ++k) {
-            least = std::min(least, length[corners[k]]);
+            least = std::min(least, over_vertex[corners[k]]);
             const auto &a = mesh.positions[corners[k]], &b = mesh.positions[corners[(k + 1) % 3]];
             longest_edge = std::max(longest_edge, (a - b).norm());
         }
-        if (least > solver_->point_distance(0) + 2 * CORNER * longest_edge) continue;
+        if (least > shortest + 2 * CORNER * longest_edge) continue;
         for (size_t k = 0; k < 3; ++k) edges.push_back(find_edge(mesh, corners[k], corners[(k + 1) % 3]));
     }
     make_unique(edges);
     return edges;
 }
 
-// Distances from one end of the path: to the other one, to the vertices that are nearer than that, and to
-// points of edges. share(i, k) tells how far along edges[i] its k-th point is.
+// Distances from one end of the path: to the other one, to vertices (an upper bound where these are farther),
+// and to points of edges. share(i, k) tells how far along edges[i] its k-th point is. The searches below go
+// by the latest distances from the target.
 template <class Share>
 void CorridorPath::solve(const SurfacePoint& from, const SurfacePoint& to, const std::vector<uint32_t>& edges,
                          uint32_t points_per_edge, const Share& share) {
@@ -218,9 +223,10 @@ std::vector<double> CorridorPath::ways_over_edges(const std::vector<uint32_t>& e
     return ways;
 }
 
-// The shortest ways over edges tell which of them the shortest path crosses, whatever ways meet there.
-std::optional<Strip> CorridorPath::search_by_excess(const std::vector<uint32_t>& edges) {
-    const std::vector<double> over_vertex = ways_over_vertices(), over_edge = ways_over_edges(edges);
+// A shortest path crosses edges without excess only, so that it is the strip with the least sum of them.
+std::optional<Strip> CorridorPath::search_by_excess(const std::vector<uint32_t>& edges,
+                                                    const std::vector<double>& over_vertex) {
+    const std::vector<double> over_edge = ways_over_edges(edges);
     const double shortest = solver_->point_distance(0);
     return strip_of_least_excess(part_, source_, target_, [&](uint32_t a, uint32_t b) {
         const auto found = std::ranges::lower_bound(edges, find_edge(corridor_.mesh, a, b));
@@ -232,27 +238,27 @@ std::optional<Strip> CorridorPath::search_by_excess(const std::vector<uint32_t>&
     });
 }
 
-// The distances of its vertices place the target as seen over an edge, unless paths of different ways meet
-// inside of it: then the search may take another way than the shortest. The distance of the source tells, and
-// points on the edges help: on those near the best way so far, or else on all that a shortest path can cross.
+// The search places the target beyond an edge by the distances of the edge's ends. That fails where shortest
+// paths of different ways meet inside of the edge. Then the path is longer than the distance of the source,
+// and is searched again with distances of points inside of edges: of those around the strip, then of all that
+// a shortest path can cross. At last it is searched by the shortest ways over these edges from both ends.
 void CorridorPath::make_shortest(Strip& strip, StripPath& path) {
-    solve_from_target({}, 0);
-    if (is_shortest(path)) return;
-    try_strip(search(), strip, path);
-    for (const uint32_t points : {7u, 31u}) {
-        if (is_shortest(path)) return;
-        solve_from_target(edges_near(strip), points);
-        try_strip(search(), strip, path);
-    }
-    if (is_shortest(path)) return;
-    const std::vector<uint32_t> edges = edges_of_shortest();
-    for (const uint32_t points : {7u, 31u}) {
-        if (is_shortest(path)) return;
-        solve_from_target(edges, points);
-        try_strip(search(), strip, path);
-    }
-    if (is_shortest(path)) return;
-    if (auto found = search_by_excess(edges)) try_strip(std::move(*found), strip, path);
+    constexpr uint32_t FEW_POINTS = 7, MANY_POINTS = 31;
+    // Returns whether the path is the shortest.
+    const auto search_with = [&](const std::vector<uint32_t>& edges, uint32_t points_per_edge) {
+        solve_from_target(edges, points_per_edge);
+        if (!is_shortest(path)) try_strip(search(), strip, path);
+        return is_shortest(path);
+    };
+    if (search_with({}, 0)) return;
+    for (const uint32_t points : {FEW_POINTS, MANY_POINTS})
+        if (search_with(edges_near(strip), points)) return;
+    const double shortest = solver_->point_distance(0);
+    const std::vector<double> over_vertex = ways_over_vertices();
+    const std::vector<uint32_t> edges = edges_of_shortest(over_vertex, shortest);
+    for (const uint32_t points : {FEW_POINTS, MANY_POINTS})
+        if (search_with(edges, points)) return;
+    if (auto found = search_by_excess(edges, over_vertex)) try_strip(std::move(*found), strip, path);
 }
 
 }

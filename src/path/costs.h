@@ -6,8 +6,8 @@
 
 namespace geodesic {
 
-// The costs of complete options, of the mesh that was taken in. Throws Error INVALID_ARGUMENT that names what
-// is wrong with them.
+// The costs that options give, whose fields are all set, for the faces and edges of the mesh that was taken
+// in. Throws Error INVALID_ARGUMENT that names what is wrong with them.
 SurfaceCosts surface_costs(const Intake& intake, const geoidx_surface_options& options);
 
 // What tells an edge from others, whichever of its vertices comes first.

@@ -7,7 +7,7 @@ namespace geodesic {
 
 namespace {
 
-// A pair of points takes as long as so many pairs of vertices.
+// A pair of points takes about as long as so many pairs of vertices (`geoidx_bench paths`).
 constexpr uint64_t VERTEX_PAIRS_PER_PAIR = 3;
 
 // Each sweep looks this many times as far as the one before, or as the nearest vertex that it left out.
@@ -24,26 +24,27 @@ class TargetSweeps {
 public:
     TargetSweeps(Query& query, const Query::PointSources& source, std::span<const FacePoint> targets)
         : query_(query), source_(source), targets_(targets),
-          face_width_(static_cast<float>(longest_edge(targets))) {}
+          longest_edge_(static_cast<float>(longest_edge(targets))) {}
 
     // Sweeps until the `count` nearest targets are found, or nothing else can be reached. Calls
     // distance(i, by_corners) for each target of which all corners have been found, with the distance that
     // they give; it returns the one that counts.
     template <class Distance>
     std::vector<Query::Found> find(size_t count, const Distance& distance) {
-        for (float radius = face_width_;;) {
+        for (float radius = longest_edge_;;) {
             query_.sweep_within(source_, radius);
             std::vector<Query::Found> found;
             for (uint32_t i = 0; i < targets_.size(); ++i)
                 if (const float by_corners = distance_of(i); by_corners < INFINITE)
                     found.push_back({distance(i, by_corners), i});
             std::ranges::sort(found);
-            // A target with a corner beyond the radius is less than the width of its face nearer than that.
+            // A target that was left out has a corner beyond the radius, and is farther than the radius
+            // less the longest edge of its triangle.
             const bool are_nearest =
-                found.size() >= count && found[count - 1].distance <= radius - face_width_;
+                found.size() >= count && found[count - 1].distance <= radius - longest_edge_;
             const float beyond = query_.nearest_beyond();
             if (are_nearest || beyond == INFINITE) return found;
-            radius = std::max(radius, beyond) * GROWTH + face_width_;
+            radius = std::max(radius, beyond) * GROWTH + longest_edge_;
         }
     }
 
@@ -70,14 +71,13 @@ private:
     Query& query_;
     const Query::PointSources& source_;
     std::span<const FacePoint> targets_;
-    const float face_width_; // of the widest face with a target
+    const float longest_edge_; // of the faces with targets
 };
 
 }
 
 std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& source,
                                                         std::span<const SurfacePoint> targets, size_t count) {
-    const Sources from = sources_of({&source, 1}, {});
     std::vector<FacePoint> to;
     for (const SurfacePoint& target : targets) to.push_back(face_point_of(target));
     count = std::min(count, targets.size());
@@ -89,6 +89,7 @@ std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& sour
                 found.push_back({distance, i});
         std::ranges::sort(found);
     } else {
+        const Sources from = sources_of({&source, 1}, {});
         const Query::PointSources sources = from;
         found = TargetSweeps(query_, sources, to).find(count, [&](uint32_t i, float by_corners) {
             const bool are_vertices = from.points.front().vertex != NONE && to[i].vertex != NONE;

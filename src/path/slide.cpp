@@ -39,7 +39,8 @@ private:
     Vector3d source_, target_;
     std::vector<double> cost_; // per piece
     std::vector<double> shares_;
-    // Derivatives of the smoothed length, and the Newton step; the matrix of second ones is tridiagonal.
+    // Derivatives of the smoothed length, of which the matrix of second ones is tridiagonal, and the Newton
+    // step. solve() eliminates in place.
     std::vector<double> first_, diagonal_, beside_, step_;
 };
 
@@ -102,7 +103,7 @@ bool Sliding::is_held(size_t i) const {
 
 // The Newton step of the points that are not held: elimination down and substitution up.
 void Sliding::solve() {
-    constexpr double LEAST = 1e-10; // of a diagonal entry is added to it, since straight pieces bend nowhere
+    constexpr double LEAST = 1e-10; // of a diagonal entry is added to it, which may be 0 along an edge
     double before = 0, pivot = 1, right = 0; // of the last row: its entry beside the diagonal, and the rest
     for (size_t i = 0; i < rails_.size(); ++i) {
         const bool held = is_held(i);
@@ -152,7 +153,7 @@ void Sliding::snap() {
 
 void Sliding::run() {
     constexpr int MOST_STEPS = 40;
-    constexpr double ENOUGH = 1e-4; // of what smoothing adds to a piece: another step gains less than that
+    constexpr double ENOUGH = 1e-4; // of the smoothing: less than this share of the length is no gain
     double costs = 0;
     for (const double cost : cost_) costs += cost;
     const double mean_piece = length() / costs;

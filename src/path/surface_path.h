@@ -22,8 +22,8 @@ enum class PathQuality { STRAIGHT, EXACT };
 // Adds a point, but replaces one at the same place: the next piece lies in the face of the later one.
 void add_point(const Surface& surface, const SurfacePoint& point, std::vector<SurfacePoint>& points);
 
-// The path over these points, of which there may be only the target. length_of_piece(i) is that from point i
-// to the next one.
+// The path over these points. If there is only one, the target is added, so that there are at least two.
+// length_of_piece(points, i) is that from point i to the next one.
 SurfacePath
 path_of_points(std::vector<SurfacePoint>&& points, const SurfacePoint& target,
                const std::function<double(const std::vector<SurfacePoint>&, size_t)>& length_of_piece);

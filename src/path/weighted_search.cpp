@@ -172,7 +172,7 @@ void SteinerWay::leave_vertex(uint32_t from) {
     }
 }
 
-// What lies in the face that the way came through was reached straight from where it entered.
+// Not through the face that the way came through: all of that was reached straight from where it entered.
 void SteinerWay::leave_edge(uint32_t from) {
     const Node node = nodes_[from];
     const Edge edge = edges_[node.edge];
@@ -209,7 +209,7 @@ std::optional<StripWay> SteinerWay::run() {
     return std::nullopt;
 }
 
-// Between two pieces in one face the way does not bend: it was there before.
+// Of two pieces in one face the first is enough: straight on, the way is not longer.
 StripWay SteinerWay::way() const {
     StripWay way;
     for (uint32_t node = TARGET; node != SOURCE; node = nodes_[node].before) {

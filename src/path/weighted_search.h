@@ -12,8 +12,9 @@ struct WeightedSearchRequest {
     SurfacePoint source, target;
     std::function<double(uint32_t)> distance_to_target; // of vertices
     uint32_t points_per_edge;
-    double slack; // by how much those distances may be too long because points are completed by corners
-    // Finite: ways that are longer by these distances are not looked at.
+    // By how much those distances may be too long, since ways to points inside of faces lead over corners.
+    double slack;
+    // If it is finite, ways are left out whose length, with the distance to the target, is above it.
     double limit = UNREACHABLE;
 };
 
