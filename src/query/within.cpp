@@ -70,7 +70,7 @@ std::span<const Query::Found> Query::point_within(const PointSources& sources, f
         for (const auto& [number, distance] : numbers_within(sources, i, radius))
             ranked_.push_back({distance, number});
     for (const KnownWay& way : sources.known)
-        if (way.length <= radius) ranked_.push_back({way.length, way.number});
+        if (way.length <= radius && way.length < INFINITE) ranked_.push_back({way.length, way.number});
     keep_least();
     replace_numbers();
     std::ranges::sort(ranked_);

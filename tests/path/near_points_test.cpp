@@ -243,6 +243,14 @@ TEST_CASE("near points: a few of many targets on a mesh of many patches") {
         check_nearest_targets(on, random_point(on.soup, random, i), targets, 1 + static_cast<uint32_t>(i));
 }
 
+// Sums that are no floats any more are no distances.
+TEST_CASE("near points: what is farther than floats reach is not within any radius") {
+    Soup soup = grid(3, 3, 6e37, 6e37);
+    const PathCase on(std::move(soup));
+    const Points source{{3, 0, {0.2, 0.3, 0.5}}};
+    CHECK(within(on, source, {3.4e38f}, NOT_REACHED).empty());
+}
+
 TEST_CASE("near points: bad input is refused by name") {
     const PathCase on(jittered_grid(8, 5));
     geoidx_query* const query = on.query.get();
