@@ -54,8 +54,8 @@ double way_over(const FacePoint& point, size_t k, const std::array<double, 3>& f
 
 // The position follows from the weights alone: the origin is the first end of the edge.
 FacePoint face_point(const std::array<uint32_t, 3>& corners, const std::array<double, 3>& edge_length,
-                     const std::array<double, 3>& weights, bool unfolds) {
-    FacePoint point{corners, NONE, unfolds, {}, edge_length, weights, {}, {}, {}, {}};
+                     const std::array<double, 3>& weights, const std::array<bool, 3>& crosses) {
+    FacePoint point{corners, NONE, crosses, {}, edge_length, weights, {}, {}, {}, {}};
     for (size_t k = 0; k < 3; ++k) {
         const size_t first = (k + 1) % 3, second = (k + 2) % 3;
         Placed apex{0, 0};
@@ -77,7 +77,7 @@ double distance_over(const FacePoint& point, const std::array<double, 3>& from_c
     for (size_t k = 0; k < 3; ++k) {
         least = std::min(least, point.to_corner[k] + from_corners[k]);
         certain = std::max(certain, from_corners[k] - point.to_corner[k]);
-        if (point.unfolds) least = std::min(least, way_over(point, k, from_corners));
+        if (point.crosses[k]) least = std::min(least, way_over(point, k, from_corners));
     }
     return std::max(least, certain);
 }

@@ -11,8 +11,8 @@ namespace geodesic {
 // corners. Edge k is opposite to corner k, and leads from corner k + 1 to corner k + 2.
 struct FacePoint {
     std::array<uint32_t, 3> corners;
-    uint32_t vertex; // the corner that the point is at, or NONE
-    bool unfolds;    // whether a way may cross the edges anywhere; if not, it leads over a corner
+    uint32_t vertex;             // the corner that the point is at, or NONE
+    std::array<bool, 3> crosses; // whether a way may cross the edge anywhere; over others none leads
     std::array<double, 3> to_corner;
     std::array<double, 3> edge_length;
     std::array<double, 3> weights;
@@ -22,7 +22,7 @@ struct FacePoint {
 
 // A point with these weights on a face with these lengths of edges.
 FacePoint face_point(const std::array<uint32_t, 3>& corners, const std::array<double, 3>& edge_length,
-                     const std::array<double, 3>& weights, bool unfolds);
+                     const std::array<double, 3>& weights, const std::array<bool, 3>& crosses);
 
 // The distance of a vertex from the point, by the distances of the vertex from the three corners: straight
 // over one of the edges, where the vertex is placed on the far side of it, or over a corner.

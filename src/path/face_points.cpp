@@ -25,14 +25,16 @@ FacePoint face_point_on(const Index& index, const Surface& surface, const Surfac
     const auto& corners = surface.faces[point.face];
     std::array<uint32_t, 3> numbers;
     std::array<double, 3> lengths;
+    std::array<bool, 3> crosses{};
     for (size_t k = 0; k < 3; ++k) {
+        const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
+        if (unfolds) for_each_face_beyond(surface, point.face, a, b, [&](uint32_t) { crosses[k] = true; });
         numbers[k] = number_of(index, surface, corners[k]);
-        lengths[k] =
-            cost * (surface.positions[corners[(k + 1) % 3]] - surface.positions[corners[(k + 2) % 3]]).norm();
+        lengths[k] = cost * (surface.positions[a] - surface.positions[b]).norm();
     }
     if (std::ranges::find(numbers, NONE) != numbers.end())
         refuse_argument("the surface has a triangle that the index does not: they differ in weld_tolerance");
-    return face_point(numbers, lengths, point.weights, unfolds);
+    return face_point(numbers, lengths, point.weights, crosses);
 }
 
 }

@@ -17,8 +17,9 @@ inline uint32_t number_of(const Index& index, const Surface& surface, uint32_t v
 // The vertex that a point is at, or NONE.
 uint32_t vertex_at(const Surface& surface, const SurfacePoint& point);
 
-// The point as queries take it; `unfolds` as in FacePoint. Lengths in the face count `cost` times. Throws
-// Error INVALID_ARGUMENT where the index does not have all corners of the face.
+// The point as queries take it. If the metric unfolds, ways may cross the edges that have a face beyond.
+// Lengths in the face count `cost` times. Throws Error INVALID_ARGUMENT where the index does not have all
+// corners of the face.
 FacePoint face_point_on(const Index& index, const Surface& surface, const SurfacePoint& point, bool unfolds,
                         double cost = 1);
 

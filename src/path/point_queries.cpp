@@ -30,7 +30,7 @@ FacePoint PointQueries::face_point_of(const SurfacePoint& point) const {
 float PointQueries::with_straight_way(const SurfacePoint& source, const SurfacePoint& target,
                                       float distance) const {
     constexpr double MUCH_SHORTER = 0.95;
-    if (source.face == target.face && source.weights == target.weights) return 0;
+    if (is_same_point(surface_, source, target)) return 0;
     const double straight = unfolds() ? straight_nearby(surface_, source, target) : UNREACHABLE;
     if (straight < UNREACHABLE && source.face == target.face) return static_cast<float>(straight);
     const double chord = (position_of(surface_, source) - position_of(surface_, target)).norm();
@@ -40,31 +40,34 @@ float PointQueries::with_straight_way(const SurfacePoint& source, const SurfaceP
 
 float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target) {
     const FacePoint from = face_point_of(source), to = face_point_of(target);
-    const float distance = query_.point_sssd(from, to);
-    if (from.vertex != NONE && to.vertex != NONE) return distance;
-    return with_straight_way(source, target, distance);
+    if (from.vertex != NONE && to.vertex != NONE) return query_.point_sssd(from, to);
+    return with_straight_way(source, target, query_.point_sssd(from, to));
 }
 
-// To the corners of the face, and to the vertices beyond its edges: sums over tables are of rounded
-// distances, which count where these are short.
+// To the corners of the face and, if the metric unfolds, to those of all faces that the point lies in and to
+// the vertices beyond their edges: sums over tables are of rounded distances, which count where these are
+// short.
 void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
                                   std::vector<Query::KnownWay>& known) const {
+    const auto add = [&](const SurfacePoint& from, uint32_t vertex, uint32_t face) {
+        SurfacePoint at{face, {}};
+        at.weights[corner_of(surface_, face, vertex)] = 1;
+        const double way = straight_nearby(surface_, from, at);
+        if (way < UNREACHABLE && number_of(vertex) != NONE)
+            known.push_back({position, number_of(vertex), offset + static_cast<float>(way)});
+    };
+    if (!unfolds()) {
+        for (const uint32_t corner : surface_.faces[source.face]) add(source, corner, source.face);
+        return;
+    }
     for_each_alias(surface_, source, [&](const SurfacePoint& alias) {
         const auto& corners = surface_.faces[alias.face];
-        const auto add = [&](uint32_t vertex, uint32_t face) {
-            SurfacePoint at{face, {}};
-            at.weights[corner_of(surface_, face, vertex)] = 1;
-            const double way = straight_nearby(surface_, alias, at);
-            if (way < UNREACHABLE && number_of(vertex) != NONE)
-                known.push_back({position, number_of(vertex), offset + static_cast<float>(way)});
-        };
         for (uint32_t k = 0; k < 3; ++k) {
-            add(corners[k], alias.face);
-            if (!unfolds()) continue;
+            add(alias, corners[k], alias.face);
             const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
             for_each_face_beyond(surface_, alias.face, a, b, [&](uint32_t face) {
                 for (const uint32_t vertex : surface_.faces[face])
-                    if (vertex != a && vertex != b) add(vertex, face);
+                    if (vertex != a && vertex != b) add(alias, vertex, face);
             });
         }
     });

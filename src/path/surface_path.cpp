@@ -6,7 +6,7 @@
 namespace geodesic {
 
 void no_path() {
-    throw Error(GEOIDX_ERROR_NO_PATH, "the two points are in different components of the surface");
+    throw Error(GEOIDX_ERROR_NO_PATH, "no path joins the two points, as between different components");
 }
 
 void add_point(const Surface& surface, const SurfacePoint& point, std::vector<SurfacePoint>& points) {

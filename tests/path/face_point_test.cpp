@@ -55,7 +55,7 @@ TEST_CASE("face point: in the plane the distance is the straight line") {
         const Vector2d through =
             face.at({0, weights[1] / (weights[1] + weights[2]), weights[2] / (weights[1] + weights[2])});
         const Vector2d vertex = face.at(weights) + numbers.next(1.01, 30) * (through - face.at(weights));
-        const FacePoint point = face_point({0, 1, 2}, face.edge_lengths(), weights, true);
+        const FacePoint point = face_point({0, 1, 2}, face.edge_lengths(), weights, {true, true, true});
         const double straight = (face.at(weights) - vertex).norm();
         CHECK(distance_over(point, face.distances_from(vertex)) == doctest::Approx(straight).epsilon(1e-9));
     }
@@ -77,7 +77,7 @@ TEST_CASE("face point: whatever the distances from the corners, no side of a tri
         const double high = std::min(from[0] + edges[1], from[1] + edges[0]);
         if (low > high || from[0] + from[1] < edges[2]) continue;
         from[2] = numbers.next(low, high);
-        const FacePoint point = face_point({0, 1, 2}, edges, numbers.weights(), true);
+        const FacePoint point = face_point({0, 1, 2}, edges, numbers.weights(), {true, true, true});
         const double distance = distance_over(point, from);
         for (size_t k = 0; k < 3; ++k) {
             wrong += distance > from[k] + point.to_corner[k] + 1e-12;
@@ -96,10 +96,10 @@ TEST_CASE("face point: where the three distances agree on no place, it is right 
     for (size_t k = 0; k < 3; ++k) {
         std::array<double, 3> weights{1e-9, 1e-9, 1e-9};
         weights[k] = 1 - 2e-9;
-        const FacePoint point = face_point({0, 1, 2}, face.edge_lengths(), weights, true);
+        const FacePoint point = face_point({0, 1, 2}, face.edge_lengths(), weights, {true, true, true});
         CHECK(distance_over(point, from) == doctest::Approx(from[k]).epsilon(1e-6));
     }
     // Without unfolding, a way leads over a corner.
-    const FacePoint middle = face_point({0, 1, 2}, face.edge_lengths(), {0.5, 0.5, 0}, false);
+    const FacePoint middle = face_point({0, 1, 2}, face.edge_lengths(), {0.5, 0.5, 0}, {});
     CHECK(distance_over(middle, from) == doctest::Approx(0.75 + 0.5));
 }

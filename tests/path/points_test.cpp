@@ -153,6 +153,44 @@ TEST_CASE("points: straight within a triangle and over an edge of two") {
     }
 }
 
+// No way leads over an edge with one face, so that distances of corners from both sides of the hole unfold to
+// nothing.
+TEST_CASE("points: not through a hole that is a triangle") {
+    Soup soup;
+    for (const auto& [x, y] :
+         {std::pair(1, 0), {1, 1}, {0, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}, {1, 3}, {2, 3}})
+        soup.positions.emplace_back(x, y, 0);
+    soup.triangles = {{0, 1, 2}, {0, 3, 1}, {2, 1, 4}, {1, 5, 4}, {3, 6, 5}, {4, 5, 7}, {5, 6, 8}, {5, 8, 7}};
+    for (const uint32_t engine : {GEOIDX_ENGINE_OVERLAY, GEOIDX_ENGINE_GRAPH}) {
+        CAPTURE(engine);
+        const PathCase on(soup, path_options(engine));
+        const geoidx_surface_point a{4, 0, {0.5, 0, 0.5}}, b{1, 0, {0.02, 0.49, 0.49}};
+        const double exact = on.exact(a, b);
+        CHECK(std::abs(double{on.sssd(a, b)} - exact) <= 0.02 * exact);
+        const auto from_a = field(on, std::span(&a, 1)), from_b = field(on, std::span(&b, 1));
+        const auto exact_a = exact_field(on, a), exact_b = exact_field(on, b);
+        for (size_t v = 0; v < exact_a.size(); ++v) {
+            CHECK(std::abs(double{from_a[v]} - exact_a[v]) <= 0.02 * exact_a[v]);
+            CHECK(std::abs(double{from_b[v]} - exact_b[v]) <= 0.02 * exact_b[v]);
+        }
+    }
+}
+
+TEST_CASE("points: by edges, a point on an edge has the ways of the triangle that it is given on") {
+    Soup soup;
+    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) soup.positions.emplace_back(x, y, 0);
+    soup.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const PathCase on(soup, path_options(GEOIDX_ENGINE_OVERLAY, GEOIDX_METRIC_EDGES));
+    const geoidx_surface_point below{0, 0, {0.5, 0, 0.5}}, above{1, 0, {0.5, 0.5, 0}},
+        corner{1, 0, {0, 0, 1}};
+    const double half = std::sqrt(0.5);
+    CHECK(double{on.sssd(below, corner)} == doctest::Approx(1 + half));
+    CHECK(double{on.sssd(above, corner)} == doctest::Approx(half));
+    CHECK(on.sssd(below, above) == 0);
+    CHECK(double{field(on, std::span(&below, 1))[3]} == doctest::Approx(1 + half));
+    CHECK(double{field(on, std::span(&above, 1))[3]} == doctest::Approx(half));
+}
+
 TEST_CASE("points: at vertices they are these vertices") {
     const PathCase on(torus(16, 10, 1, 0.4));
     std::mt19937_64 random(6);
