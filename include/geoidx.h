@@ -711,11 +711,14 @@ GEOIDX_API geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t sour
 GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32_t* targets,
                                                uint64_t target_count, float* distances);
 
-/* The functions below take points of the surface. geoidx_query_point_sssd and geoidx_query_point_msad serve
- * indices of GEOIDX_METRIC_EXACT without edge_lengths and of GEOIDX_METRIC_EDGES without edge costs; with
- * another metric they are GEOIDX_ERROR_INVALID_ARGUMENT. By GEOIDX_METRIC_EDGES a way leads from a point
- * straight to the corners of its triangle, and along edges from there. `surface` must be of the index's mesh,
- * and stay open during the call only. */
+/* The functions below take points of the surface. Those of distances, geoidx_query_point_*, serve indices of
+ * GEOIDX_METRIC_EXACT without edge_lengths and of GEOIDX_METRIC_EDGES without edge costs; with another metric
+ * they are GEOIDX_ERROR_INVALID_ARGUMENT. By GEOIDX_METRIC_EDGES a way leads from a point straight to the
+ * corners of the triangle that it is given on, and along edges from there. By GEOIDX_METRIC_EXACT distances
+ * come from those of the corners of the triangle, unfolded over its edges: to the accuracy of the index, but
+ * where the corners are reached from different sides, as around holes that are as small as triangles or
+ * between spikes, too short by a share of the triangle's edges, also by GEOIDX_ENGINE_GRAPH. `surface` must
+ * be of the index's mesh, and stay open during the call only. */
 
 /* geoidx_query_sssd between points of the surface, symmetric bit for bit. Of points at vertices it gives the
  * same bits. By GEOIDX_METRIC_EXACT, points of one triangle are as far apart as the straight line between
@@ -748,8 +751,8 @@ GEOIDX_API geoidx_status geoidx_query_point_within(geoidx_query* query, const ge
                                                    float* distances, uint32_t capacity, uint32_t* count);
 
 /* geoidx_query_nearest_targets of points of the surface: few targets are asked for one by one, as by
- * geoidx_query_point_sssd; the distances of many come from those of the corners of their triangles. A point
- * of which a corner cannot be reached is not reached either. */
+ * geoidx_query_point_sssd; the distances of many come from fields, as those of geoidx_query_point_msad. A
+ * point of which a corner cannot be reached is not reached either. */
 GEOIDX_API geoidx_status geoidx_query_point_nearest_targets(
     geoidx_query* query, const geoidx_surface* surface, const geoidx_surface_point* source,
     const geoidx_surface_point* targets, uint32_t target_count, uint32_t* positions, float* distances,
@@ -761,18 +764,22 @@ GEOIDX_API geoidx_status geoidx_query_point_nearest_targets(
 /* Which metrics have paths, and where these lead. `surface` needs the costs that the index was built with;
  * without them, or with others, GEOIDX_ERROR_INVALID_ARGUMENT.
  *
- * - GEOIDX_METRIC_EXACT: over the surface.
- * - GEOIDX_METRIC_WEIGHTED: over the surface, bent at edges between triangles of different cost. The length
- * is the sum of the pieces' lengths, each times the cost of its triangle, along an edge that of the cheapest
- *   one there. It is never below the true distance and, unlike that of geoidx_solver_distances, not tied to
- *   points_per_edge points, so that it is mostly a little shorter.
- * - GEOIDX_METRIC_EDGES: over vertices, along edges. With edge costs, both ends must be at vertices, since
- *   what a way within a triangle costs is not known; the length is the sum of the costs.
- * - GEOIDX_METRIC_CALLBACK: over vertices, along edges of the mesh, whatever the metric is between them: the
- *   library knows it between vertices only, so that a path cannot turn elsewhere. Both ends must be at
- *   vertices. The length is the sum of the index's distances (geoidx_query_sssd) between consecutive
- * vertices, the least of those that its distances lead to. Where the metric is much shorter than ways along
- * edges, many vertices are looked at.
+ * GEOIDX_METRIC_EXACT: over the surface.
+ *
+ * GEOIDX_METRIC_WEIGHTED: over the surface, bent at edges between triangles of different cost. The length is
+ * the sum of the pieces' lengths, each times the cost of its triangle, along an edge that of the cheapest one
+ * there. It is never below the true distance and, unlike that of geoidx_solver_distances, not tied to
+ * points_per_edge points, so that it is mostly a little shorter.
+ *
+ * GEOIDX_METRIC_EDGES: over vertices, along edges, the shortest way that a search led by the distances of the
+ * index finds. Where these are wrong, as for edge costs that differ by many orders of magnitude, it may be
+ * much longer than the shortest. With edge costs, both ends must be at vertices, since what a way within a
+ * triangle costs is not known; the length is the sum of the costs.
+ *
+ * GEOIDX_METRIC_CALLBACK: likewise, and both ends must be at vertices: the library knows the metric between
+ * vertices only, so that a path cannot turn elsewhere. The length is the sum of the index's distances
+ * (geoidx_query_sssd) between consecutive vertices. Where the metric is much shorter than ways along edges,
+ * many vertices are looked at. An edge whose ends no path joins by the metric is not used.
  *
  * With edge_lengths there are no paths, since positions do not say how the triangles lie:
  * GEOIDX_ERROR_INVALID_ARGUMENT. */
@@ -795,8 +802,8 @@ typedef struct geoidx_path_point {
 
 /* Finds a path and keeps it in the query until the next call; *length is the sum of the lengths of its
  * pieces, as the metric has it. `quality` is a GEOIDX_PATH_*; paths over vertices are the same by both.
- * GEOIDX_ERROR_NO_PATH if the points are in different components. Between a point and itself there is a path
- * of length 0. A path has its own scratch from the global heap. */
+ * GEOIDX_ERROR_NO_PATH if no path joins the points, as in different components. Between a point and itself
+ * there is a path of length 0. A path has its own scratch from the global heap. */
 GEOIDX_API geoidx_status geoidx_query_path(geoidx_query* query, const geoidx_surface* surface,
                                            const geoidx_surface_point* source,
                                            const geoidx_surface_point* target, uint32_t quality,
