@@ -67,7 +67,7 @@ Strip part_of(const Surface& surface, const Strip& strip, const StripPath& path,
     const auto offset = [](size_t i) { return static_cast<std::ptrdiff_t>(i); };
     Strip part{strip.source, strip.target, {}, {}};
     part.faces.assign(strip.faces.begin() + offset(first), strip.faces.begin() + offset(last));
-    part.portals.assign(strip.portals.begin() + offset(first), strip.portals.begin() + offset(last) - 1);
+    part.portals.assign(strip.portals.begin() + offset(first), strip.portals.begin() + offset(last - 1));
     const auto portal_point = [&](size_t face, size_t portal) {
         return point_at(surface, strip.faces[face], strip.portals[portal], path.shares[portal]);
     };
