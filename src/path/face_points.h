@@ -2,7 +2,7 @@
 
 #include "src/index/face_point.h"
 #include "src/path/surface.h"
-#include "src/query/index.h"
+#include "src/query/query.h"
 
 namespace geodesic {
 
@@ -12,6 +12,13 @@ void require_same_mesh(const Index& index, const Surface& surface);
 // The number that the index has for a vertex, or NONE.
 inline uint32_t number_of(const Index& index, const Surface& surface, uint32_t vertex) {
     return index.number_of_id[surface.id_of_vertex[vertex]];
+}
+
+// The distance of a vertex from an end that the query has prepared.
+inline double end_distance(const Index& index, Query& query, const Surface& surface, size_t end,
+                           uint32_t vertex) {
+    const uint32_t number = number_of(index, surface, vertex);
+    return number == NONE ? UNREACHABLE : double{query.end_distance(end, number)};
 }
 
 // The vertex that a point is at, or NONE.

@@ -45,8 +45,7 @@ public:
 
 private:
     double distance(size_t end, uint32_t vertex) {
-        const uint32_t number = points_.number_of(vertex);
-        return number == NONE ? UNREACHABLE : double{query_.end_distance(end, number)};
+        return end_distance(index_, query_, surface_, end, vertex);
     }
     TargetDistances distances_from(size_t end) {
         return {[this, end](uint32_t vertex) { return distance(end, vertex); }, {}};

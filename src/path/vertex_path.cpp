@@ -28,7 +28,7 @@ public:
 
 private:
     double edge_length(uint32_t a, uint32_t b) const;
-    double rest_from(uint32_t vertex);
+    double rest_from(uint32_t vertex) { return end_distance(index_, query_, surface_, 1, vertex); }
     std::vector<VertexEnd> ends_of(const SurfacePoint& point) const;
     std::vector<SurfacePoint> points_over(const SurfacePoint& source, const std::vector<uint32_t>& vertices,
                                           const SurfacePoint& target) const;
@@ -44,11 +44,6 @@ double VertexPathFinder::edge_length(uint32_t a, uint32_t b) const {
         return double{query_.sssd(surface_.id_of_vertex[a], surface_.id_of_vertex[b])};
     return is_length_of_edges(index_.description) ? (surface_.positions[a] - surface_.positions[b]).norm()
                                                   : edge_cost(surface_, a, b);
-}
-
-double VertexPathFinder::rest_from(uint32_t vertex) {
-    const uint32_t number = number_of(index_, surface_, vertex);
-    return number == NONE ? UNREACHABLE : double{query_.end_distance(1, number)};
 }
 
 std::vector<VertexEnd> VertexPathFinder::ends_of(const SurfacePoint& point) const {

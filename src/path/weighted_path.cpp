@@ -24,7 +24,9 @@ public:
 
 private:
     double cost(uint32_t face) const { return surface_.costs.of_face[face]; }
-    double distance(size_t end, uint32_t vertex);
+    double distance(size_t end, uint32_t vertex) {
+        return end_distance(index_, query_, surface_, end, vertex);
+    }
     FacePoint end_at(const SurfacePoint& point) const;
     std::optional<StripWay> led_by(size_t end);
     void take_if_shorter(std::optional<StripWay>&& other);
@@ -39,11 +41,6 @@ private:
     const SurfacePoint source_, target_;
     StripWay best_;
 };
-
-double WeightedPathFinder::distance(size_t end, uint32_t vertex) {
-    const uint32_t number = number_of(index_, surface_, vertex);
-    return number == NONE ? UNREACHABLE : double{query_.end_distance(end, number)};
-}
 
 // The point in the cheapest face that it lies in: from there a way leads over a corner.
 FacePoint WeightedPathFinder::end_at(const SurfacePoint& point) const {
