@@ -162,8 +162,8 @@ def ladder():
     number(664, 607, 4)
     number(694, 710, 5)
     label(344, 705, "start: read a row", ["border-internal table of leaf A"], "end")
-    label(374, 592, "hop up", ["outer table of A: columns B(A)", "of the overlay table of P"], "end")
-    label(552, 478, "hop across", ["outer table of P: columns B(P) of the root's overlay table"], "start")
+    label(374, 592, "hop up", ["rows B(A)", "of the overlay table of P"], "end")
+    label(552, 478, "hop across", ["rows B(P) of the root's overlay table"], "start")
     label(686, 592, "hop down, with middles", ["inner table of Q: owned x border", "of the overlay table of Q"],
           "start")
     label(716, 705, "hop down, with middles", ["border-internal table of leaf B"], "start")

@@ -33,10 +33,10 @@ public:
 
     // These may be called once finish() has returned true; Kernels describes them. cross_near() reads and
     // writes distances, and does nothing if no place is near.
+    const NearRange& near_range() const { return range_; }
     bool is_near() const { return range_.is_near(); }
-    float reach() const { return range_.reach; }
-    void cross(Rows rows, float* distances, uint16_t* winners = nullptr) const {
-        kernels_.cross(border_, rows, distances, winners);
+    void cross(const CrossedColumns& to, float* distances, uint16_t* winners) const {
+        kernels_.cross(border_, to, distances, winners);
     }
     void cross_near(Rows rows, float* distances) const {
         if (is_near()) kernels_.cross_near(border_, range_, rows, distances);

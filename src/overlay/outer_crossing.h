@@ -3,7 +3,7 @@
 #include <memory_resource>
 #include <span>
 
-#include "src/overlay/border_field.h"
+#include "src/overlay/overlay_crossing.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic {
@@ -16,7 +16,7 @@ struct DistanceField {
     float& operator[](size_t number) const { return first[number * stride]; }
 };
 
-// Hops up and across: from the border of a patch to the overlay of its parent.
+// Hops up and across of a field: from the border of a patch to the whole overlay of its parent.
 class OuterCrossing {
 public:
     OuterCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory);
@@ -40,10 +40,10 @@ private:
     const OverlayIndex& index_;
     const Numbering& numbering_;
     const Rings& rings_;
-    BorderField field_;
-    Array<const uint16_t*> rows_;
-    Array<uint32_t> numbers_; // per row: of its vertex
-    Array<float> outside_;    // per row: the distance
+    OverlayCrossing crossing_;
+    Array<uint32_t> numbers_;        // per target: first those on the parent's border
+    Array<uint32_t> places_, owned_; // of the targets: places of the parent's ring, and owned vertices
+    Array<float> outside_;           // per target: the distance
 };
 
 }

@@ -29,13 +29,13 @@ void measure_segments(OverlayIndex& index) {
 // codes behind each kind, up to a whole block.
 template <class Code>
 struct HopParts {
-    std::span<Code> outer, kept, inner, inner_middles, internal;
+    std::span<Code> border, owned, inner, inner_middles, internal;
 };
 
 uint64_t size_of_part(uint64_t codes) { return SourceCode::whole_blocks(codes + TableCode::PADDING); }
 
 uint64_t hop_code_count(const OverlayIndex& index) {
-    return size_of_part(index.hops.outer_begin.back()) + size_of_part(index.hops.kept_begin.back()) +
+    return size_of_part(index.hops.border_begin.back()) + size_of_part(index.hops.owned_begin.back()) +
            2 * size_of_part(index.hops.inner_begin.back()) +
            size_of_part(index.numbering.internal_table_begin.back());
 }
@@ -48,8 +48,8 @@ HopParts<Code> parts_of(const OverlayIndex& index, std::span<Code> codes) {
         return part;
     };
     HopParts<Code> parts;
-    parts.outer = take(index.hops.outer_begin.back());
-    parts.kept = take(index.hops.kept_begin.back());
+    parts.border = take(index.hops.border_begin.back());
+    parts.owned = take(index.hops.owned_begin.back());
     parts.inner = take(index.hops.inner_begin.back());
     parts.inner_middles = take(index.hops.inner_begin.back());
     parts.internal = take(index.numbering.internal_table_begin.back());
@@ -59,201 +59,133 @@ HopParts<Code> parts_of(const OverlayIndex& index, std::span<Code> codes) {
 void view_hop_codes(OverlayIndex& index, std::span<const uint16_t> codes) {
     const auto parts = parts_of(index, codes);
     index.hops.codes = codes;
-    index.hops.outer = parts.outer;
-    index.hops.kept = parts.kept;
+    index.hops.border = parts.border;
+    index.hops.owned = parts.owned;
     index.hops.inner = parts.inner;
     index.hops.inner_middles = parts.inner_middles;
     index.hops.internal = parts.internal;
 }
 
-// Finds the rows that a patch's outer table leaves out. Returns how many others there are.
-uint32_t number_outer_rows(const Numbering& numbering, uint32_t patch, HopTables& hops) {
-    if (numbering.border_size(patch) == 0) {
-        hops.row_begin.push_back(hops.own_before.size());
-        return 0;
-    }
-    const uint32_t size = numbering.overlay_size(numbering.parent[patch]);
-    const auto first = hops.own_before.insert(hops.own_before.end(), size, 0);
+// Marks, of the vertices in the overlay of a patch's parent, those that are on the patch's border.
+void mark_border(const Numbering& numbering, uint32_t patch, HopTables& hops) {
+    const auto first =
+        hops.on_border.insert(hops.on_border.end(), numbering.overlay_size(numbering.parent[patch]), 0);
     for (uint32_t slot = numbering.border_begin[patch]; slot < numbering.border_begin[patch + 1]; ++slot)
-        first[numbering.overlay_position[slot]] = HopTables::OWN;
-    uint16_t own = 0;
-    for (uint32_t i = 0; i < size; ++i)
-        if (first[i] == HopTables::OWN)
-            ++own;
-        else
-            first[i] = own;
-    hops.row_begin.push_back(hops.own_before.size());
-    return size - own;
+        first[numbering.overlay_position[slot]] = 1;
+    hops.on_border_begin.push_back(hops.on_border.size());
 }
 
-// Numbers the vertices that each patch keeps. Returns how many there are, per patch.
-std::vector<uint16_t> number_kept_vertices(const Numbering& numbering, HopTables& hops) {
-    std::vector<uint16_t> count(numbering.patch_count(), 0);
-    hops.kept_number.assign(numbering.border.size(), 0);
-    for_each_kept(numbering,
-                  [&](uint32_t slot) { hops.kept_number[slot] = count[numbering.patch_of_slot[slot]]++; });
-    return count;
+void mark_borders(const Numbering& numbering, HopTables& hops) {
+    uint64_t flags = 0;
+    for (uint32_t p = 1; p < numbering.patch_count(); ++p)
+        flags += numbering.overlay_size(numbering.parent[p]);
+    hops.on_border.reserve(flags);
+    hops.on_border_begin.assign(2, 0); // the whole mesh has no parent
+    for (uint32_t p = 1; p < numbering.patch_count(); ++p) mark_border(numbering, p, hops);
 }
 
 void lay_out_hop_tables(OverlayIndex& index) {
     const Numbering& numbering = index.numbering;
     HopTables& hops = index.hops;
-    const auto kept = number_kept_vertices(numbering, hops);
-    for (auto* begin : {&hops.outer_begin, &hops.kept_begin, &hops.inner_begin, &hops.row_begin})
-        begin->assign(2, 0);
-    const auto add_table = [](Array<uint64_t>& begin, uint64_t codes) {
-        begin.push_back(begin.back() + codes);
+    for (auto* begin : {&hops.border_begin, &hops.owned_begin, &hops.inner_begin}) begin->assign(1, 0);
+    const auto add_table = [](Array<uint64_t>& begin, uint64_t rows, uint64_t columns) {
+        begin.push_back(begin.back() + rows * columns);
         require_room_for(begin.back());
     };
-    uint64_t rows = 0;
-    for (uint32_t p = 1; p < numbering.patch_count(); ++p)
-        if (numbering.border_size(p) > 0) rows += numbering.overlay_size(numbering.parent[p]);
-    hops.own_before.reserve(rows);
-    for (uint32_t p = 1; p < numbering.patch_count(); ++p) {
-        const uint64_t places = index.rings.size(p);
-        add_table(hops.outer_begin, number_outer_rows(numbering, p, hops) * places);
-        add_table(hops.kept_begin, triangle_size(kept[p]));
-        add_table(hops.inner_begin, numbering.inner_size(p) * places);
+    for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
+        add_table(hops.inner_begin, numbering.inner_size(p), index.rings.size(p));
+        if (p >= numbering.first_leaf()) continue;
+        add_table(hops.border_begin, numbering.border_size(p), index.rings.size(p));
+        add_table(hops.owned_begin, numbering.overlay_size(p), numbering.inner_size(p));
     }
+    mark_borders(numbering, hops);
 }
 
-// ---- From the stored tables to rows along rings
+// ---- From the stored tables to rows
 
-// The overlay table of a patch as a square.
-class OverlaySquare {
-public:
-    OverlaySquare(const Numbering& numbering, uint32_t patch, const uint16_t* stored)
-        : size_(numbering.overlay_size(patch)), codes_(size_ * size_, 0) {
-        const size_t border = numbering.border_size(patch), owned = numbering.inner_size(patch);
-        for (size_t i = 0; i < owned; ++i)
-            for (size_t j = 0; j < border; ++j) set(border + i, j, *stored++);
-        for (size_t i = 0; i < owned; ++i)
-            for (size_t j = 0; j < i; ++j) set(border + i, border + j, *stored++);
-    }
-
-    // The distances of vertices on the patch's border are stored in the table of its parent only.
-    void take_border_from(const OverlayIndex& index, uint32_t patch, const OverlaySquare& of_parent) {
-        const Numbering& numbering = index.numbering;
-        const float from = index.quantum[numbering.parent[patch]], to = index.quantum[patch];
-        const uint32_t* position = numbering.overlay_position.data() + numbering.border_begin[patch];
-        for (size_t i = 0; i < numbering.border_size(patch); ++i)
-            for (size_t j = 0; j < i; ++j)
-                set(i, j, TableCode::converted(of_parent.row(position[i])[position[j]], from, to));
-    }
-
-    const uint16_t* row(size_t i) const { return codes_.data() + i * size_; }
-
-private:
-    void set(size_t i, size_t j, uint16_t code) { codes_[i * size_ + j] = codes_[j * size_ + i] = code; }
-
-    size_t size_;
-    std::vector<uint16_t> codes_;
-};
-
-// Writes `count` rows along the ring of a patch, end to end: for each place, the entry in the column of its
-// vertex. row(i) points to the i-th row of entries, and column[position] is where in it the entry for a
-// position in the border is.
-template <class Row>
-void write_rows(const OverlayIndex& index, uint32_t patch, uint32_t count, std::span<const uint32_t> column,
-                const Row& row, uint16_t* out) {
-    const uint32_t* position = index.rings.position.data() + index.rings.begin[patch];
-    std::vector<uint32_t> column_of_place(index.rings.size(patch));
-    for (size_t k = 0; k < column_of_place.size(); ++k) column_of_place[k] = column[position[k]];
-    for (uint32_t i = 0; i < count; ++i) {
-        const uint16_t* entries = row(i);
-        for (const uint32_t k : column_of_place) *out++ = entries[k];
-    }
-}
-
-void write_outer_table(const OverlayIndex& index, const OverlaySquare& of_parent, uint32_t patch,
-                       std::span<uint16_t> outer) {
-    const Numbering& numbering = index.numbering;
-    const uint32_t border = numbering.border_size(patch),
-                   size = border > 0 ? numbering.overlay_size(numbering.parent[patch]) : 0;
-    std::vector<uint32_t> outside;
-    for (uint32_t i = 0; i < size; ++i)
-        if (index.outer_row(patch, i)) outside.push_back(i);
-    write_rows(
-        index, patch, static_cast<uint32_t>(outside.size()),
-        {numbering.overlay_position.data() + numbering.border_begin[patch], border},
-        [&](uint32_t i) { return of_parent.row(outside[i]); }, outer.data() + index.hops.outer_begin[patch]);
-}
-
-// All vertices that a patch keeps are on its border.
-void write_kept_table(const OverlayIndex& index, const OverlaySquare& of_parent, uint32_t patch,
-                      std::span<uint16_t> kept) {
-    const Numbering& numbering = index.numbering;
-    std::vector<uint32_t> vertices; // in the order of the overlay, which is that of their numbers
-    for (uint32_t slot = numbering.border_begin[patch]; slot < numbering.border_begin[patch + 1]; ++slot) {
-        const uint32_t position = numbering.overlay_position[slot];
-        if (kept_slot(numbering, numbering.parent[patch], position) == slot) vertices.push_back(position);
-    }
-    std::ranges::sort(vertices);
-    uint16_t* code = kept.data() + index.hops.kept_begin[patch];
-    for (size_t i = 0; i < vertices.size(); ++i)
-        for (size_t j = 0; j < i; ++j) *code++ = of_parent.row(vertices[i])[vertices[j]];
-}
-
-// 0, 1, 2 ...
-std::vector<uint32_t> numbers_to(uint32_t end) {
-    std::vector<uint32_t> numbers(end);
-    std::iota(numbers.begin(), numbers.end(), 0u);
-    return numbers;
-}
-
-// Writes the tables that are made from overlay tables, those of parents before those of their children.
+// Writes the tables of one inner patch, in which each distance has two entries.
 class OverlayTableWriter {
 public:
-    OverlayTableWriter(const StoredIndex& stored, const OverlayIndex& index, const HopParts<uint16_t>& parts)
-        : index_(index), numbering_(index.numbering), parts_(parts) {
-        const uint16_t* codes = stored.overlay_codes.data();
-        for (uint32_t p = 0; p < numbering_.first_leaf(); ++p) {
-            codes_.push_back(codes);
-            codes += numbering_.overlay_entries(p);
-        }
-    }
+    OverlayTableWriter(const OverlayIndex& index, const HopParts<uint16_t>& parts, uint32_t patch)
+        : index_(index), numbering_(index.numbering), patch_(patch), places_(index.rings.size(patch)),
+          border_(numbering_.border_size(patch)), owned_(numbering_.inner_size(patch)),
+          place_(index.rings.place_of_slot.data() + numbering_.border_begin[patch]),
+          border_rows_(parts.border.data() + index.hops.border_begin[patch]),
+          inner_rows_(parts.inner.data() + index.hops.inner_begin[patch]),
+          owned_rows_(parts.owned.data() + index.hops.owned_begin[patch]) {}
 
-    void write(uint32_t patch, const OverlaySquare* of_parent) const {
-        OverlaySquare square(numbering_, patch, codes_[patch]);
-        if (of_parent) {
-            square.take_border_from(index_, patch, *of_parent);
-            const uint32_t border = numbering_.border_size(patch);
-            write_rows(
-                index_, patch, numbering_.inner_size(patch), numbers_to(border),
-                [&](uint32_t i) { return square.row(border + i); },
-                parts_.inner.data() + index_.inner_row(patch, 0));
+    void write(const uint16_t* stored) const {
+        take_border_from_parent();
+        for (size_t i = 0; i < owned_; ++i)
+            for (size_t j = 0; j < border_; ++j)
+                inner_rows_[i * places_ + place_[j]] = owned_rows_[j * owned_ + i] = *stored++;
+        uint16_t* const among_owned = owned_rows_ + border_ * owned_;
+        for (size_t i = 0; i < owned_; ++i) {
+            among_owned[i * owned_ + i] = 0;
+            for (size_t j = 0; j < i; ++j)
+                among_owned[i * owned_ + j] = among_owned[j * owned_ + i] = *stored++;
         }
-        for (uint32_t child = numbering_.child_begin[patch]; child < numbering_.child_begin[patch + 1];
-             ++child) {
-            write_outer_table(index_, square, child, parts_.outer);
-            write_kept_table(index_, square, child, parts_.kept);
-            if (child < numbering_.first_leaf()) write(child, &square);
-        }
+        repeat_places(border_rows_, border_);
+        repeat_places(inner_rows_, owned_);
     }
 
 private:
+    // The distances of vertices on the patch's border are stored in the table of its parent only.
+    void take_border_from_parent() const {
+        if (border_ == 0) return;
+        const uint32_t parent = numbering_.parent[patch_];
+        const float from = index_.quantum[parent], to = index_.quantum[patch_];
+        const uint32_t* position = numbering_.overlay_position.data() + numbering_.border_begin[patch_];
+        for (size_t i = 0; i < border_; ++i)
+            for (size_t j = 0; j <= i; ++j)
+                border_rows_[i * places_ + place_[j]] = border_rows_[j * places_ + place_[i]] =
+                    TableCode::converted(index_.overlay_code(parent, position[i], position[j]), from, to);
+    }
+
+    // Places that repeat a vertex have its codes.
+    void repeat_places(uint16_t* rows, size_t count) const {
+        const Rings& rings = index_.rings;
+        const uint32_t first = rings.begin[patch_];
+        for (size_t k = 0; k < places_; ++k)
+            if (!rings.is_own[first + k]) {
+                const uint32_t own = place_[rings.position[first + k]];
+                for (size_t i = 0; i < count; ++i) rows[i * places_ + k] = rows[i * places_ + own];
+            }
+    }
+
     const OverlayIndex& index_;
     const Numbering& numbering_;
-    const HopParts<uint16_t>& parts_;
-    std::vector<const uint16_t*> codes_; // per inner patch: those of its overlay table
+    uint32_t patch_;
+    size_t places_, border_, owned_;
+    const uint32_t* place_; // per position of the border: its own place
+    uint16_t *border_rows_, *inner_rows_, *owned_rows_;
 };
+
+// Those of parents before those of their children, which have larger numbers.
+void write_overlay_tables(const StoredIndex& stored, const OverlayIndex& index,
+                          const HopParts<uint16_t>& parts) {
+    const uint16_t* codes = stored.overlay_codes.data();
+    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) {
+        OverlayTableWriter(index, parts, p).write(codes);
+        codes += index.numbering.overlay_entries(p);
+    }
+}
+
+// Writes the inner table of a leaf. `stored` has a row for each vertex of its border.
+void write_leaf_rows(const OverlayIndex& index, uint32_t leaf, const uint16_t* stored, uint16_t* rows) {
+    const uint32_t count = index.numbering.internal_size(leaf), places = index.rings.size(leaf);
+    const uint32_t* const position = index.rings.position.data() + index.rings.begin[leaf];
+    for (uint32_t i = 0; i < count; ++i)
+        for (uint32_t k = 0; k < places; ++k) *rows++ = stored[size_t{position[k]} * count + i];
+}
 
 void write_leaf_tables(const StoredIndex& stored, const OverlayIndex& index,
                        const HopParts<uint16_t>& parts) {
     const Numbering& numbering = index.numbering;
-    std::vector<uint16_t> rows;
-    for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf) {
-        const uint32_t border = numbering.border_size(leaf), count = numbering.internal_size(leaf);
-        const uint16_t* entry =
-            stored.border_internal_codes.data() + numbering.border_internal_entry(leaf, 0, 0);
-        rows.resize(size_t{count} * border);
-        for (uint32_t i = 0; i < border; ++i)
-            for (uint32_t j = 0; j < count; ++j) rows[size_t{j} * border + i] = *entry++;
-        write_rows(
-            index, leaf, count, numbers_to(border),
-            [&](uint32_t i) { return rows.data() + size_t{i} * border; },
-            parts.inner.data() + index.inner_row(leaf, 0));
-    }
+    for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); ++leaf)
+        write_leaf_rows(index, leaf,
+                        stored.border_internal_codes.data() + numbering.border_internal_entry(leaf, 0, 0),
+                        parts.inner.data() + index.hops.inner_begin[leaf]);
     std::ranges::copy(stored.internal_codes, parts.internal.begin());
 }
 
@@ -261,7 +193,7 @@ void make_hop_codes(const StoredIndex& stored, OverlayIndex& index) {
     index.hops.made.resize(hop_code_count(index));
     view_hop_codes(index, index.hops.made);
     const auto parts = parts_of(index, std::span(index.hops.made));
-    OverlayTableWriter(stored, index, parts).write(0, nullptr);
+    write_overlay_tables(stored, index, parts);
     write_leaf_tables(stored, index, parts);
     make_middle_tables(index, parts.inner_middles);
 }

@@ -1,7 +1,6 @@
 #include "src/overlay/proportion.h"
 
 #include <string>
-#include <vector>
 
 #include "format/error.h"
 #include "src/overlay/bounds.h"
@@ -12,29 +11,20 @@ namespace geodesic {
 
 namespace {
 
-// The size of the outer table of a patch, and of the inner ones.
-uint64_t outer_and_inner(const OverlayIndex& index, uint32_t patch) {
+// The size of a patch's tables: the inner one and that of its middles, and those of an inner patch.
+uint64_t own_tables(const OverlayIndex& index, uint32_t patch) {
     const Numbering& numbering = index.numbering;
-    const uint32_t outside = numbering.overlay_size(numbering.parent[patch]) - numbering.border_size(patch);
-    return index.rings.size(patch) * (uint64_t{outside} + 2 * uint64_t{numbering.inner_size(patch)});
-}
-
-// The size of all kept tables.
-uint64_t kept(const Numbering& numbering) {
-    std::vector<uint64_t> count(numbering.patch_count(), 0);
-    for_each_kept(numbering, [&](uint32_t slot) { ++count[numbering.patch_of_slot[slot]]; });
-    uint64_t codes = 0;
-    for (const uint64_t vertices : count) codes += triangle_size(vertices);
-    return codes;
+    const uint64_t places = index.rings.size(patch), inner = numbering.inner_size(patch);
+    if (patch >= numbering.first_leaf()) return 2 * places * inner;
+    return 2 * places * inner + places * numbering.border_size(patch) + inner * numbering.overlay_size(patch);
 }
 
 }
 
 // No sum wraps around, since a ring has fewer than 2^15 places and there are fewer than 2^32 vertices.
 uint64_t derived_codes(const OverlayIndex& index) {
-    uint64_t codes = kept(index.numbering) + count_bound_codes(index) + count_sample_codes(index) +
-                     count_label_codes(index);
-    for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) codes += outer_and_inner(index, p);
+    uint64_t codes = count_bound_codes(index) + count_sample_codes(index) + count_label_codes(index);
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) codes += own_tables(index, p);
     return codes;
 }
 

@@ -104,24 +104,51 @@ private:
     std::vector<uint8_t> is_sample_; // per border vertex
 };
 
+// The most places of the ring of a child.
+uint32_t longest_border_of_child(const OverlayIndex& index, uint32_t patch) {
+    const uint32_t first = index.numbering.child_begin[patch], end = index.numbering.child_begin[patch + 1];
+    uint32_t longest = 0;
+    for (uint32_t child = first; child < end; ++child) longest = std::max(longest, index.rings.size(child));
+    return longest;
+}
+
+// Whether a patch has a table across: where a hop from the longest border of its siblings, which has so many
+// places, is not made as a whole.
+bool needs_table_across(const OverlayIndex& index, uint32_t patch, uint32_t longest) {
+    return size_t{index.rings.size(patch)} * longest > FEW_PAIRS;
+}
+
 // The number of codes in the tables of all samples. begin[p] is the first sample of patch p.
 uint64_t count_codes(const OverlayIndex& index, std::span<const uint32_t> begin) {
     const Numbering& numbering = index.numbering;
     uint64_t codes = 0;
     for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
         const uint32_t first = numbering.child_begin[p], end = numbering.child_begin[p + 1];
+        const uint32_t longest = longest_border_of_child(index, p);
         uint64_t columns = begin[p + 1] - begin[p];
         for (uint32_t child = first; child < end; ++child)
-            if (has_table_across(index, child)) columns += begin[child + 1] - begin[child];
+            if (needs_table_across(index, child, longest)) columns += begin[child + 1] - begin[child];
         codes += columns * (begin[end] - begin[first]);
     }
     return codes;
 }
 
+// Of a place of a patch's ring: its vertex, and where that is in the parent's overlay.
+uint32_t vertex_at(const OverlayIndex& index, uint32_t patch, uint16_t place) {
+    return index.rings.vertex[index.rings.begin[patch] + place];
+}
+uint32_t position_in_parent(const OverlayIndex& index, uint32_t patch, uint16_t place) {
+    return index.position_in_parent(patch, index.rings.begin[patch] + place);
+}
+
+// Of two vertices on the border that is hopped from or to.
+uint16_t code_on_border(uint32_t a, uint32_t b) { return a == b ? 0 : TableCode::UNREACHED; }
+
 class SampleWriter {
 public:
     SampleWriter(const OverlayIndex& index, Samples& samples)
-        : index_(index), numbering_(index.numbering), samples_(samples) {}
+        : index_(index), numbering_(index.numbering), samples_(samples),
+          across_(std::pmr::get_default_resource()) {}
 
     void write() {
         const uint32_t patch_count = numbering_.patch_count();
@@ -135,7 +162,7 @@ public:
         });
         samples_.codes.reserve(count_codes(index_, samples_.begin) + TableCode::PADDING);
         for (uint32_t p = 0; p < patch_count; ++p) write_up(p);
-        samples_.across_begin.assign(patch_count, 0);
+        samples_.across_begin.assign(patch_count, Samples::NO_TABLE);
         for (uint32_t p = 0; p < numbering_.first_leaf(); ++p) write_across_children_of(p);
         samples_.codes.resize(samples_.codes.size() + TableCode::PADDING, TableCode::UNREACHED);
     }
@@ -156,57 +183,44 @@ private:
         samples_.long_begin.push_back(static_cast<uint32_t>(samples_.long_segments.size()));
     }
 
-    // The position, in the border of its patch, of the vertex at a place.
-    uint32_t position(uint32_t patch, uint16_t place) const {
-        return index_.rings.position[index_.rings.begin[patch] + place];
-    }
-    uint32_t overlay_position(uint32_t patch, uint16_t place) const {
-        return numbering_.overlay_position[numbering_.border_begin[patch] + position(patch, place)];
-    }
-
-    uint32_t vertex_at(uint32_t patch, uint16_t place) const {
-        return index_.rings.vertex[index_.rings.begin[patch] + place];
-    }
-    // Of two vertices on the border that is hopped from or to.
-    static uint16_t code_on_border(uint32_t a, uint32_t b) { return a == b ? 0 : TableCode::UNREACHED; }
-
     // Makes room for a table and returns it.
     uint16_t* add_table(size_t rows, size_t columns) {
         samples_.codes.resize(samples_.codes.size() + rows * columns);
         return samples_.codes.data() + samples_.codes.size() - rows * columns;
     }
 
-    // Reads the outer table row by row, and so writes column by column. The overlay of a patch begins with
-    // its border.
+    // The overlay of a patch begins with its border.
     void write_up(uint32_t patch) {
         samples_.up_begin.push_back(samples_.codes.size());
         if (patch == 0) return;
         const uint32_t parent = numbering_.parent[patch];
         const auto from = samples_.of(patch), to = samples_.of(parent);
-        uint16_t* table = add_table(from.size(), to.size());
-        for (size_t j = 0; j < to.size(); ++j) {
-            const uint32_t vertex = vertex_at(parent, to[j]);
-            const uint16_t* row = index_.outer_row(patch, position(parent, to[j]));
-            for (size_t i = 0; i < from.size(); ++i)
-                table[i * to.size() + j] =
-                    row ? row[from[i]] : code_on_border(vertex, vertex_at(patch, from[i]));
+        uint16_t* entry = add_table(from.size(), to.size());
+        for (const uint16_t k : from) {
+            const uint16_t* const row = index_.row_to_ring(parent, position_in_parent(index_, patch, k));
+            for (const uint16_t place : to) {
+                const uint32_t position = index_.rings.position[index_.rings.begin[parent] + place];
+                *entry++ = index_.is_on_border(patch, position)
+                               ? code_on_border(vertex_at(index_, parent, place), vertex_at(index_, patch, k))
+                               : row[place];
+            }
         }
     }
 
     void write_across_children_of(uint32_t patch) {
         const uint32_t first = numbering_.child_begin[patch], end = numbering_.child_begin[patch + 1];
         const uint32_t rows = samples_.begin[end] - samples_.begin[first];
+        const uint32_t longest = longest_border_of_child(index_, patch);
         for (uint32_t child = first; child < end; ++child) {
+            if (!needs_table_across(index_, child, longest)) continue;
             samples_.across_begin[child] = samples_.codes.size();
-            if (!has_table_across(index_, child)) continue;
-            const auto to = samples_.of(child);
-            uint16_t* entry = add_table(rows, to.size());
+            const size_t columns = samples_.of(child).size();
+            uint16_t* row = add_table(rows, columns);
+            across_.begin(index_, samples_, child);
             for (uint32_t sibling = first; sibling < end; ++sibling)
                 for (const uint16_t from : samples_.of(sibling)) {
-                    const uint32_t vertex = vertex_at(sibling, from);
-                    const uint16_t* row = index_.outer_row(child, overlay_position(sibling, from));
-                    for (const uint16_t k : to)
-                        *entry++ = row ? row[k] : code_on_border(vertex, vertex_at(child, k));
+                    across_.fill(sibling, from, row);
+                    row += columns;
                 }
         }
     }
@@ -214,6 +228,7 @@ private:
     const OverlayIndex& index_;
     const Numbering& numbering_;
     Samples& samples_;
+    RowsAcross across_;
 };
 
 }
@@ -226,8 +241,32 @@ uint64_t count_sample_codes(const OverlayIndex& index) {
     return count_codes(index, begin);
 }
 
-bool has_table_across(const OverlayIndex& index, uint32_t patch) {
-    return index.rings.size(patch) > LONGEST_WITHOUT_TABLE_ACROSS;
+void RowsAcross::begin(const OverlayIndex& index, const Samples& samples, uint32_t patch) {
+    index_ = &index;
+    patch_ = patch;
+    const uint32_t parent = index.numbering.parent[patch], border_size = index.numbering.border_size(parent);
+    const uint32_t* const place_of_position =
+        index.rings.place_of_slot.data() + index.numbering.border_begin[parent];
+    columns_.clear();
+    for (const uint16_t place : samples.of(patch)) {
+        const uint32_t position = position_in_parent(index, patch, place);
+        const bool is_owned = position >= border_size;
+        columns_.push_back({vertex_at(index, patch, place),
+                            is_owned ? position - border_size : place_of_position[position], is_owned});
+    }
+}
+
+void RowsAcross::fill(uint32_t sibling, uint16_t from, uint16_t* row) const {
+    const uint32_t parent = index_->numbering.parent[patch_];
+    const uint32_t position = position_in_parent(*index_, sibling, from);
+    if (index_->is_on_border(patch_, position)) {
+        for (const Column& to : columns_)
+            *row++ = code_on_border(vertex_at(*index_, sibling, from), to.vertex);
+        return;
+    }
+    const uint16_t* const to_ring = index_->row_to_ring(parent, position);
+    const uint16_t* const to_owned = index_->row_to_owned(parent, position);
+    for (const Column& to : columns_) *row++ = (to.is_owned ? to_owned : to_ring)[to.number];
 }
 
 void make_samples(const OverlayIndex& index, Samples& samples) { SampleWriter(index, samples).write(); }

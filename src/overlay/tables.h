@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory_resource>
 #include <mutex>
 #include <optional>
@@ -16,33 +17,32 @@
 
 namespace geodesic {
 
-// The tables that hops read: codes of distances, in rows along a ring, with one code for each place of the
-// ring. Every patch has two such tables. Its outer table has a row for each vertex of its parent's overlay
-// that is not on its own border, in steps of the parent's quantum; hops up and across read it. Its inner
-// table has a row for each of its own inner vertices, in steps of its own quantum; hops down read it. Beside
-// each row of an inner table lies a row of inner_middles, which has, for each place, the distance to the
-// middle of the segment that begins there.
+// The tables that hops read: codes of distances, in steps of the quantum of their patch.
 //
-// Two vertices that lie on the borders of the very same children of a patch are in no outer table together.
-// One of these children keeps their distance: its kept table has all pairs of the vertices that it keeps,
-// below the diagonal.
+// Each distance of an inner patch's overlay table lies there twice, in a row of both vertices. A row is in
+// two parts: one code for each place of the patch's own ring, and one for each vertex that the patch owns.
+// Rows to the ring are those of the border table, for the vertices on the patch's border, and those of the
+// inner table, for the vertices that it owns. Rows to owned vertices are those of the owned table, for all
+// vertices of the overlay. So a hop up or across reads the rows of a child's border, in which all that it
+// leads to lies side by side.
+//
+// A leaf has an inner table only, with a row for each of its internal vertices. Hops down read inner tables.
+// Beside each row of one lies a row of inner_middles, which has, for each place, the distance to the middle
+// of the segment that begins there.
 //
 // All codes lie one table kind after the other, so that a mapped file can hold them as they are.
 struct HopTables {
     explicit HopTables(std::pmr::memory_resource* memory)
-        : outer_begin(memory), kept_begin(memory), inner_begin(memory), row_begin(memory), own_before(memory),
-          kept_number(memory), made(memory) {}
+        : border_begin(memory), owned_begin(memory), inner_begin(memory), on_border_begin(memory),
+          on_border(memory), made(memory) {}
 
-    static constexpr uint16_t OWN = 0xffff;
-
-    Array<uint64_t> outer_begin, kept_begin, inner_begin; // per patch
-    Array<uint64_t> row_begin;                            // per patch: where its rows begin in own_before
-    // Of patches with a border, per position of the parent's overlay: how many of those before it are on the
-    // patch's own border, or OWN if it is itself. (A border has fewer vertices than a ring may have places.)
-    Array<uint16_t> own_before;
-    Array<uint16_t> kept_number;     // per slot whose patch keeps the vertex: its row in the kept table
+    Array<uint64_t> border_begin, owned_begin; // per inner patch
+    Array<uint64_t> inner_begin;               // per patch
+    Array<uint64_t> on_border_begin;           // per patch: where its flags begin in on_border
+    // Per position of the overlay of a patch's parent: whether that vertex is on the patch's own border.
+    Array<uint8_t> on_border;
     std::span<const uint16_t> codes; // those of the following five, in this order
-    std::span<const uint16_t> outer, kept, inner, inner_middles;
+    std::span<const uint16_t> border, owned, inner, inner_middles;
     std::span<const uint16_t> internal; // of leaves, below the diagonal, at Numbering::internal_entry()
     Array<uint16_t> made;               // `codes`, unless they lie in a file
 };
@@ -72,15 +72,17 @@ struct InnerBounds {
 // Both ends of each are samples.
 //
 // Up: for each patch whose parent has a border, rows for the samples of the patch, each with one code for
-// every sample of the parent. Across: for each patch whose border is long, rows for the samples of all
-// children of its parent, in the order of their numbers, each with one code for every sample of the patch.
-// Where a border is not long, hops across read the outer table of its patch. Two samples that lie on both
-// borders have no path in these tables, since each has its distance without a hop; a sample and itself are at
-// distance 0.
+// every sample of the parent. Across: for each patch with a long border, or with one beside it, rows for the
+// samples of all children of its parent, in the order of their numbers, each with one code for every sample
+// of the patch. The few hops across that have no table read that of the parent's overlay. Two samples that
+// lie on both borders have no path in these tables, since each has its distance without a hop; a sample and
+// itself are at distance 0.
 struct Samples {
     explicit Samples(std::pmr::memory_resource* memory)
         : begin(memory), place(memory), spacing(memory), long_begin(memory), long_segments(memory),
           up_begin(memory), across_begin(memory), codes(memory) {}
+
+    static constexpr uint64_t NO_TABLE = std::numeric_limits<uint64_t>::max();
 
     struct LongSegment {
         uint32_t first, second; // samples, counted from the first one of the border
@@ -93,12 +95,13 @@ struct Samples {
     Array<uint32_t> long_begin; // per patch: where its long segments begin in `long_segments`
     Array<LongSegment> long_segments;
     Array<uint64_t> up_begin;     // per patch: where its table up begins in `codes`
-    Array<uint64_t> across_begin; // per patch: where its table across begins in `codes`
+    Array<uint64_t> across_begin; // per patch: where its table across begins in `codes`, or NO_TABLE
     Array<uint16_t> codes;
 
     std::span<const uint16_t> of(uint32_t patch) const {
         return {place.data() + begin[patch], place.data() + begin[patch + 1]};
     }
+    bool has_table_across(uint32_t patch) const { return across_begin[patch] != NO_TABLE; }
     // The first row for the samples of a patch in the table across of a sibling, which must have one.
     const uint16_t* rows_across(const Numbering& numbering, uint32_t patch, uint32_t sibling) const {
         const uint32_t row = begin[patch] - begin[numbering.child_begin[numbering.parent[patch]]];
@@ -140,36 +143,6 @@ struct PairTables {
     std::atomic<bool> are_made = false;
 };
 
-// The slot of a vertex of a patch's overlay on the border of the child that keeps it. It is the same child
-// for all vertices that lie on the borders of the same children; different ones take turns.
-inline uint32_t kept_slot(const Numbering& numbering, uint32_t patch, uint32_t overlay_position) {
-    const auto slots = numbering.slots_of(patch, overlay_position);
-    const uint32_t first = numbering.patch_of_slot[slots.front()],
-                   last = numbering.patch_of_slot[slots.back()];
-    return slots[(first + last) % slots.size()];
-}
-
-// Calls use(slot) with that slot for each vertex of each overlay, in the order of the overlays.
-template <class Use>
-void for_each_kept(const Numbering& numbering, const Use& use) {
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
-        for (uint32_t i = 0; i < numbering.overlay_size(p); ++i) use(kept_slot(numbering, p, i));
-}
-
-// The rows of the outer table of a patch.
-struct OuterRows {
-    const uint16_t* own_before; // NULL if the border of the patch is empty
-    const uint16_t* codes;
-    size_t places;
-
-    // The row of a vertex, or NULL if the vertex is on the patch's own border, or if that is empty. The
-    // vertex is given by its position in the overlay of the patch's parent.
-    const uint16_t* of(uint32_t overlay_position) const {
-        if (!own_before || own_before[overlay_position] == HopTables::OWN) return nullptr;
-        return codes + size_t{overlay_position - own_before[overlay_position]} * places;
-    }
-};
-
 // What the overlay engine answers from.
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
@@ -187,45 +160,43 @@ struct OverlayIndex {
 
     float distance(uint16_t code, uint32_t patch) const { return TableCode::distance(code, quantum[patch]); }
 
-    OuterRows outer_rows(uint32_t patch) const {
-        const uint32_t places = rings.size(patch);
-        return {places == 0 ? nullptr : hops.own_before.data() + hops.row_begin[patch],
-                hops.outer.data() + hops.outer_begin[patch], places};
-    }
-    const uint16_t* outer_row(uint32_t patch, uint32_t overlay_position) const {
-        return outer_rows(patch).of(overlay_position);
-    }
     // Where a row begins in the inner table of a patch, which has one for each of its inner vertices.
     uint64_t inner_row(uint32_t patch, uint32_t inner) const {
         return hops.inner_begin[patch] + uint64_t{inner} * rings.size(patch);
     }
 
-    // The entry for the overlay positions i and j in the overlay table of an inner patch.
-    uint16_t overlay_code(uint32_t patch, uint32_t i, uint32_t j) const {
-        if (i == j) return 0;
-        if (const uint16_t* const code = outer_code(patch, i, j)) return *code;
-        if (const uint16_t* const code = outer_code(patch, j, i)) return *code;
-        const uint32_t slot = kept_slot(numbering, patch, i);
-        const uint32_t a = hops.kept_number[slot], b = hops.kept_number[kept_slot(numbering, patch, j)];
-        return hops.kept[hops.kept_begin[numbering.patch_of_slot[slot]] +
-                         below_diagonal(std::max(a, b), std::min(a, b))];
+    // The rows of the vertex at a position of an inner patch's overlay: to the places of the patch's ring,
+    // and to the vertices that it owns.
+    const uint16_t* row_to_ring(uint32_t patch, uint32_t position) const {
+        const uint32_t border = numbering.border_size(patch);
+        if (position >= border) return hops.inner.data() + inner_row(patch, position - border);
+        return hops.border.data() + hops.border_begin[patch] + uint64_t{position} * rings.size(patch);
     }
+    const uint16_t* row_to_owned(uint32_t patch, uint32_t position) const {
+        return hops.owned.data() + hops.owned_begin[patch] + uint64_t{position} * numbering.inner_size(patch);
+    }
+    // The entry for the overlay positions i and j.
+    uint16_t overlay_code(uint32_t patch, uint32_t i, uint32_t j) const {
+        const uint32_t border = numbering.border_size(patch);
+        if (j >= border) return row_to_owned(patch, i)[j - border];
+        return row_to_ring(patch, i)[rings.place_of_slot[numbering.border_begin[patch] + j]];
+    }
+
+    // Whether the vertex at a position of the overlay of a patch's parent is on the patch's own border.
+    bool is_on_border(uint32_t patch, uint32_t parent_position) const {
+        return hops.on_border[hops.on_border_begin[patch] + parent_position] != 0;
+    }
+    // Where the vertex at a place of a patch's ring, counted over all rings, is in the parent's overlay.
+    uint32_t position_in_parent(uint32_t patch, size_t place) const {
+        return numbering.overlay_position[numbering.border_begin[patch] + rings.position[place]];
+    }
+
     uint16_t border_internal_code(uint32_t leaf, uint32_t border_position, uint32_t internal) const {
         return hops.inner[inner_row(leaf, internal) +
                           rings.place_of_slot[numbering.border_begin[leaf] + border_position]];
     }
     uint16_t internal_code(uint32_t leaf, uint32_t i, uint32_t j) const {
         return hops.internal[numbering.internal_entry(leaf, i, j)];
-    }
-
-private:
-    // The entry in the row of the overlay position i of the outer table of a child that has j on its border,
-    // or NULL if all these children have i there, too.
-    const uint16_t* outer_code(uint32_t patch, uint32_t i, uint32_t j) const {
-        for (const uint32_t slot : numbering.slots_of(patch, j))
-            if (const uint16_t* const row = outer_row(numbering.patch_of_slot[slot], i))
-                return row + rings.place_of_slot[slot];
-        return nullptr;
     }
 };
 

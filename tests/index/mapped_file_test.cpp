@@ -216,8 +216,8 @@ TEST_CASE("mapped: whatever codes a file has, it is answered from or refused") {
     }
 }
 
-// The outer tables come first. Most of their codes are there twice or more; those that are not follow from no
-// others, and no reader can tell.
+// Border tables and owned tables come first. All of their codes are there twice or more, or are 0; no reader
+// can tell what padding should be.
 TEST_CASE("mapped: verifying finds the code that does not follow") {
     const size_t codes = format::Container::parse(mapped(), INDEX_TAGS).section(TAG_HOP_CODES).raw_size / 2;
     std::mt19937 random(4);

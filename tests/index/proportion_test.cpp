@@ -24,8 +24,9 @@ uint64_t label_codes(const OverlayIndex& index) {
     return labels.codes.get_deleter().size - padded * TableCode::PADDING;
 }
 uint64_t codes_made(const OverlayIndex& index) {
-    return index.hops.outer_begin.back() + index.hops.kept_begin.back() + 2 * index.hops.inner_begin.back() +
-           index.bounds.codes.size() + sample_codes(index) + label_codes(index);
+    return index.hops.border_begin.back() + index.hops.owned_begin.back() +
+           2 * index.hops.inner_begin.back() + index.bounds.codes.size() + sample_codes(index) +
+           label_codes(index);
 }
 
 }

@@ -165,17 +165,24 @@ uint32_t position_of(const OverlayIndex& index, uint32_t patch, uint16_t winner)
 // that is not on the border.
 std::vector<uint32_t> crossed_positions(const OverlayIndex& index, uint32_t child, const Field& source) {
     const Rings& rings = index.rings;
-    const uint32_t first = rings.begin[child], parent = index.numbering.parent[child];
-    std::vector<const uint16_t*> rows;
+    const uint32_t first = rings.begin[child], parent = index.numbering.parent[child],
+                   border_size = index.numbering.border_size(parent);
+    std::vector<uint32_t> on_ring, owned;
     for (uint32_t i = 0; i < index.numbering.overlay_size(parent); ++i)
-        if (const uint16_t* const row = index.outer_row(child, i)) rows.push_back(row);
-    BorderField field(index, std::pmr::get_default_resource());
-    const auto border = field.begin(rings, first, rings.size(child), index.quantum[parent]);
+        if (!index.is_on_border(child, i)) {
+            if (i < border_size)
+                on_ring.push_back(rings.place_of_slot[index.numbering.border_begin[parent] + i]);
+            else
+                owned.push_back(i - border_size);
+        }
+    OverlayCrossing crossing(index, std::pmr::get_default_resource());
+    const auto border = crossing.begin(child, first, rings.size(child), segments_from(rings, first));
     for (uint32_t k = 0; k < border.size(); ++k) border[k] = source.distance[rings.vertex[first + k]];
-    REQUIRE(field.finish());
-    std::vector<float> ways(rows.size());
-    std::vector<uint16_t> winners(rows.size());
-    field.cross(rows, ways.data(), winners.data());
+    REQUIRE(crossing.finish());
+    std::vector<float> ways(on_ring.size() + owned.size());
+    std::vector<uint16_t> winners(ways.size());
+    crossing.cross_to_ring(on_ring, ways.data(), winners.data());
+    crossing.cross_to_owned(owned, ways.data() + on_ring.size(), winners.data() + on_ring.size());
     std::vector<uint32_t> positions;
     for (const uint16_t winner : winners) positions.push_back(position_of(index, child, winner));
     return positions;

@@ -177,7 +177,7 @@ TEST_CASE("samples: their tables are entries of the overlay tables, but between 
             for (size_t i = 0; i < from.size(); ++i)
                 for (size_t j = 0; j < above.size(); ++j, ++up)
                     wrong += *code++ != expected(p, from[i], position(parent, above[j]));
-            if (!has_table_across(overlay, p)) continue;
+            if (!samples.has_table_across(p)) continue;
             for (uint32_t s = numbering.child_begin[parent]; s < numbering.child_begin[parent + 1]; ++s) {
                 const auto beside = samples.of(s);
                 const uint16_t* row = samples.rows_across(numbering, s, p);

@@ -20,9 +20,24 @@ struct Crossed {
     std::vector<uint16_t> winners;
 };
 
+// To targets with a row each, in which the places of the border lie side by side. Columns that are not wanted
+// lie before, between and behind theirs.
 Crossed cross(const Kernels& kernels, const BorderFromSource& border, Rows rows) {
+    constexpr uint32_t FIRST = 3, APART = 2;
+    std::vector<uint32_t> columns;
+    for (uint32_t i = 0; i < rows.size(); ++i) columns.push_back(FIRST + APART * i);
+    const size_t stride = SourceCode::whole_blocks(columns.back() + 1) + SourceCode::BLOCK;
+    std::vector<uint16_t> table(border.places * stride, 1);
+    std::vector<const uint16_t*> of_places;
+    for (size_t k = 0; k < border.places; ++k) {
+        for (size_t i = 0; i < rows.size(); ++i) table[k * stride + columns[i]] = rows[i][k];
+        of_places.push_back(table.data() + k * stride);
+    }
+    std::vector<int16_t> sums(stride);
+    std::vector<uint16_t> places(stride);
     Crossed crossed{std::vector<float>(rows.size()), std::vector<uint16_t>(rows.size())};
-    kernels.cross(border, rows, crossed.distances.data(), crossed.winners.data());
+    kernels.cross(border, {of_places, FIRST, columns.back(), columns, sums.data(), places.data()},
+                  crossed.distances.data(), crossed.winners.data());
     return crossed;
 }
 
@@ -132,8 +147,10 @@ TEST_CASE("crossing: near is what lies within five segments, and what is far sta
             REQUIRE(prepared.range.is_near() == (share < 1));
             if (!prepared.range.is_near()) continue;
             for (size_t k = 0; k < line.size(); ++k)
-                CHECK((distance(source, line[k]) <= reach) ==
-                      (k >= prepared.range.first && k <= prepared.range.last));
+                if (distance(source, line[k]) <= reach) {
+                    CHECK(k >= prepared.range.begin + Rings::REACH);
+                    CHECK(std::min(k + Rings::REACH, line.size()) <= prepared.range.end);
+                }
             std::vector<float> distances{prepared.range.reach, prepared.range.reach * 2};
             kernels.cross_near(prepared.border, prepared.range, border.rows, distances.data());
             CHECK(double{distances[0]} == doctest::Approx(share * reach + 2).epsilon(1e-3));

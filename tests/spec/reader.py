@@ -309,7 +309,6 @@ class Index:
         self.border = [numbers[a:b] for a, b in zip(self.border_begin, self.border_begin[1:])]
         self.entry = numpy.repeat(numpy.arange(self.patch_count), counts)
         self.leaves = range(self.inner_count, self.patch_count)
-        self._on_border = [set(border.tolist()) for border in self.border]
 
     def is_border(self, number):
         return number < self.border_vertex_count
@@ -378,21 +377,23 @@ class Index:
     def _read_mapped(self):
         require(self.sections["HOPS"].codec == RAW, "HOPS is not raw")
         codes = Fields(self.sections["HOPS"].bytes())
-        places, patches = [self.places(patch) for patch in range(self.patch_count)], range(1, self.patch_count)
+        places = [self.places(patch) for patch in range(self.patch_count)]
         insides, rings = [len(inside) for inside in self.inside], [len(on) for on, _ in places]
-        outside = {p: [v for v in self.overlay(self.parent[p]) if v not in self._on_border[p]] for p in patches}
-        outer = self._part(codes, [(len(outside[p]), rings[p]) for p in patches])
-        kept = self._kept_vertices()
-        kept_codes = self._part(codes, [(1, len(kept[p]) * (len(kept[p]) - 1) // 2) for p in patches])
-        inner = self._part(codes, [(insides[p], rings[p]) for p in patches])
-        middles = self._part(codes, [(insides[p], rings[p]) for p in patches])
+        inners = range(self.inner_count)
+        overlays = [len(self.overlay(p)) for p in inners]
+        borders = self._part(codes, [(len(self.border[p]), rings[p]) for p in inners])
+        owned = self._part(codes, [(overlays[p], insides[p]) for p in inners])
+        inner = self._part(codes, [(insides[p], rings[p]) for p in range(self.patch_count)])
+        middles = self._part(codes, [(insides[p], rings[p]) for p in range(self.patch_count)])
         triangles = self._part(codes, [(1, n * (n - 1) // 2) for n in (insides[p] for p in self.leaves)])
         require(codes.at == len(codes.content), "HOPS is longer than its tables")
-        of_child = {p: (outside[p], outer[p - 1], kept[p], kept_codes[p - 1][0]) for p in patches}
-        self.overlay_table = [self._from_children(patch, places, of_child) for patch in range(self.inner_count)]
-        for patch in patches:
-            self._check_repeated(patch, places[patch][0], inner[patch - 1], middles[patch - 1])
-        self.border_internal = {p: inner[p - 1][:, places[p][1]].T for p in self.leaves}
+        self.overlay_table = []
+        for patch in inners:
+            to_ring = numpy.concatenate([borders[patch], inner[patch]])
+            self.overlay_table.append(self._joined_rows(patch, places[patch], to_ring, owned[patch]))
+        for patch in range(self.patch_count):
+            self._check_middles(patch, places[patch][0], inner[patch], middles[patch])
+        self.border_internal = {p: inner[p][:, places[p][1]].T for p in self.leaves}
         self.internal = {p: self._triangle(entries[0], insides[p]) for p, entries in zip(self.leaves, triangles)}
 
     def places(self, patch):
@@ -419,41 +420,19 @@ class Index:
             at += rows * columns
         return tables
 
-    def _kept_vertices(self):
-        """For each patch the vertices of its parent's overlay whose distances among each other it keeps."""
-        kept = {patch: [] for patch in range(1, self.patch_count)}
-        for patch in range(self.inner_count):
-            for number in self.overlay(patch):
-                around = [child for child in self.children[patch] if number in self._on_border[child]]
-                kept[around[(around[0] + around[-1]) % len(around)]].append(number)
-        return kept
-
-    def _from_children(self, patch, places, of_child):
-        position = {number: i for i, number in enumerate(self.overlay(patch))}
-        table = numpy.full((len(position), len(position)), numpy.nan, "f4")
-        numpy.fill_diagonal(table, 0)
-
-        def take(rows, columns, entries):
-            at = numpy.ix_([position[number] for number in rows], [position[number] for number in columns])
-            known = ~numpy.isnan(table[at])
-            numpy.testing.assert_array_equal(table[at][known], entries[known])
-            table[at] = entries
-
-        for child in self.children[patch]:
-            outside, outer, kept, among_kept = of_child[child]
-            take(outside, self.border[child], outer[:, places[child][1]])
-            take(self.border[child], outside, outer[:, places[child][1]].T)
-            take(kept, kept, self._triangle(among_kept, len(kept)))
-            on = places[child][0]
-            numpy.testing.assert_array_equal(outer, outer[:, places[child][1]][:, on])
-        require(not numpy.isnan(table).any(), "a pair of an overlay without a distance")
+    def _joined_rows(self, patch, places, to_ring, owned):
+        """The overlay table of a patch, in which each distance is there twice, from its two parts."""
+        on, own = places
+        numpy.testing.assert_array_equal(to_ring, to_ring[:, own][:, on])
+        table = numpy.concatenate([to_ring[:, own], owned], axis=1)
+        numpy.testing.assert_array_equal(table, table.T)
+        require((numpy.diagonal(table) == 0).all(), "a vertex is not at distance 0 from itself")
+        border = len(self.border[patch])
+        if patch:
+            numpy.testing.assert_array_equal(table[:border, :border], self._converted(patch))
         return table
 
-    def _check_repeated(self, patch, on, inner, middles):
-        """Entries that follow from others."""
-        if patch < self.inner_count:
-            size = len(self.border[patch])
-            numpy.testing.assert_array_equal(inner, self.overlay_table[patch][size:][:, on])
+    def _check_middles(self, patch, on, inner, middles):
         for place, (i, j) in enumerate(zip(on, on[1:])):
             if self.segment_end[patch][i] == j:
                 length = self.segment_length[patch][i] / self.quantum[patch]

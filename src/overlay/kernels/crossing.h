@@ -15,9 +15,8 @@ namespace geodesic {
 // The kernels that cross a border: what Kernels says of prepare_crossing(), cross(), cross_near(),
 // cross_samples() and meet() is done by the structs of these names. Only dispatch.cpp includes this.
 
-// So many rows at a time: first their nearest places, then the ways over them, so that the processor has
-// several rows at work at once.
-constexpr size_t ROWS = 64;
+// The ways to so many columns are measured at a time.
+constexpr size_t COLUMNS = 64;
 
 // ---- The border, made ready
 
@@ -35,11 +34,14 @@ template <size_t BYTES>
         lower(nearest, distance);
         lower<Floats<BYTES>>(shortest, distance < INFINITE ? -length : shortest);
     }
-    range = {least_of<BYTES>(nearest), near_radius(-least_of<BYTES>(shortest)), 1, 0};
+    range = {least_of<BYTES>(nearest), near_radius(-least_of<BYTES>(shortest)), 0, 0};
     if (range.nearest > range.reach) return;
     const auto is_far = [&](size_t k) { return border.distance[k] > range.reach; };
-    for (range.first = 0; is_far(range.first);) ++range.first;
-    for (range.last = border.places - 1; is_far(range.last);) --range.last;
+    size_t first = 0, last = border.places - 1;
+    while (is_far(first)) ++first;
+    while (is_far(last)) --last;
+    range.begin = (std::max(first, size_t{Rings::REACH}) - Rings::REACH) / PART * PART;
+    range.end = whole_parts(std::min(last + Rings::REACH, border.places));
 }
 
 // Codes of places that are not the border's own are as those of places that are not reached.
@@ -92,13 +94,18 @@ struct PrepareCrossing {
 
 // ---- The ways over the nearest places
 
-// Ways to be measured: over these places of a border, and these rows.
+// Ways to be measured: over these places of a border, each with its row, and to these columns.
 struct Ways {
     const int32_t* places;
     const uint16_t* const* rows;
+    const uint32_t* columns;
 
-    [[gnu::always_inline]] const uint16_t* codes_beside(size_t way) const {
-        return rows[way] + places[way] - Rings::REACH;
+    // The codes of the places beside a way's, and three of no meaning.
+    [[gnu::always_inline]] EightCodes codes_beside(size_t way) const {
+        static_assert(Rings::REACH == 2);
+        const uint16_t* const* const row = rows + places[way] - Rings::REACH;
+        const size_t c = columns[way];
+        return EightCodes{row[0][c], row[1][c], row[2][c], row[3][c], row[4][c]};
     }
     [[gnu::always_inline]] BesideFloats beside(const float* values, size_t way) const {
         return beside_floats(values + places[way] - Rings::REACH);
@@ -113,15 +120,15 @@ template <size_t BYTES>
     distances = codes < TableCode::UNREACHED ? __builtin_convertvector(codes, Floats<BYTES>) * quantum : none;
 }
 
-// The distances that the rows of the ways from `first` on hold, side by side, four each: those of the places
-// that segments beside the place begin at, and those of the next ones.
+// The distances of the columns of the ways from `first` on, side by side, four each: those from the places
+// that segments beside the place begin at, and those from the next ones.
 template <size_t BYTES>
 [[gnu::always_inline]] inline void distances_beside(const Ways& ways, size_t first, float quantum,
                                                     Floats<BYTES>& of_first, Floats<BYTES>& of_second) {
     constexpr std::make_index_sequence<BYTES / sizeof(uint16_t)> ALL;
     typename VectorOf<uint16_t, BYTES>::Type codes;
     typename Lanes<BYTES>::Keys numbers;
-    join([&](size_t i) { return load_eight(ways.codes_beside(first + i)); }, codes);
+    join([&](size_t i) { return ways.codes_beside(first + i); }, codes);
     widen_four<0>(codes, numbers, ALL);
     decode<BYTES>(numbers, quantum, of_first);
     widen_four<1>(codes, numbers, ALL);
@@ -158,43 +165,45 @@ template <size_t BYTES>
     lower(distances, over);
 }
 
-// Each over its row, in groups of four, the last one filled up by its first way.
+// In groups of four, the last one filled up by its first way.
 template <size_t BYTES>
-[[gnu::always_inline]] inline void measure(const BorderFromSource& shared_border, const int32_t* places,
-                                           Rows rows, float* distances) {
+[[gnu::always_inline]] inline void measure(const BorderFromSource& shared_border, const Ways& ways,
+                                           size_t count, float* distances) {
     const BorderFromSource border = shared_border; // which nothing that is written can change
-    const size_t count = rows.size();
     BesideFloats measured;
-    size_t r = 0;
-    for (; r + 4 <= count; r += 4) {
-        measure_four<BYTES>(border, {places + r, rows.data() + r}, measured);
-        std::memcpy(distances + r, &measured, sizeof measured);
+    size_t w = 0;
+    for (; w + 4 <= count; w += 4) {
+        measure_four<BYTES>(border, {ways.places + w, ways.rows, ways.columns + w}, measured);
+        std::memcpy(distances + w, &measured, sizeof measured);
     }
-    if (r == count) return;
+    if (w == count) return;
     int32_t last_places[4];
-    const uint16_t* last_rows[4];
+    uint32_t last_columns[4];
     for (size_t i = 0; i < 4; ++i) {
-        const size_t way = r + i < count ? r + i : r;
-        last_places[i] = places[way];
-        last_rows[i] = rows[way];
+        const size_t way = w + i < count ? w + i : w;
+        last_places[i] = ways.places[way];
+        last_columns[i] = ways.columns[way];
     }
-    measure_four<BYTES>(border, {last_places, last_rows}, measured);
-    for (size_t i = 0; r + i < count; ++i) distances[r + i] = measured[i];
+    measure_four<BYTES>(border, {last_places, ways.rows, last_columns}, measured);
+    for (size_t i = 0; w + i < count; ++i) distances[w + i] = measured[i];
 }
 
 template <size_t BYTES>
 struct Cross {
-    [[gnu::always_inline]] static void run(const BorderFromSource& border, Rows rows, float* distances,
-                                           uint16_t* winners) {
-        int32_t places[ROWS];
-        for (size_t done = 0; done < rows.size(); done += ROWS) {
-            const Rows part = rows.subspan(done, std::min(ROWS, rows.size() - done));
-            const Missing missing = find_nearest_places<BYTES>(border, part, places);
-            measure<BYTES>(border, places, part, distances + done);
-            missing.for_each([&](size_t r) { distances[done + r] = INFINITE; });
+    [[gnu::always_inline]] static void run(const BorderFromSource& border, const CrossedColumns& to,
+                                           float* distances, uint16_t* winners) {
+        find_nearest_places<BYTES>(border, to);
+        for (size_t done = 0; done < to.columns.size(); done += COLUMNS) {
+            const auto columns = to.columns.subspan(done, std::min(COLUMNS, to.columns.size() - done));
+            int32_t places[COLUMNS];
+            const Missing missing = collect_places(border, to, columns, places);
+            if (!missing.is_all(columns.size()))
+                measure<BYTES>(border, {places, to.rows.data(), columns.data()}, columns.size(),
+                               distances + done);
+            missing.for_each([&](size_t i) { distances[done + i] = INFINITE; });
             if (!winners) continue;
-            for (size_t r = 0; r < part.size(); ++r) winners[done + r] = static_cast<uint16_t>(places[r]);
-            missing.for_each([&](size_t r) { winners[done + r] = BorderFromSource::NO_PLACE; });
+            for (size_t i = 0; i < columns.size(); ++i) winners[done + i] = static_cast<uint16_t>(places[i]);
+            missing.for_each([&](size_t i) { winners[done + i] = BorderFromSource::NO_PLACE; });
         }
     }
 };
@@ -239,12 +248,9 @@ template <size_t BYTES>
 struct CrossNear {
     [[gnu::always_inline]] static void run(const BorderFromSource& border, const NearRange& range, Rows rows,
                                            float* distances) {
-        const size_t before = std::max(range.first, size_t{Rings::REACH}) - Rings::REACH;
-        const size_t begin = before / PART * PART,
-                     end = whole_parts(std::min(range.last + Rings::REACH, border.places));
         for (size_t r = 0; r < rows.size(); ++r) {
             if (distances[r] > range.reach) continue;
-            const float way = way_within<BYTES>(border, begin, end, rows[r]);
+            const float way = way_within<BYTES>(border, range.begin, range.end, rows[r]);
             if (way < INFINITE) distances[r] = way;
         }
     }
@@ -268,50 +274,26 @@ struct CrossSamples {
         }
         round_all<BYTES>(border.distance, rows.size(), Floats<BYTES>{} + nearest,
                          steps_per_distance(border.quantum), border.code);
-        const size_t end = SourceCode::whole_blocks(columns);
-        size_t c = 0;
-        for (; c + AT_ONCE * LANES <= end; c += AT_ONCE * LANES)
-            cross_columns<AT_ONCE>(border, nearest, rows, c, distances, winners);
-        for (; c < end; c += SourceCode::BLOCK)
-            cross_columns<SourceCode::BLOCK / LANES>(border, nearest, rows, c, distances, winners);
+        LeastSums<BYTES, false>::over_all(border.code, rows, 0, SourceCode::whole_blocks(columns),
+                                          DecodeColumns{nearest, border.quantum, distances, winners});
         for (const Samples::LongSegment& segment : border.long_segments)
             straighten(border, segment, rows, columns, distances, winners);
     }
 
 private:
-    // So many vectors of columns go through the rows together, so that each code of the border is read once
-    // for all of them.
-    static constexpr size_t AT_ONCE = BYTES < 32 ? 4 : 2 * SourceCode::BLOCK / LANES;
+    struct DecodeColumns {
+        float nearest, quantum;
+        float* distances;
+        uint16_t* winners;
 
-    // Crosses to the columns of so many vectors, from column c on.
-    template <size_t VECTORS>
-    [[gnu::always_inline]] static void cross_columns(const SampledBorder& border, float nearest, Rows rows,
-                                                     size_t c, float* distances, uint16_t* winners) {
-        Codes least[VECTORS], winner[VECTORS], sample{};
-        for (size_t v = 0; v < VECTORS; ++v) {
-            least[v] = Codes{} + std::numeric_limits<int16_t>::max();
-            winner[v] = Codes{};
-        }
-        const uint16_t* const* const row = rows.data();
-        const int16_t* const code = border.code;
-        for (size_t i = 0; i < rows.size(); ++i, sample += 1) {
-            const Codes from = Codes{} + code[i];
-            for (size_t v = 0; v < VECTORS; ++v) {
-                Codes entries;
-                load(row[i] + c + v * LANES, entries);
-                const Codes sum = entries + from;
-                winner[v] = sum < least[v] ? sample : winner[v];
-                lower(least[v], sum);
-            }
-        }
-        for (size_t v = 0; v < VECTORS; ++v) {
-            store(winner[v], winners + c + v * LANES);
+        [[gnu::always_inline]] void operator()(size_t c, const Codes& least, const Codes& sample) const {
+            store(sample, winners + c);
             int16_t sums[LANES];
-            store(least[v], sums);
+            store(least, sums);
             for (size_t half = 0; half < LANES; half += LANES / 2)
-                decode(sums + half, nearest, border.quantum, distances + c + v * LANES + half);
+                decode(sums + half, nearest, quantum, distances + c + half);
         }
-    }
+    };
 
     [[gnu::always_inline]] static float nearest_of(const SampledBorder& border, size_t samples) {
         Floats<BYTES> nearest{}, distance;

@@ -28,12 +28,22 @@ struct BorderFromSource {
     float quantum;                      // of the rows
 };
 
+// What a border is crossed to: columns of a table in which each place of the border has a row.
+struct CrossedColumns {
+    Rows rows;                         // of the places, each from column 0 on
+    size_t first, last;                // of all columns that are wanted
+    std::span<const uint32_t> columns; // those that are wanted
+    // Scratch, for each column from the first on, up to whole blocks.
+    int16_t* sums;
+    uint16_t* places;
+};
+
 // The part of a border that is near to the source.
 struct NearRange {
-    float nearest;      // the distance of the nearest place
-    float reach;        // up to which a distance is near
-    size_t first, last; // near places, and those between them; none if first > last
-    bool is_near() const { return first <= last; }
+    float nearest;     // the distance of the nearest place
+    float reach;       // up to which a distance is near
+    size_t begin, end; // holds all near places; none if begin = end
+    bool is_near() const { return begin < end; }
 };
 
 // The samples of a border and the distances of one source from them.
@@ -91,14 +101,16 @@ struct Kernels {
     NearRange (*prepare_crossing)(const BorderFromSource& border, const int32_t* is_own, int16_t* code,
                                   float* foot, float* height);
 
-    // distances[r]: the least way over a place and row r, straightened over the segments near the place where
-    // that is shorter, or infinity; winners[r], if not NULL: that place, or NO_PLACE.
-    void (*cross)(const BorderFromSource& border, Rows rows, float* distances, uint16_t* winners);
+    // distances[i]: the least way over a place to columns[i], straightened over the segments near the place
+    // where that is shorter, or infinity; winners[i], if not NULL: that place, or NO_PLACE. Rows are read up
+    // to whole blocks of columns.
+    void (*cross)(const BorderFromSource& border, const CrossedColumns& to, float* distances,
+                  uint16_t* winners);
 
-    // Call after cross(): distances[r] is read and written. If it is at most range.reach, it is replaced by
-    // the least way over row r and a near place, or straightened over any segment that is near, if there is
-    // one; any number below the reach asks for a row without cross(). Where a border is jagged, the straight
-    // way does not always pass near the place with the least sum.
+    // distances[r] is read and written. If it is at most range.reach, it is replaced by the least way over
+    // row r, which has a code for each place, and a near place, or straightened over any segment that is
+    // near, if there is one. Where a border is jagged, the straight way does not always pass near the place
+    // with the least sum. Of a row, the codes from range.begin up to that at range.end are read.
     void (*cross_near)(const BorderFromSource& border, const NearRange& range, Rows rows, float* distances);
 
     // Fills border.code. rows[i] belongs to the i-th sample and has an entry for each column. distances[c]:

@@ -28,11 +28,6 @@ struct VectorOf {
 };
 
 using EightCodes [[gnu::vector_size(16)]] = uint16_t;
-[[gnu::always_inline]] inline EightCodes load_eight(const uint16_t* first) {
-    EightCodes codes;
-    std::memcpy(&codes, first, sizeof codes);
-    return codes;
-}
 
 template <class V, class T>
 [[gnu::always_inline]] inline void load(const T* first, V& values) {

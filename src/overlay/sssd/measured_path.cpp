@@ -17,18 +17,6 @@ BorderRange range_read(const OverlayIndex& index, uint32_t patch, BorderRange ra
     return {std::max(range.first, whole.first + reach) - reach, std::min(range.last + reach, whole.last)};
 }
 
-// Lets the crossing begin with the distances from a range of a patch's border. Places that are read outside
-// of the range are at infinity, so that no way leads over them.
-void begin_crossing(const OverlayIndex& index, uint32_t patch, BorderRange read, BorderRange range,
-                    const float* distances, BorderField& field) {
-    const auto places =
-        field.begin(index.rings, read.first, read.size(), index.quantum[index.numbering.parent[patch]]);
-    const auto inside = places.subspan(range.first - read.first, range.size());
-    std::fill(places.begin(), inside.begin(), INFINITE);
-    std::copy_n(distances, inside.size(), inside.begin());
-    std::fill(inside.end(), places.end(), INFINITE);
-}
-
 // What is reached of a patch's border range: the first and the last place, counted from the beginning of the
 // range. There is none where the first lies behind the last.
 struct Reached {
@@ -44,16 +32,14 @@ Reached reached_of(std::span<const float> distances) {
     return {static_cast<uint32_t>(first), static_cast<uint32_t>(behind - 1)};
 }
 
-// Goes from either end of what is reached to another vertex of the border, which the outer table has no row
-// for: returns the length, and the end.
+// Goes from either end of what is reached to another vertex of the border: returns the length, and the end.
 std::pair<float, uint32_t> go_along(const OverlayIndex& index, uint32_t patch, BorderRange range,
                                     const float* distances, Reached reached, uint32_t overlay_position) {
     const uint32_t parent = index.numbering.parent[patch];
-    const uint32_t* positions = index.numbering.overlay_position.data() + index.numbering.border_begin[patch];
     std::pair<float, uint32_t> least{INFINITE, 0};
     if (reached.last < reached.first) return least;
     for (const uint32_t end : {reached.first, reached.last}) {
-        const uint32_t from = positions[index.rings.position[range.first + end]];
+        const uint32_t from = index.position_in_parent(patch, range.first + end);
         const float length =
             distances[end] + index.distance(index.overlay_code(parent, from, overlay_position), parent);
         if (length < least.first) least = {length, end};
@@ -61,61 +47,117 @@ std::pair<float, uint32_t> go_along(const OverlayIndex& index, uint32_t patch, B
     return least;
 }
 
-// Crosses from a range of a patch's border to places of another border inside of the same parent.
-// overlay_position(k) is the position of place k in the parent's overlay. Vertices that are in both ranges
-// keep their distances. Where there are any, a path to a vertex that lies on the border beside the range is
-// not looked for: if it were the shortest, those at the end of the range would be the best here, and the
-// range is moved then. Returns the place that winners are counted from.
-template <class OverlayPosition>
-uint32_t cross(const OverlayIndex& index, uint32_t patch, BorderRange range, const float* distances,
-               BorderRange to, const OverlayPosition& overlay_position, BorderCrossing& crossing, float* out,
-               uint16_t* winners) {
+// A range that is crossed from, the distances of its places, and what a hop reads around it.
+struct CrossedRange {
+    uint32_t patch;
+    BorderRange range, read;
+    const float* distances;
+};
+
+CrossedRange range_of(const OverlayIndex& index, uint32_t patch, BorderRange range, const float* distances) {
+    return {patch, range, range_read(index, patch, range), distances};
+}
+
+// Lets the hop begin with the distances from a range of a patch's border. Places that are read outside of the
+// range are at infinity, so that no way leads over them.
+void begin_hop(const OverlayIndex& index, const CrossedRange& from, OverlayCrossing& hop) {
+    const auto places =
+        hop.begin(from.patch, from.read.first, from.read.size(), segments_from(index.rings, from.read.first));
+    const auto inside = places.subspan(from.range.first - from.read.first, from.range.size());
+    std::fill(places.begin(), inside.begin(), INFINITE);
+    std::copy_n(from.distances, inside.size(), inside.begin());
+    std::fill(inside.end(), places.end(), INFINITE);
+}
+
+// Vertices of the range that is crossed to which lie on the border that is crossed, too, keep the distances
+// that they have there, if they are in its range. Where any does, a path to a vertex that lies beside the
+// range is not looked for: if it were the shortest, those at the end of the range would be the best here, and
+// the range is moved then. To all others, `crossing` has to hop. position(i) is where place i of the range is
+// in the parent's overlay, and add(i, position) adds it to what is hopped to.
+template <class Position, class Add>
+void keep_common(const OverlayIndex& index, const CrossedRange& from, BorderRange to,
+                 const Position& position, const Add& add, BorderCrossing& crossing, float* out,
+                 uint16_t* winners) {
     const Rings& rings = index.rings;
-    const BorderRange read = range_read(index, patch, range);
-    VertexFinder common({rings.vertex.data() + range.first, range.size()});
-    bool has_common = false;
-    crossing.reached.clear();
-    crossing.rows.clear();
-    crossing.beside.clear();
+    VertexFinder common({rings.vertex.data() + from.range.first, from.range.size()});
+    const uint8_t* const is_on_border = index.hops.on_border.data() + index.hops.on_border_begin[from.patch];
     const auto keep = [&](uint32_t i, float length, uint32_t at) {
         out[i] = length;
-        winners[i] = static_cast<uint16_t>(range.first + at - read.first);
+        winners[i] = static_cast<uint16_t>(from.range.first + at - from.read.first);
     };
-    const OuterRows rows = index.outer_rows(patch);
-    const size_t first_column = read.first - rings.begin[patch];
+    bool has_common = false;
+    crossing.begin();
     for (uint32_t i = 0; i < to.size(); ++i) {
-        if (const uint16_t* const row = rows.of(overlay_position(to.first + i))) {
-            crossing.reached.push_back(i);
-            crossing.rows.push_back(row + first_column);
+        if (const uint32_t at_parent = position(i); !is_on_border[at_parent]) {
+            add(i, at_parent);
         } else if (const uint32_t at = common.find(rings.vertex[to.first + i]); at != NONE) {
-            keep(i, distances[at], at);
-            has_common = has_common || distances[at] < INFINITE;
+            keep(i, from.distances[at], at);
+            has_common = has_common || from.distances[at] < INFINITE;
         } else {
             keep(i, INFINITE, 0);
             crossing.beside.push_back(i);
         }
     }
-    if (!has_common && !crossing.beside.empty()) {
-        const Reached reached = reached_of({distances, range.size()});
-        for (const uint32_t i : crossing.beside) {
-            const auto [length, at] =
-                go_along(index, patch, range, distances, reached, overlay_position(to.first + i));
-            keep(i, length, at);
+    if (has_common || crossing.beside.empty()) return;
+    const Reached reached = reached_of({from.distances, from.range.size()});
+    for (const uint32_t i : crossing.beside) {
+        const auto [length, at] =
+            go_along(index, from.patch, from.range, from.distances, reached, position(i));
+        keep(i, length, at);
+    }
+}
+
+// Hops to the targets that `crossing` holds, and writes the distances and the winners of their places.
+void hop_to_targets(const OverlayIndex& index, const CrossedRange& from, BorderCrossing& crossing, float* out,
+                    uint16_t* winners) {
+    if (crossing.on_ring.is_empty() && crossing.owned.is_empty()) return;
+    begin_hop(index, from, crossing.hop);
+    const bool is_reached = crossing.hop.finish();
+    if (!is_reached) std::ranges::fill(crossing.distances, INFINITE);
+    const auto take = [&](const HopTargets& targets) {
+        const auto places = targets.places();
+        for (size_t r = 0; r < places.size(); ++r) {
+            out[places[r]] = crossing.distances[r];
+            winners[places[r]] = crossing.winners[r];
         }
-    }
-    if (crossing.rows.empty()) return read.first;
-    begin_crossing(index, patch, read, range, distances, crossing.field);
-    if (crossing.field.finish()) {
-        crossing.field.cross(crossing.rows, crossing.distances.data(), crossing.winners.data());
-        crossing.field.cross_near(crossing.rows, crossing.distances.data());
-    } else {
-        std::fill_n(crossing.distances.begin(), crossing.rows.size(), INFINITE);
-    }
-    for (size_t r = 0; r < crossing.reached.size(); ++r) {
-        out[crossing.reached[r]] = crossing.distances[r];
-        winners[crossing.reached[r]] = crossing.winners[r];
-    }
-    return read.first;
+    };
+    float* const distances = crossing.distances.data();
+    uint16_t* const over = crossing.winners.data();
+    if (is_reached) crossing.hop.cross_to_ring(crossing.on_ring.columns(), distances, over);
+    take(crossing.on_ring);
+    if (is_reached) crossing.hop.cross_to_owned(crossing.owned.columns(), distances, over);
+    take(crossing.owned);
+}
+
+// Crosses from a range of a patch's border to a range of the parent's border.
+void cross_up(const OverlayIndex& index, const CrossedRange& from, BorderRange to, BorderCrossing& crossing,
+              float* out, uint16_t* winners) {
+    const uint32_t first = to.first - index.rings.begin[index.numbering.parent[from.patch]];
+    // A position in the border is the overlay position, too: the overlay of a patch begins with its border.
+    const uint32_t* const position = index.rings.position.data() + to.first;
+    keep_common(
+        index, from, to, [&](uint32_t i) { return position[i]; },
+        [&](uint32_t i, uint32_t) { crossing.on_ring.add(first + i, i); }, crossing, out, winners);
+    hop_to_targets(index, from, crossing, out, winners);
+}
+
+// Crosses from a range of a patch's border to a range of a sibling's border.
+void cross_over(const OverlayIndex& index, const CrossedRange& from, uint32_t sibling, BorderRange to,
+                BorderCrossing& crossing, float* out, uint16_t* winners) {
+    const uint32_t parent = index.numbering.parent[from.patch],
+                   border_size = index.numbering.border_size(parent);
+    const uint32_t* const place_of_position =
+        index.rings.place_of_slot.data() + index.numbering.border_begin[parent];
+    keep_common(
+        index, from, to, [&](uint32_t i) { return index.position_in_parent(sibling, to.first + i); },
+        [&](uint32_t i, uint32_t position) {
+            if (position < border_size)
+                crossing.on_ring.add(place_of_position[position], i);
+            else
+                crossing.owned.add(position - border_size, i);
+        },
+        crossing, out, winners);
+    hop_to_targets(index, from, crossing, out, winners);
 }
 
 }
@@ -140,11 +182,11 @@ void MeasuredEnd::measure(const Ascent& ascent, std::span<const BorderRange> ran
         const RingRow& row = ascent.first_row;
         for (uint32_t i = 0; i < ranges.front().size(); ++i) distances_[i] = row(ranges.front().first + i);
     }
-    // A position in the border is the overlay position, too: the overlay of a patch begins with its border.
-    const auto position = [this](uint32_t place) { return index_.rings.position[place]; };
     for (size_t b = ranges_.size(); b < ranges.size(); ++b) {
-        crossed_[b - 1] = cross(index_, ascent.patches[b - 1], ranges_.back(), distances_of(b - 1), ranges[b],
-                                position, crossing, distances_of(b), winners_.data() + b * stride_);
+        const CrossedRange from =
+            range_of(index_, ascent.patches[b - 1], ranges_.back(), distances_of(b - 1));
+        cross_up(index_, from, ranges[b], crossing, distances_of(b), winners_.data() + b * stride_);
+        crossed_[b - 1] = from.read.first;
         ranges_.push_back(ranges[b]);
     }
     std::fill_n(distances_of(ranges_.size() - 1) + last_range().size(), SourceCode::BLOCK, INFINITE);
@@ -153,12 +195,9 @@ void MeasuredEnd::measure(const Ascent& ascent, std::span<const BorderRange> ran
 uint32_t MeasuredEnd::cross_to(const Ascent& ascent, uint32_t sibling, BorderRange range,
                                BorderCrossing& crossing, std::span<float> out,
                                std::span<uint16_t> winners) const {
-    const uint32_t* positions =
-        index_.numbering.overlay_position.data() + index_.numbering.border_begin[sibling];
-    return cross(
-        index_, ascent.last_patch(), last_range(), last_distances(), range,
-        [&](uint32_t place) { return positions[index_.rings.position[place]]; }, crossing, out.data(),
-        winners.data());
+    const CrossedRange from = range_of(index_, ascent.last_patch(), last_range(), last_distances());
+    cross_over(index_, from, sibling, range, crossing, out.data(), winners.data());
+    return from.read.first;
 }
 
 }

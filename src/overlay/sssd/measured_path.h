@@ -3,26 +3,50 @@
 #include <memory_resource>
 #include <span>
 
-#include "src/overlay/border_field.h"
+#include "src/overlay/overlay_crossing.h"
 #include "src/overlay/sssd/ascent.h"
 #include "src/overlay/sssd/border_range.h"
 
 namespace geodesic {
 
+// What a hop leads to, of the places of a range.
+class HopTargets {
+public:
+    HopTargets(const OverlayIndex& index, std::pmr::memory_resource* memory)
+        : columns_(index.rings.largest_size(), memory), places_(columns_.size(), memory) {}
+
+    void clear() { count_ = 0; }
+    void add(uint32_t column, uint32_t place) {
+        columns_[count_] = column;
+        places_[count_++] = place;
+    }
+
+    bool is_empty() const { return count_ == 0; }
+    std::span<const uint32_t> columns() const { return {columns_.data(), count_}; } // of OverlayCrossing
+    // Counted from the first place of the range.
+    std::span<const uint32_t> places() const { return {places_.data(), count_}; }
+
+private:
+    size_t count_ = 0;
+    Array<uint32_t> columns_, places_;
+};
+
 // Scratch for crossing one border. Both ends use the same one, in turn, and nothing stays in it.
 struct BorderCrossing {
     BorderCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory)
-        : field(index, memory), rows(memory), reached(memory), beside(memory),
+        : hop(index, memory), on_ring(index, memory), owned(index, memory), beside(memory),
           distances(index.rings.largest_size(), memory), winners(index.rings.largest_size(), memory) {
-        rows.reserve(index.rings.largest_size());
-        reached.reserve(index.rings.largest_size());
         beside.reserve(index.rings.largest_size());
     }
 
-    BorderField field;
-    Array<const uint16_t*> rows;
-    // Of the places that rows lead to: where in their range they are, and what the crossing finds.
-    Array<uint32_t> reached;
+    void begin() {
+        on_ring.clear();
+        owned.clear();
+        beside.clear();
+    }
+
+    OverlayCrossing hop;
+    HopTargets on_ring, owned; // on the parent's ring, and owned by the parent
     // The places of vertices that lie on the border that is crossed, too, but beside the range there.
     Array<uint32_t> beside;
     Array<float> distances;

@@ -21,16 +21,13 @@ size_t largest_sample_count(const OverlayIndex& index) {
 
 SampledAscent::SampledAscent(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), stride_(SourceCode::whole_blocks(largest_sample_count(index))), borders_(memory),
-      distances_(memory), winners_(memory), rows_(memory), no_path_(memory), codes_(stride_, memory),
-      column_distances_(memory), column_winners_(memory) {
+      distances_(memory), winners_(memory), rows_(memory), rows_across_(memory), across_(memory),
+      codes_(stride_, memory) {
     const size_t borders = index.numbering.level_count() + 1;
     borders_.reserve(borders);
     distances_.resize(borders * stride_);
     winners_.resize(borders * stride_);
     rows_.resize(borders * stride_);
-    no_path_.resize(SourceCode::whole_blocks(LONGEST_WITHOUT_TABLE_ACROSS), TableCode::UNREACHED);
-    column_distances_.resize(SourceCode::whole_blocks(LONGEST_WITHOUT_TABLE_ACROSS));
-    column_winners_.resize(column_distances_.size());
 }
 
 void SampledAscent::climb(const Ascent& ascent) {
@@ -47,7 +44,7 @@ void SampledAscent::climb(const Ascent& ascent) {
     for (size_t b = 1; b < ascent.patches.size(); ++b) {
         const size_t columns = samples.of(ascent.patches[b]).size();
         const uint16_t* table = samples.codes.data() + samples.up_begin[ascent.patches[b - 1]];
-        hop({.patch = ascent.patches[b], .quantum = index_.quantum[ascent.patches[b]]}, columns,
+        hop({.patch = ascent.patches[b], .quantum = index_.quantum[ascent.patches[b]]},
             [&](size_t i) { return table + i * columns; });
     }
 }
@@ -55,58 +52,47 @@ void SampledAscent::climb(const Ascent& ascent) {
 void SampledAscent::hop_across(const Ascent& ascent, uint32_t sibling) {
     const Samples& samples = index_.pairs.samples;
     const uint32_t patch = ascent.last_patch();
-    const float quantum = index_.quantum[index_.numbering.parent[patch]];
-    const auto to = samples.of(sibling);
-    if (has_table_across(index_, sibling)) {
-        const uint16_t* table = samples.rows_across(index_.numbering, patch, sibling);
-        hop({.patch = sibling, .quantum = quantum}, to.size(),
-            [&](size_t i) { return table + i * to.size(); });
-        return;
-    }
-    const uint16_t* from = samples.of(patch).data();
-    const uint32_t* position = index_.rings.position.data() + index_.rings.begin[patch];
-    const uint32_t* overlay_position =
-        index_.numbering.overlay_position.data() + index_.numbering.border_begin[patch];
-    const OuterRows rows = index_.outer_rows(sibling);
-    hop({.patch = sibling, .quantum = quantum, .places = to.data()}, index_.rings.size(sibling),
-        [&](size_t i) {
-            const uint16_t* const row = rows.of(overlay_position[position[from[i]]]);
-            return row ? row : no_path_.data();
-        });
+    const size_t columns = samples.of(sibling).size();
+    const uint16_t* const table = samples.has_table_across(sibling)
+                                      ? samples.rows_across(index_.numbering, patch, sibling)
+                                      : make_rows_across(patch, sibling);
+    hop({.patch = sibling, .quantum = index_.quantum[index_.numbering.parent[patch]]},
+        [&](size_t i) { return table + i * columns; });
+}
+
+// The kernel reads rows as far as whole blocks.
+const uint16_t* SampledAscent::make_rows_across(uint32_t patch, uint32_t sibling) {
+    const Samples& samples = index_.pairs.samples;
+    const auto from = samples.of(patch);
+    const size_t columns = samples.of(sibling).size();
+    across_.resize(from.size() * columns + TableCode::PADDING);
+    rows_across_.begin(index_, samples, sibling);
+    for (size_t i = 0; i < from.size(); ++i) rows_across_.fill(patch, from[i], across_.data() + i * columns);
+    return across_.data();
 }
 
 float SampledAscent::way_over(size_t border, uint32_t before, uint32_t sample) const {
-    const Border& to = borders_[border];
-    const uint16_t* row = rows_[border * stride_ + before];
-    const uint16_t entry = row[to.places ? to.places[sample] : sample];
-    return distances_of(border - 1)[before] + TableCode::distance(entry, to.quantum);
+    return distances_of(border - 1)[before] +
+           TableCode::distance(rows_[border * stride_ + before][sample], borders_[border].quantum);
 }
 
 // row(i) is the row of the i-th sample of the last border.
 template <class Row>
-void SampledAscent::hop(const Border& to, size_t columns, const Row& row) {
+void SampledAscent::hop(const Border& to, const Row& row) {
     const size_t border = borders_.size(), count = samples_of(borders_.back()).size();
     const size_t samples = samples_of(to).size();
     const uint16_t** rows = rows_.data() + border * stride_;
     for (size_t i = 0; i < count; ++i) rows[i] = row(i);
-    float* distance = distances_of(border);
-    uint16_t* winner = winners_.data() + border * stride_;
-    runnable_kernels().back().cross_samples(
-        {distances_of(border - 1), to.quantum, index_.pairs.samples.long_segments_of(borders_.back().patch),
-         codes_.data()},
-        {rows, count}, columns, to.places ? column_distances_.data() : distance,
-        to.places ? column_winners_.data() : winner);
-    if (to.places)
-        for (size_t i = 0; i < samples; ++i) {
-            distance[i] = column_distances_[to.places[i]];
-            winner[i] = column_winners_[to.places[i]];
-        }
-    std::fill(distance + samples, distance + SourceCode::whole_blocks(samples), INFINITE);
+    float* const distance = distances_of(border);
     const uint32_t before = borders_.back().patch;
+    runnable_kernels().back().cross_samples(
+        {distances_of(border - 1), to.quantum, index_.pairs.samples.long_segments_of(before), codes_.data()},
+        {rows, count}, samples, distance, winners_.data() + border * stride_);
+    std::fill(distance + samples, distance + SourceCode::whole_blocks(samples), INFINITE);
     borders_.push_back(to);
-    const bool has_segments = index_.longest_segment[before] > 0;
-    if (!has_segments) measure_over_vertices();
-    if (to.places || !has_segments) keep_common(before);
+    if (index_.longest_segment[before] > 0) return;
+    measure_over_vertices();
+    keep_common(before);
 }
 
 // Measures the ways to the samples of the last border, whose distances are those of rounded codes.

@@ -3,6 +3,7 @@
 #include <memory_resource>
 #include <span>
 
+#include "src/overlay/samples.h"
 #include "src/overlay/sssd/ascent.h"
 #include "src/overlay/tables.h"
 
@@ -36,12 +37,11 @@ public:
     float way_over(size_t border, uint32_t before, uint32_t sample) const;
 
 private:
-    // A border, and what a hop to it reads: for each sample of the border before a row, which has one entry
-    // for each sample of this border or for each place of its ring.
+    // A border, and the quantum of the rows that a hop to it reads: one for each sample of the border before,
+    // with one entry for each of its own samples.
     struct Border {
         uint32_t patch = 0;
         float quantum = 0;
-        const uint16_t* places = nullptr; // of the samples; NULL where the entries are those of samples
     };
 
     std::span<const uint16_t> samples_of(const Border& border) const {
@@ -51,7 +51,8 @@ private:
     float* distances_of(size_t border) { return distances_.data() + border * stride_; }
     const float* distances_of(size_t border) const { return distances_.data() + border * stride_; }
     template <class Row>
-    void hop(const Border& to, size_t columns, const Row& row);
+    void hop(const Border& to, const Row& row);
+    const uint16_t* make_rows_across(uint32_t patch, uint32_t sibling);
     void keep_common(uint32_t before);
     void measure_over_vertices();
 
@@ -61,11 +62,9 @@ private:
     Array<float> distances_;
     Array<uint16_t> winners_;
     Array<const uint16_t*> rows_; // that the hop to each border has read
-    Array<uint16_t> no_path_;     // a row in place of one that an outer table does not have
-    // Scratch of a hop.
-    Array<int16_t> codes_;
-    Array<float> column_distances_;
-    Array<uint16_t> column_winners_;
+    RowsAcross rows_across_;      // where there is no table across:
+    Array<uint16_t> across_;      // the rows that are made in its place
+    Array<int16_t> codes_;        // scratch of a hop
 };
 
 }

@@ -6,15 +6,12 @@
 #include "src/base/prefetch.h"
 #include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/ring_segments.h"
+#include "src/overlay/samples.h"
 #include "src/overlay/unfolding.h"
 
 namespace geodesic {
 
 namespace {
-
-// Borders that have no more pairs of places than this are crossed as a whole: that takes less time than
-// finding the part of them that a path may cross.
-constexpr size_t FEW_PAIRS = size_t{1} << 13;
 
 // In a border of many short chains, as patches of a lattice of tubes have, places that are near in space are
 // far apart in the ring, so that a range of places would miss them. It is crossed as a whole up to this many
@@ -152,11 +149,11 @@ size_t OverlaySssd::End::pairs_between_ranges() const {
 // Asks for the codes from each range to the next one.
 void OverlaySssd::End::prefetch_rows(const OverlayIndex& index) const {
     for (size_t b = 0; b + 1 < ranges.size(); ++b) {
-        const uint32_t patch = ascent.patches[b];
-        const OuterRows rows = index.outer_rows(patch);
-        for (uint32_t k = ranges[b + 1].first; k <= ranges[b + 1].last; ++k)
-            if (const uint16_t* const row = rows.of(index.rings.position[k]))
-                prefetch(row + (ranges[b].first - index.rings.begin[patch]), ranges[b].size());
+        const uint32_t patch = ascent.patches[b], parent = ascent.patches[b + 1];
+        const uint32_t place = ranges[b + 1].first - index.rings.begin[parent];
+        for (uint32_t k = ranges[b].first; k <= ranges[b].last; ++k)
+            prefetch(index.row_to_ring(parent, index.position_in_parent(patch, k)) + place,
+                     ranges[b + 1].size());
     }
 }
 
@@ -279,10 +276,7 @@ bool OverlaySssd::has_few_pairs() const {
 float OverlaySssd::distance_from_top(uint32_t place) const {
     const uint32_t patch = meeting_patch(), top = numbering_.parent[patch];
     const uint32_t from = numbering_.position_at_owner(from_.ascent.vertex);
-    if (const uint16_t* const row = index_.outer_row(patch, from))
-        return index_.distance(row[place - index_.rings.begin[patch]], top);
-    const uint32_t slot = numbering_.border_begin[patch] + index_.rings.position[place];
-    return index_.distance(index_.overlay_code(top, from, numbering_.overlay_position[slot]), top);
+    return index_.distance(index_.overlay_code(top, from, index_.position_in_parent(patch, place)), top);
 }
 
 // Returns the distances of `from_` to the samples of the meeting border.

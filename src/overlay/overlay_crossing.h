@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory_resource>
+#include <span>
+
+#include "src/overlay/border_field.h"
+#include "src/overlay/ring_segments.h"
+#include "src/overlay/tables.h"
+
+namespace geodesic {
+
+// A hop from some or all of a patch's border to any vertices of the overlay of its parent. The object is used
+// for one hop after the other.
+class OverlayCrossing {
+public:
+    OverlayCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory);
+
+    // Begins with `count` places of the patch's ring from `first` on, counted over all rings. The caller then
+    // writes the distances of these places to the result. The patch must not be the whole mesh.
+    std::span<float> begin(uint32_t patch, size_t first, size_t count, const RingSegments& segments);
+
+    // Prepares the distances that were written. Returns whether the source reaches any of the places.
+    bool finish() { return field_.finish(); }
+
+    // Once finish() has returned true: hops to places of the parent's ring, and to vertices that the parent
+    // owns, both counted from 0. distances[i] is infinite where there is no way. winners[i], if not NULL, is
+    // the place that the way leads over, counted from the first one, or BorderFromSource::NO_PLACE.
+    void cross_to_ring(std::span<const uint32_t> places, float* distances, uint16_t* winners = nullptr);
+    void cross_to_owned(std::span<const uint32_t> owned, float* distances, uint16_t* winners = nullptr);
+
+private:
+    void cross(std::span<const uint32_t> columns, float* distances, uint16_t* winners);
+    CrossedColumns columns_of_rows(std::span<const uint32_t> columns);
+    void gather(std::span<const uint32_t> columns);
+    void cross_near(std::span<const uint32_t> columns, float* distances);
+
+    const OverlayIndex& index_;
+    BorderField field_;
+    uint32_t patch_ = 0, parent_ = 0;
+    size_t first_ = 0;            // place, counted over all rings
+    Array<const uint16_t*> rows_; // per place: to the ring, or to the owned vertices
+    Array<uint32_t> numbers_;     // 0, 1, 2 ...
+    // Scratch.
+    Array<int16_t> sums_;
+    Array<uint16_t> places_;
+    Array<uint16_t> gathered_; // the columns that are wanted, side by side, a row for each place
+    Array<const uint16_t*> gathered_rows_;
+    Array<uint16_t> near_row_; // from one column to the places
+};
+
+}
