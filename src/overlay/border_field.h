@@ -35,8 +35,11 @@ public:
     // writes distances, and does nothing if no place is near.
     const NearRange& near_range() const { return range_; }
     bool is_near() const { return range_.is_near(); }
-    void cross(const CrossedColumns& to, float* distances, uint16_t* winners) const {
-        kernels_.cross(border_, to, distances, winners);
+    void cross(Rows rows, Columns columns, float* distances, uint16_t* winners) const {
+        kernels_.cross(border_, rows, columns, distances, winners);
+    }
+    void cross_near_columns(Rows rows, size_t first, float* ways) const {
+        kernels_.cross_near_columns(border_, range_, rows, first, ways);
     }
     void cross_near(Rows rows, float* distances) const {
         if (is_near()) kernels_.cross_near(border_, range_, rows, distances);

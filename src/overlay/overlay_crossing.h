@@ -25,27 +25,21 @@ public:
     // Once finish() has returned true: hops to places of the parent's ring, and to vertices that the parent
     // owns, both counted from 0. distances[i] is infinite where there is no way. winners[i], if not NULL, is
     // the place that the way leads over, counted from the first one, or BorderFromSource::NO_PLACE.
-    void cross_to_ring(std::span<const uint32_t> places, float* distances, uint16_t* winners = nullptr);
-    void cross_to_owned(std::span<const uint32_t> owned, float* distances, uint16_t* winners = nullptr);
+    void cross_to_ring(Columns places, float* distances, uint16_t* winners = nullptr);
+    void cross_to_owned(Columns owned, float* distances, uint16_t* winners = nullptr);
 
 private:
-    void cross(std::span<const uint32_t> columns, float* distances, uint16_t* winners);
-    CrossedColumns columns_of_rows(std::span<const uint32_t> columns);
-    void gather(std::span<const uint32_t> columns);
-    void cross_near(std::span<const uint32_t> columns, float* distances);
+    void cross(Columns columns, float* distances, uint16_t* winners);
+    void cross_near(Columns columns, float* distances);
+    void cross_near_block(Columns columns, size_t first, float* distances) const;
+    void cross_near_row(uint32_t column, float& distance);
 
     const OverlayIndex& index_;
     BorderField field_;
     uint32_t patch_ = 0, parent_ = 0;
     size_t first_ = 0;            // place, counted over all rings
     Array<const uint16_t*> rows_; // per place: to the ring, or to the owned vertices
-    Array<uint32_t> numbers_;     // 0, 1, 2 ...
-    // Scratch.
-    Array<int16_t> sums_;
-    Array<uint16_t> places_;
-    Array<uint16_t> gathered_; // the columns that are wanted, side by side, a row for each place
-    Array<const uint16_t*> gathered_rows_;
-    Array<uint16_t> near_row_; // from one column to the places
+    Array<uint16_t> near_row_;    // scratch: from one column to the places
 };
 
 }

@@ -33,11 +33,8 @@ Crossed cross(const Kernels& kernels, const BorderFromSource& border, Rows rows)
         for (size_t i = 0; i < rows.size(); ++i) table[k * stride + columns[i]] = rows[i][k];
         of_places.push_back(table.data() + k * stride);
     }
-    std::vector<int16_t> sums(stride);
-    std::vector<uint16_t> places(stride);
     Crossed crossed{std::vector<float>(rows.size()), std::vector<uint16_t>(rows.size())};
-    kernels.cross(border, {of_places, FIRST, columns.back(), columns, sums.data(), places.data()},
-                  crossed.distances.data(), crossed.winners.data());
+    kernels.cross(border, of_places, columns, crossed.distances.data(), crossed.winners.data());
     return crossed;
 }
 

@@ -15,9 +15,6 @@ namespace geodesic {
 // The kernels that cross a border: what Kernels says of prepare_crossing(), cross(), cross_near(),
 // cross_samples() and meet() is done by the structs of these names. Only dispatch.cpp includes this.
 
-// The ways to so many columns are measured at a time.
-constexpr size_t COLUMNS = 64;
-
 // ---- The border, made ready
 
 // Floats that the widest vector holds, so that results are of the same ones whatever the width.
@@ -190,21 +187,35 @@ template <size_t BYTES>
 
 template <size_t BYTES>
 struct Cross {
-    [[gnu::always_inline]] static void run(const BorderFromSource& border, const CrossedColumns& to,
+    [[gnu::always_inline]] static void run(const BorderFromSource& border, Rows rows, Columns columns,
                                            float* distances, uint16_t* winners) {
-        find_nearest_places<BYTES>(border, to);
-        for (size_t done = 0; done < to.columns.size(); done += COLUMNS) {
-            const auto columns = to.columns.subspan(done, std::min(COLUMNS, to.columns.size() - done));
-            int32_t places[COLUMNS];
-            const Missing missing = collect_places(border, to, columns, places);
-            if (!missing.is_all(columns.size()))
-                measure<BYTES>(border, {places, to.rows.data(), columns.data()}, columns.size(),
-                               distances + done);
-            missing.for_each([&](size_t i) { distances[done + i] = INFINITE; });
-            if (!winners) continue;
-            for (size_t i = 0; i < columns.size(); ++i) winners[done + i] = static_cast<uint16_t>(places[i]);
-            missing.for_each([&](size_t i) { winners[done + i] = BorderFromSource::NO_PLACE; });
+        for (size_t done = 0; done < columns.size();) {
+            const ColumnRun run = first_run(columns.subspan(done));
+            NearestPlaces nearest;
+            LeastSums<BYTES, true>::over_all(border.code, rows, run.first, run.last + 1 - run.first, nearest);
+            for (size_t first = 0; first < run.columns.size(); first += AT_ONCE) {
+                const auto part = run.columns.subspan(first, std::min(AT_ONCE, run.columns.size() - first));
+                cross_part(border, rows, nearest, part, run.first, distances + done,
+                           winners ? winners + done : nullptr);
+                done += part.size();
+            }
         }
+    }
+
+private:
+    static constexpr size_t AT_ONCE = 64;
+
+    [[gnu::always_inline]] static void cross_part(const BorderFromSource& border, Rows rows,
+                                                  const NearestPlaces& nearest, Columns columns,
+                                                  uint32_t first, float* distances, uint16_t* winners) {
+        int32_t places[AT_ONCE];
+        const Missing missing = collect_places(border, rows, nearest, columns, first, places);
+        if (!missing.is_all(columns.size()))
+            measure<BYTES>(border, {places, rows.data(), columns.data()}, columns.size(), distances);
+        missing.for_each([&](size_t i) { distances[i] = INFINITE; });
+        if (!winners) return;
+        for (size_t i = 0; i < columns.size(); ++i) winners[i] = static_cast<uint16_t>(places[i]);
+        missing.for_each([&](size_t i) { winners[i] = BorderFromSource::NO_PLACE; });
     }
 };
 
@@ -253,6 +264,43 @@ struct CrossNear {
             const float way = way_within<BYTES>(border, range.begin, range.end, rows[r]);
             if (way < INFINITE) distances[r] = way;
         }
+    }
+};
+
+// To columns side by side instead, place by place.
+template <size_t BYTES>
+struct CrossNearColumns {
+    using Distances = Floats<BYTES>;
+
+    [[gnu::always_inline]] static void run(const BorderFromSource& border, const NearRange& range, Rows rows,
+                                           size_t first, float* ways) {
+        for (size_t c = 0; c < Kernels::NEAR_COLUMNS; c += Lanes<BYTES>::FLOATS)
+            measure_near(border, range, rows, first + c, ways + c);
+    }
+
+private:
+    [[gnu::always_inline]] static void measure_near(const BorderFromSource& border, const NearRange& range,
+                                                    Rows rows, size_t first, float* ways) {
+        Distances least{}, least_square, from_first, from_second, square;
+        least += INFINITE;
+        least_square = least;
+        const size_t end = std::min(range.end, border.places);
+        decode_row<BYTES>(rows[range.begin] + first, border.quantum, from_second);
+        for (size_t k = range.begin; k < end; ++k) {
+            from_first = from_second;
+            lower<Distances>(least, border.distance[k] + from_first);
+            if (k + 1 == border.places) break;
+            decode_row<BYTES>(rows[k + 1] + first, border.quantum, from_second);
+            const SegmentsFromSource<Distances> from_source{
+                {Distances{} + border.length[k], Distances{} + border.half_inverse[k]},
+                Distances{} + border.foot[k],
+                Distances{} + border.height[k]};
+            from_source.square_across(from_first, from_second, square);
+            lower(least_square, square);
+        }
+        take_square_root(least_square);
+        lower(least_square, least);
+        store(least_square, ways);
     }
 };
 

@@ -58,6 +58,7 @@ constexpr Kernels kernels_of() {
             Set::template run<PrepareCrossing>,
             Set::template run<Cross>,
             Set::template run<CrossNear>,
+            Set::template run<CrossNearColumns>,
             Set::template run<CrossSamples>,
             Set::template run<Meet>,
             Set::template run<PrepareSweepOfOne>,

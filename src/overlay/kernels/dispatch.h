@@ -13,6 +13,8 @@ namespace geodesic {
 
 // Rows of a table, each one code a place.
 using Rows = std::span<const uint16_t* const>;
+// Some columns of a table.
+using Columns = std::span<const uint32_t>;
 
 // ---- What a crossing reads: a border, one source, and any rows
 
@@ -26,16 +28,6 @@ struct BorderFromSource {
     const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
     const float *foot, *height;         // of the source, in the plane of the segment
     float quantum;                      // of the rows
-};
-
-// What a border is crossed to: columns of a table in which each place of the border has a row.
-struct CrossedColumns {
-    Rows rows;                         // of the places, each from column 0 on
-    size_t first, last;                // of all columns that are wanted
-    std::span<const uint32_t> columns; // those that are wanted
-    // Scratch, for each column from the first on, up to whole blocks.
-    int16_t* sums;
-    uint16_t* places;
 };
 
 // The part of a border that is near to the source.
@@ -92,6 +84,7 @@ struct SweepRows {
 struct Kernels {
     // Of several sources, everything of a place or a row lies side by side.
     static constexpr size_t SOURCES = 16;
+    static constexpr size_t NEAR_COLUMNS = 16;
 
     const char* name;
 
@@ -101,10 +94,11 @@ struct Kernels {
     NearRange (*prepare_crossing)(const BorderFromSource& border, const int32_t* is_own, int16_t* code,
                                   float* foot, float* height);
 
-    // distances[i]: the least way over a place to columns[i], straightened over the segments near the place
-    // where that is shorter, or infinity; winners[i], if not NULL: that place, or NO_PLACE. Rows are read up
-    // to whole blocks of columns.
-    void (*cross)(const BorderFromSource& border, const CrossedColumns& to, float* distances,
+    // To columns of a table in which each place k of the border has a row, rows[k]. distances[i]: the least
+    // way over a place to columns[i], straightened over the segments near the place where that is shorter, or
+    // infinity; winners[i], if not NULL: that place, or NO_PLACE. Rows are read up to whole blocks behind a
+    // column. Columns side by side take least time, in ascending or descending order.
+    void (*cross)(const BorderFromSource& border, Rows rows, Columns columns, float* distances,
                   uint16_t* winners);
 
     // distances[r] is read and written. If it is at most range.reach, it is replaced by the least way over
@@ -112,6 +106,11 @@ struct Kernels {
     // near, if there is one. Where a border is jagged, the straight way does not always pass near the place
     // with the least sum. Of a row, the codes from range.begin up to that at range.end are read.
     void (*cross_near)(const BorderFromSource& border, const NearRange& range, Rows rows, float* distances);
+
+    // ways[c]: the least way over a near place, or straightened over any segment that is near, to column
+    // first + c of NEAR_COLUMNS columns, or infinity. rows[k] is that of place k.
+    void (*cross_near_columns)(const BorderFromSource& border, const NearRange& range, Rows rows,
+                               size_t first, float* ways);
 
     // Fills border.code. rows[i] belongs to the i-th sample and has an entry for each column. distances[c]:
     // the least way over a sample to column c, or straightened over a long segment where that is shorter, or

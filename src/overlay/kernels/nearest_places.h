@@ -21,10 +21,11 @@ struct LeastSums {
     // sums of a vector of columns from first + c on, and the first places that they are over.
     template <class Use>
     [[gnu::always_inline]] static void over_all(const int16_t* code, Rows rows, size_t first, size_t count,
-                                                const Use& use) {
+                                                Use&& use) {
         size_t c = 0;
         for (; c + AT_ONCE * LANES <= count; c += AT_ONCE * LANES)
             over_columns<AT_ONCE>(code, rows, first, c, use);
+        for (; c + 3 * LANES < count; c += 4 * LANES) over_columns<4>(code, rows, first, c, use);
         for (; c + LANES < count; c += 2 * LANES) over_columns<2>(code, rows, first, c, use);
         if (c < count) over_columns<1>(code, rows, first, c, use);
     }
@@ -32,11 +33,11 @@ struct LeastSums {
 private:
     // So many vectors of columns go through the rows together, so that each code of the border is read once
     // for all of them.
-    static constexpr size_t AT_ONCE = BYTES < 32 ? 4 : 2 * SourceCode::BLOCK / LANES;
+    static constexpr size_t AT_ONCE = BYTES < 64 ? 4 : 8;
 
     template <size_t VECTORS, class Use>
     [[gnu::always_inline]] static void over_columns(const int16_t* code, Rows rows, size_t first, size_t c,
-                                                    const Use& use) {
+                                                    Use&& use) {
         Codes least[VECTORS], place[VECTORS], here{};
         for (size_t v = 0; v < VECTORS; ++v) {
             least[v] = Codes{} + std::numeric_limits<int16_t>::max();
@@ -58,24 +59,43 @@ private:
     }
 };
 
-struct KeepColumns {
-    int16_t* sums;
-    uint16_t* places;
+// Columns that follow each other in a list and lie side by side, or nearly so, in a table.
+struct ColumnRun {
+    static constexpr size_t MOST = 256, WIDEST_GAP = 32;
+
+    Columns columns;
+    uint32_t first, last; // the outermost ones
+};
+
+// The run at the beginning of a list that is not empty.
+inline ColumnRun first_run(Columns columns) {
+    uint32_t first = columns[0], last = first;
+    size_t count = 1;
+    for (; count < std::min(columns.size(), ColumnRun::MOST); ++count) {
+        const uint32_t column = columns[count], low = std::min(first, column), high = std::max(last, column);
+        if (high - low >= ColumnRun::MOST || column > last + ColumnRun::WIDEST_GAP ||
+            column + ColumnRun::WIDEST_GAP < first)
+            break;
+        first = low;
+        last = high;
+    }
+    return {columns.first(count), first, last};
+}
+
+// Of each column of a run, and of those between them, from the first one on. Where a sum is NO_SUM or more,
+// it does not tell a place.
+struct NearestPlaces {
+    static constexpr size_t ROOM = SourceCode::whole_blocks(ColumnRun::MOST);
 
     template <class Codes>
-    [[gnu::always_inline]] void operator()(size_t c, const Codes& least, const Codes& place) const {
+    [[gnu::always_inline]] void operator()(size_t c, const Codes& least, const Codes& place) {
         store(least, sums + c);
         store(place, places + c);
     }
-};
 
-// Fills to.sums and to.places. Where a sum is NO_SUM or more, it does not tell a place.
-template <size_t BYTES>
-[[gnu::always_inline]] inline void find_nearest_places(const BorderFromSource& border,
-                                                       const CrossedColumns& to) {
-    LeastSums<BYTES, true>::over_all(border.code, to.rows, to.first, to.last + 1 - to.first,
-                                     KeepColumns{to.sums, to.places});
-}
+    int16_t sums[ROOM];
+    uint16_t places[ROOM];
+};
 
 // Those of up to 64 columns that have no way.
 struct Missing {
@@ -104,22 +124,23 @@ inline int32_t find_nearest_place(const BorderFromSource& border, Rows rows, siz
     return nearest;
 }
 
-// The places of up to 64 columns, of which those without a way are returned. These get the place of another
-// column, unless there is none.
-[[gnu::always_inline]] inline Missing collect_places(const BorderFromSource& border, const CrossedColumns& to,
-                                                     std::span<const uint32_t> columns, int32_t* places) {
+// The places of up to 64 columns, counted from `first`, of which those without a way are returned. These get
+// the place of another column, unless there is none.
+[[gnu::always_inline]] inline Missing collect_places(const BorderFromSource& border, Rows rows,
+                                                     const NearestPlaces& nearest, Columns columns,
+                                                     uint32_t first, int32_t* places) {
     Missing missing;
     int16_t most = std::numeric_limits<int16_t>::min();
     for (size_t i = 0; i < columns.size(); ++i) {
-        places[i] = to.places[columns[i] - to.first];
-        most = std::max(most, to.sums[columns[i] - to.first]);
+        places[i] = nearest.places[columns[i] - first];
+        most = std::max(most, nearest.sums[columns[i] - first]);
     }
     if (most < SourceCode::NO_SUM) [[likely]]
         return missing;
     int32_t any_place = BorderFromSource::NO_PLACE;
     for (size_t i = 0; i < columns.size(); ++i) {
-        if (to.sums[columns[i] - to.first] >= SourceCode::NO_SUM)
-            places[i] = find_nearest_place(border, to.rows, columns[i]);
+        if (nearest.sums[columns[i] - first] >= SourceCode::NO_SUM)
+            places[i] = find_nearest_place(border, rows, columns[i]);
         if (places[i] == BorderFromSource::NO_PLACE)
             missing.bits |= uint64_t{1} << i;
         else
