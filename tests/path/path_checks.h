@@ -1,10 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
-#include <Eigen/QR>
+#include <Eigen/Geometry>
 
 #include "tests/capi/refusals.h"
 #include "tests/path/path_cases.h"
@@ -20,15 +21,20 @@ inline std::vector<geoidx_path_point> points_of(const PathCase& on) {
     return points;
 }
 
-// How far a position is from the plane of a triangle's inside, by weights of its own.
+// How far a position is from a triangle, be it a needle: from a side, or from the plane beside its inside.
 inline double distance_from_triangle(const Soup& soup, uint32_t triangle, const Eigen::Vector3d& at) {
-    const auto& [a, b, c] = soup.triangles[triangle];
-    Eigen::Matrix<double, 3, 2> sides;
-    sides << soup.positions[b] - soup.positions[a], soup.positions[c] - soup.positions[a];
-    Eigen::Vector2d w = sides.colPivHouseholderQr().solve(at - soup.positions[a]);
-    w = w.cwiseMax(0);
-    if (w.sum() > 1) w /= w.sum();
-    return (soup.positions[a] + sides * w - at).norm();
+    std::array<Eigen::Vector3d, 3> corners;
+    for (size_t k = 0; k < 3; ++k) corners[k] = soup.positions[soup.triangles[triangle][k]];
+    const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    double least = INFINITY;
+    bool is_inside = true;
+    for (size_t k = 0; k < 3; ++k) {
+        const Eigen::Vector3d side = corners[(k + 1) % 3] - corners[k], to = at - corners[k];
+        const double share = std::clamp(to.dot(side) / side.squaredNorm(), 0.0, 1.0);
+        least = std::min(least, (to - share * side).norm());
+        is_inside = is_inside && side.cross(to).dot(normal) > 0;
+    }
+    return is_inside ? std::min(least, std::abs((at - corners[0]).dot(normal)) / normal.norm()) : least;
 }
 
 // That it leads over triangles from one point to the other and is as long as it says: the sum of its pieces,
