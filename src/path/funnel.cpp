@@ -4,26 +4,38 @@
 #include <cmath>
 #include <span>
 
-#include "src/base/plane.h"
+#include <Eigen/Geometry>
 
 namespace geodesic {
 
 namespace {
 
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// The third vertex of a triangle that lies to the right of the way from `right` to `left`: ahead of whoever
-// goes between the two.
-Vector2d place_ahead(const Vector2d& left, const Vector2d& right, double to_left, double to_right) {
-    const Vector2d across = left - right;
-    const double length = across.norm();
-    if (!(length > 0)) return right + Vector2d(to_right, 0);
-    const double foot = foot_of(length, to_right, to_left);
-    const double height = std::sqrt(std::max(0.0, (to_right - foot) * (to_right + foot)));
-    const Vector2d along = across / length, ahead(along.y(), -along.x());
-    return right + foot * along + height * ahead;
+// A portal in the plane, its ends named as whoever goes through it sees them.
+struct Gate {
+    uint32_t left_vertex, right_vertex;
+    Vector2d left, right;
+};
+
+// The third vertex of a triangle with a gate as a side: ahead of whoever goes through the gate. Vertices that
+// are one but for rounding are placed at one point, since no direction from one to the other is left there.
+Vector2d place_ahead(const Surface& surface, const Gate& gate, uint32_t ahead) {
+    constexpr double SAME = 1e-12; // of the gate's length
+    const Vector3d &left = surface.positions[gate.left_vertex], &right = surface.positions[gate.right_vertex];
+    const Vector3d along = left - right, to = surface.positions[ahead] - right;
+    const double square = along.squaredNorm(), length = std::sqrt(square);
+    const Vector2d across = gate.left - gate.right;
+    const double placed_length = across.norm();
+    if (!(placed_length > 0)) return gate.right + Vector2d(to.norm(), 0);
+    if (to.squaredNorm() < square * (SAME * SAME)) return gate.right;
+    if ((to - along).squaredNorm() < square * (SAME * SAME)) return gate.left;
+    const double foot = to.dot(along) / length, height = along.cross(to).norm() / length;
+    const Vector2d direction = across / placed_length;
+    return gate.right + foot * direction + height * Vector2d(direction.y(), -direction.x());
 }
 
 // Of a share that is that of an end but for rounding, or beyond it, the share of that end: what begins there
@@ -33,11 +45,20 @@ double at_end_if_close(double share) {
     return share < ROUNDING ? 0 : share > 1 - ROUNDING ? 1 : share;
 }
 
-// A portal in the plane, its ends named as whoever goes through it sees them.
-struct Gate {
-    uint32_t left_vertex, right_vertex;
-    Vector2d left, right;
-};
+// Where the straight way between two points crosses a gate, as a share of the way from its right end to its
+// left one. Where the way leads along the gate, rounding decides where the lines cross: not before the one
+// point nor behind the other.
+double crossing(const Gate& gate, const Vector2d& begin, const Vector2d& end) {
+    constexpr double ALONG = 1e-6; // an angle
+    const Vector2d way = end - begin, across = gate.left - gate.right;
+    const double turn = cross(across, way), square = across.squaredNorm();
+    const double from = cross(begin - gate.right, way);
+    if (std::abs(turn) > ALONG * (way.lpNorm<1>() * across.lpNorm<1>())) return from / turn;
+    if (!(square > 0)) return 0;
+    const double first = (begin - gate.right).dot(across) / square,
+                 last = (end - gate.right).dot(across) / square;
+    return turn == 0 ? first : std::clamp(from / turn, std::min(first, last), std::max(first, last));
+}
 
 // A part of a strip between two portals that are vertices, or an end: faces `first` to `last`, unfolded.
 class Unfolded {
@@ -84,7 +105,7 @@ void Unfolded::unfold(const Strip& strip, size_t first, size_t last, const Surfa
                       const SurfacePoint& to) {
     const auto& v = surface_.faces[strip.faces[first]];
     std::array<Vector2d, 3> corners{Vector2d(0, 0), Vector2d(distance(v[0], v[1]), 0), {}};
-    corners[2] = place_ahead(corners[0], corners[1], distance(v[0], v[2]), distance(v[1], v[2]));
+    corners[2] = place_ahead(surface_, {v[0], v[1], corners[0], corners[1]}, v[2]);
     from_ = weighted(corners, from.weights);
     std::array<uint32_t, 3> vertices = v;
     gates_.reserve(last - first);
@@ -97,9 +118,7 @@ void Unfolded::unfold(const Strip& strip, size_t first, size_t last, const Surfa
         const Gate& gate = gates_.back();
         const auto& next = surface_.faces[strip.faces[f + 1]];
         const uint32_t ahead = *std::ranges::find_if(next, [&](uint32_t u) { return !portal.contains(u); });
-        corners = {gate.left, gate.right,
-                   place_ahead(gate.left, gate.right, distance(gate.left_vertex, ahead),
-                               distance(gate.right_vertex, ahead))};
+        corners = {gate.left, gate.right, place_ahead(surface_, gate, ahead)};
         vertices = {gate.left_vertex, gate.right_vertex, ahead};
     }
     std::array<double, 3> weights;
@@ -115,7 +134,7 @@ class Funnel {
 public:
     // So many points may be added. They are given by their positions among those that were added; -1 is the
     // source.
-    Funnel(const Vector2d& source, size_t count) : source_(source) {
+    Funnel(const Vector2d& source, size_t count) : source_(source), farthest_(source.lpNorm<1>()) {
         at_.reserve(count);
         before_.reserve(count);
         points_.resize(2 * count + 1);
@@ -147,17 +166,23 @@ private:
     const Vector2d& position(std::ptrdiff_t point) const {
         return point < 0 ? source_ : at_[static_cast<size_t>(point)];
     }
-    // Over 0 if the way from `first` over `second` to a position turns left.
+    // Over 0 if the way from `first` over `second` to a position turns left, and 0 where it is straight but
+    // for the rounding of positions, as within a needle.
     double turns(std::ptrdiff_t first, std::ptrdiff_t second, const Vector2d& at) const {
-        return cross(position(second) - position(first), at - position(first));
+        constexpr double ROUNDING = 1e-14; // as a share of positions
+        const Vector2d way = position(second) - position(first), on = at - position(first);
+        const double turn = cross(way, on);
+        return std::abs(turn) <= ROUNDING * farthest_ * (way.lpNorm<1>() + on.lpNorm<1>()) ? 0 : turn;
     }
     std::ptrdiff_t add(const Vector2d& at, std::ptrdiff_t before) {
+        farthest_ = std::max(farthest_, at.lpNorm<1>());
         at_.push_back(at);
         before_.push_back(before);
         return static_cast<std::ptrdiff_t>(at_.size()) - 1;
     }
 
     const Vector2d source_;
+    double farthest_; // of all positions, from the origin
     std::vector<Vector2d> at_;
     std::vector<std::ptrdiff_t> before_;
     std::vector<std::ptrdiff_t> points_;
@@ -201,13 +226,7 @@ void Unfolded::add_shares(std::span<const Portal> portals, std::vector<double>& 
 double Unfolded::share(const Gate& gate, const Portal& portal, const Bend& before, const Bend& after) const {
     for (const Bend* bend : {&before, &after})
         if (bend->vertex != NONE && portal.contains(bend->vertex)) return bend->vertex == portal.a ? 0 : 1;
-    const Vector2d along = after.at - before.at, across = gate.left - gate.right;
-    const double denominator = cross(along, across);
-    if (denominator == 0) { // all in one line: at the end that is nearer to the way
-        const bool at_right = (gate.right - before.at).squaredNorm() <= (gate.left - before.at).squaredNorm();
-        return (at_right ? gate.right_vertex : gate.left_vertex) == portal.a ? 0 : 1;
-    }
-    const double from_right = at_end_if_close(cross(before.at - gate.right, along) / -denominator);
+    const double from_right = at_end_if_close(crossing(gate, before.at, after.at));
     return gate.right_vertex == portal.a ? from_right : 1 - from_right;
 }
 
