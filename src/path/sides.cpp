@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -126,15 +127,13 @@ PointRange OtherSides::with_next_pieces(PointRange range) const {
     return range;
 }
 
-// The fan there, if between the bends of the path the angle on that side is less, or hardly more: beside a
-// cone in a plane the way on the side of the smaller angle is the shorter one, but there are more vertices.
+// The fan there, if the vertex sees the bends before and after it at an angle of less than pi over that side.
+// Otherwise the path would bend at the vertex, and turn back to where it came from.
 std::optional<Turn::Fan> OtherSides::other_side(const Pass& pass) {
-    constexpr double MORE = 0.05;
     const auto place = beside(pass);
     if (!place || strip_.faces[pass.first] == strip_.faces[pass.last + 1]) return std::nullopt;
-    const double here = angle_at(*place, piece_around(pass)),
-                 near = angle_at(*place, {pass.first, pass.last + 2});
-    if (!(angle_around(pass.vertex) < 2 * here + MORE)) return std::nullopt;
+    const double here = angle_at(*place, piece_around(pass));
+    if (!(angle_around(pass.vertex) < std::numbers::pi + here)) return std::nullopt;
     const Vector3d at = surface_.positions[pass.vertex], from = points_[pass.first].at - at,
                    to = points_[pass.last + 2].at - at;
     if (from.isZero(0) || to.isZero(0)) return std::nullopt;
@@ -143,8 +142,9 @@ std::optional<Turn::Fan> OtherSides::other_side(const Pass& pass) {
         const Portal& portal = strip_.portals[i];
         turn.forbid(portal.a == pass.vertex ? portal.b : portal.a);
     }
-    return turn.below(2 * here - near + MORE, strip_.faces[pass.first], from, strip_.faces[pass.last + 1],
-                      to);
+    const double near = angle_at(*place, {pass.first, pass.last + 2});
+    return turn.below(std::numbers::pi + here - near, strip_.faces[pass.first], from,
+                      strip_.faces[pass.last + 1], to);
 }
 
 bool OtherSides::take(const Pass& pass, const Turn::Fan& fan, PointRange range) {
