@@ -31,7 +31,7 @@ private:
     struct Node {
         Kind kind;
         uint32_t item;
-        Portal portal; // that a face was entered by
+        Portal portal; // that a face was entered by; NONE twice where the way begins
         Vector3d at;
         double length; // up to there
         uint32_t before;
@@ -73,6 +73,7 @@ bool FaceSearch::close(const Node& node) {
     return closed.insert(node.item).second;
 }
 
+// What the edge that the way came over leads to was reached from the face before, in a shorter way.
 void FaceSearch::leave_face(uint32_t index) {
     const Node node = open_[index];
     if (targets_.contains(node.item)) {
@@ -81,10 +82,13 @@ void FaceSearch::leave_face(uint32_t index) {
     }
     const auto corners = surface_.faces[node.item];
     for (uint32_t k = 0; k < 3; ++k) {
-        pass_vertex(index, corners[k]);
         const auto [a, b] = std::minmax({corners[(k + 1) % 3], corners[(k + 2) % 3]});
+        const Portal opposite{a, b};
+        const bool is_entry = opposite == node.portal;
+        if (is_entry || node.portal.is_vertex()) pass_vertex(index, corners[k]);
+        if (is_entry) continue;
         const EdgeCrossing crossing = cross_edge(a, b, node.at);
-        if (crossing.rest < UNREACHABLE) cross_to_next(index, {a, b}, crossing);
+        if (crossing.rest < UNREACHABLE) cross_to_next(index, opposite, crossing);
     }
 }
 

@@ -14,6 +14,7 @@ struct Portal {
     bool contains(uint32_t vertex) const { return vertex == a || vertex == b; }
     bool is_vertex() const { return a == b; }
     bool joins(const Portal& other) const { return contains(other.a) && contains(other.b); }
+    bool operator==(const Portal&) const = default;
 };
 
 // The faces that a path passes, portal i from face i into face i + 1, and its ends, which are points of the
