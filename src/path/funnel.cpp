@@ -194,6 +194,7 @@ void Unfolded::pull_tight() {
     const auto count = static_cast<std::ptrdiff_t>(gates_.size());
     Funnel funnel(from_, gates_.size() + 2);
     std::vector<Bend> points;
+    points.reserve(gates_.size() + 2);
     for (std::ptrdiff_t i = 0; i < count; ++i) {
         const Gate& gate = gates_[static_cast<size_t>(i)];
         const Gate* const before = i > 0 ? &gate - 1 : nullptr;
