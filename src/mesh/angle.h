@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -11,5 +12,29 @@ namespace geodesic {
 inline double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
+
+// Adds up angles between directions, with one arc tangent for all of them.
+class AngleSum {
+public:
+    void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+        const double along = a.dot(b), across = a.cross(b).norm();
+        const double x = x_ * along - y_ * across, y = x_ * across + y_ * along;
+        const bool was_past_half = is_past_half();
+        const double size = std::abs(x) + std::abs(y);
+        x_ = x / size;
+        y_ = y / size;
+        if (was_past_half && !is_past_half()) ++whole_turns_; // no angle is more than half a turn
+    }
+    double value() const {
+        const double rest = std::atan2(y_, x_);
+        return 2 * std::numbers::pi * (whole_turns_ + (rest < 0 ? 1 : 0)) + rest;
+    }
+
+private:
+    bool is_past_half() const { return y_ < 0 || (y_ == 0 && x_ < 0); } // half a turn included
+
+    double x_ = 1, y_ = 0; // the sum without whole turns, as a direction
+    int whole_turns_ = 0;
+};
 
 }

@@ -79,13 +79,14 @@ double OtherSides::angle_around(uint32_t vertex) {
     const auto [found, is_new] = angles_.try_emplace(vertex, 0);
     if (!is_new) return found->second;
     const Vector3d at = surface_.positions[vertex];
+    AngleSum sum;
     for (const uint32_t face : surface_.vertex_faces[vertex]) {
         const uint32_t k = corner_of(surface_, face, vertex);
         const Vector3d a = surface_.positions[surface_.faces[face][(k + 1) % 3]] - at,
                        b = surface_.positions[surface_.faces[face][(k + 2) % 3]] - at;
-        found->second += angle_between(a, b);
+        sum.add(a, b);
     }
-    return found->second;
+    return found->second = sum.value();
 }
 
 // The angle at which the straight path between two points is seen.
