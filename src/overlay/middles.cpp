@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "src/overlay/kernels/lanes.h"
+#include "src/overlay/raised_middles.h"
 #include "src/overlay/unfolding.h"
 
 namespace geodesic {
@@ -60,11 +61,13 @@ void make_middle_tables(const OverlayIndex& index, std::span<uint16_t> middles) 
     static_assert(TableCode::PADDING > LANES);
     std::ranges::fill(middles.subspan(index.hops.inner_begin.back()), TableCode::UNREACHED);
     std::vector<float> length;
+    MiddleRaiser raiser(index);
     for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) {
         measure_in_steps(index, p, length);
         for (uint32_t i = 0; i < index.numbering.inner_size(p); ++i)
             add_middles(index.hops.inner.data() + index.inner_row(p, i), length,
                         middles.data() + index.inner_row(p, i));
+        if (p >= index.numbering.first_leaf()) raiser.raise(p, middles.data() + index.inner_row(p, 0));
     }
 }
 

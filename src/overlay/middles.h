@@ -4,7 +4,8 @@
 
 namespace geodesic {
 
-// Fills the codes of HopTables::inner_middles from the inner tables and the rings.
+// Fills the codes of HopTables::inner_middles from the inner tables, the internal tables of leaves and the
+// rings.
 void make_middle_tables(const OverlayIndex& index, std::span<uint16_t> middles);
 
 }

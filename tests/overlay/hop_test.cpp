@@ -230,6 +230,11 @@ std::vector<std::vector<uint16_t>> rows_down(const Built& built, uint32_t patch)
     return rows;
 }
 
+std::vector<std::vector<float>> middles_down(const Built& built, uint32_t patch) {
+    return middle_codes(built.tables.border(patch), rows_down(built, patch),
+                        built.tables.between_internal(patch), built.tables.quantum(patch));
+}
+
 // Calls hop(patch, rows, plain, sweep) for every source outside of a patch that reaches its border.
 template <class OneHop>
 void for_each_hop_down(const Built& built, const OneHop& hop) {
@@ -249,10 +254,14 @@ void for_each_hop_down(const Built& built, const OneHop& hop) {
 
 Tally hop_down(const Built& built) {
     Tally tally;
-    for_each_hop_down(built, [&](uint32_t, const auto& rows, const PlainHop& plain, InnerSweep& sweep) {
+    std::vector<std::vector<std::vector<float>>> middles(1);
+    for (uint32_t patch = 1; patch < built.numbering().patch_count(); ++patch)
+        middles.push_back(middles_down(built, patch));
+    for_each_hop_down(built, [&](uint32_t patch, const auto& rows, const PlainHop& plain, InnerSweep& sweep) {
         const auto answers = sweep.cross();
         REQUIRE(answers.size() == rows.size());
-        for (size_t i = 0; i < rows.size(); ++i) tally.add(plain.over_middles(rows[i]), answers[i]);
+        for (size_t i = 0; i < rows.size(); ++i)
+            tally.add(plain.over_middles(rows[i], middles[patch][i]), answers[i]);
     });
     return tally;
 }
@@ -269,6 +278,7 @@ Tally hop_down_at_once(const Built& built) {
         for (uint32_t patch = 1; patch < numbering.patch_count(); ++patch) {
             const StoredBorder border = built.tables.border(patch);
             const auto rows = rows_down(built, patch);
+            const auto middles = middles_down(built, patch);
             if (!sweep.begin(patch, distances.data())) continue;
             const auto answers = sweep.cross();
             REQUIRE(answers.size() == rows.size() * AT_ONCE);
@@ -276,7 +286,7 @@ Tally hop_down_at_once(const Built& built) {
                 const PlainHop plain =
                     plain_hop(border, built.fields[first + i], built.tables.quantum(patch));
                 for (size_t r = 0; r < rows.size(); ++r)
-                    tally.add(plain.over_middles(rows[r]), answers[r * AT_ONCE + i]);
+                    tally.add(plain.over_middles(rows[r], middles[r]), answers[r * AT_ONCE + i]);
             }
         }
     }
@@ -312,6 +322,19 @@ void check_rules_applied(const Tallies& tallies) {
     CHECK(tallies.up.straightened > 100);
 }
 
+// How many middles are raised.
+uint64_t count_raised(const Built& built) {
+    uint64_t raised = 0;
+    for (uint32_t patch = built.numbering().first_leaf(); patch < built.numbering().patch_count(); ++patch) {
+        const auto derived =
+            derived_middles(built.tables.border(patch), rows_down(built, patch), built.tables.quantum(patch));
+        const auto codes = middles_down(built, patch);
+        for (size_t i = 0; i < codes.size(); ++i)
+            for (size_t k = 0; k < codes[i].size(); ++k) raised += codes[i][k] > derived[i][k];
+    }
+    return raised;
+}
+
 // How many segments close a chain, and how many positions end an open one.
 std::pair<uint32_t, uint32_t> count_chains(const Built& built) {
     uint32_t closed = 0, open = 0;
@@ -335,6 +358,17 @@ TEST_CASE("hop: as the text has it on a closed, curved surface") {
 TEST_CASE("hop: as the text has it on a surface with holes") {
     check_rules_applied(check_hops(with_open_chains()));
     CHECK(count_chains(with_open_chains()).second > with_open_chains().numbering().patch_count());
+}
+
+// Heights are random, up to four edges, so that paths pass bumps on either side.
+TEST_CASE("hop: as the text has it where middles are raised") {
+    TestMesh mesh = hills(24, 22);
+    std::mt19937 random(3);
+    for (size_t i = 2; i < mesh.positions.size(); i += 3)
+        mesh.positions[i] = static_cast<double>(random() % 1000) / 250;
+    const Built built(mesh, options_of(GEOIDX_METRIC_EXACT, {3, 3}));
+    CHECK(count_raised(built) > 20);
+    check_hops(built);
 }
 
 TEST_CASE("hop: as the text has it where the surface is in parts") {

@@ -23,6 +23,48 @@ struct Hop {
     bool is_straightened = false; // whether a way over a segment beside b was less than that over b
 };
 
+using Rows = std::vector<std::vector<uint16_t>>;
+
+// The root of a square that rounded distances may have made a little too small, or NaN.
+template <class Number>
+Number root(Number square, Number length) {
+    return square < -length * length / 32 ? NAN : std::sqrt(std::max(square, Number{0}));
+}
+
+// The codes of all middles of a border as they are derived: for each row one of each position where a segment
+// begins, NaN if it is left out.
+inline std::vector<std::vector<float>> derived_middles(const StoredBorder& border, const Rows& rows,
+                                                       float quantum) {
+    std::vector<std::vector<float>> codes(rows.size(), std::vector<float>(border.size(), NAN));
+    for (size_t x = 0; x < rows.size(); ++x)
+        for (uint32_t p = 0; p < border.size(); ++p) {
+            const uint32_t q = border.end[p];
+            if (q == NONE || rows[x][p] == NO_PATH || rows[x][q] == NO_PATH) continue;
+            const float at_p = rows[x][p], at_q = rows[x][q], length = border.length[p] / quantum;
+            const float square = 0.5f * (at_p * at_p + at_q * at_q) - 0.25f * (length * length);
+            codes[x][p] = std::trunc(root(square, length) + 0.5f);
+        }
+    return codes;
+}
+
+// The same, raised. `apart` has the codes of all pairs of rows: of a leaf, and of other patches no rows.
+inline std::vector<std::vector<float>> middle_codes(const StoredBorder& border, const Rows& rows,
+                                                    const Rows& apart, float quantum) {
+    const auto derived = derived_middles(border, rows, quantum);
+    auto codes = derived;
+    const float longest =
+        border.size() == 0 ? 0 : *std::max_element(border.length.begin(), border.length.end());
+    for (size_t x = 0; x < apart.size(); ++x)
+        for (size_t y = 0; y < apart.size(); ++y) {
+            const int t = apart[x][y];
+            if (x == y || t == NO_PATH || static_cast<float>(t) > longest / quantum) continue;
+            for (uint32_t p = 0; p < border.size(); ++p) // not where either is NaN
+                if (derived[y][p] - static_cast<float>(t + t / 25) > codes[x][p])
+                    codes[x][p] = derived[y][p] - static_cast<float>(t + t / 25);
+        }
+    return codes;
+}
+
 // From one source over one border. What decides between sums of steps is in single precision, as the text has
 // it: the steps themselves, the distances of middles and their codes. All else is in double precision.
 class PlainHop {
@@ -65,13 +107,14 @@ public:
         return follow_near_rule(row, hop, least);
     }
 
-    Hop over_middles(const std::vector<uint16_t>& row) const {
+    // middle_codes: those of the row, see above.
+    Hop over_middles(const std::vector<uint16_t>& row, const std::vector<float>& middle_codes) const {
         Hop hop;
         if (!is_reached()) return hop;
         int32_t least_sum = 32767;
         for (uint32_t b = 0; b < border_.size(); ++b) {
             least_sum = std::min(least_sum, steps(distances_[b], least_or_middle_) + row[b]);
-            const float code = middle_code(row, b);
+            const float code = middle_codes[b];
             if (std::isnan(middles_[b]) || std::isnan(code)) continue;
             least_sum =
                 std::min(least_sum, steps(middles_[b], least_or_middle_) + static_cast<int32_t>(code));
@@ -84,12 +127,6 @@ public:
     }
 
 private:
-    // The root of a square that rounded distances may have made a little too small, or NaN.
-    template <class Number>
-    static Number root(Number square, Number length) {
-        return square < -length * length / 32 ? NAN : std::sqrt(std::max(square, Number{0}));
-    }
-
     // More than every sum where there is no distance.
     int32_t steps(float distance, float least) const {
         if (!(distance < INFINITE)) return 1 << 20;
@@ -102,13 +139,6 @@ private:
         if (border_.end[p] == NONE) return NAN;
         const float at_p = distances_[p], at_q = distances_[border_.end[p]], length = border_.length[p];
         return root(0.5f * (at_p * at_p + at_q * at_q) - 0.25f * (length * length), length);
-    }
-    // The same for x, as a code.
-    float middle_code(const std::vector<uint16_t>& row, uint32_t p) const {
-        if (border_.end[p] == NONE || row[p] == NO_PATH || row[border_.end[p]] == NO_PATH) return NAN;
-        const float at_p = row[p], at_q = row[border_.end[p]], length = border_.length[p] / quantum_;
-        return std::trunc(root(0.5f * (at_p * at_p + at_q * at_q) - 0.25f * (length * length), length) +
-                          0.5f);
     }
 
     double to_vertex(const std::vector<uint16_t>& row, uint32_t b) const {

@@ -81,6 +81,19 @@ public:
         return row;
     }
 
+    // The codes of all pairs of internal vertices of a leaf, of other patches no rows.
+    std::vector<std::vector<uint16_t>> between_internal(uint32_t patch) const {
+        if (patch < numbering_.first_leaf()) return {};
+        uint64_t entry = 0;
+        for (uint32_t leaf = numbering_.first_leaf(); leaf < patch; ++leaf)
+            for (uint64_t i = 0; i < numbering_.internal_size(leaf); ++i) entry += i;
+        const size_t count = numbering_.internal_size(patch);
+        std::vector<std::vector<uint16_t>> codes(count, std::vector<uint16_t>(count, 0));
+        for (size_t i = 0; i < count; ++i)
+            for (size_t j = 0; j < i; ++j, ++entry) codes[i][j] = codes[j][i] = stored_.internal_codes[entry];
+        return codes;
+    }
+
 private:
     std::optional<uint32_t> position_among_owned(uint32_t patch, uint32_t x) const {
         const uint32_t first = numbering_.owned_begin[patch];

@@ -5,6 +5,7 @@ All is single precision, as the document has it: f below.
 
 import numpy
 
+from raised_middles import raised_middles
 from several_sources import SeveralSources
 
 f = numpy.float32
@@ -161,7 +162,10 @@ class OverlayEngine:
         second = rows[:, border.second]
         middle = middles(rows, second, border.length / self.quantum[patch])
         reached = (numpy.maximum(rows, second) < NO_PATH) & (middle >= 0)
-        return numpy.where(reached, numpy.trunc(middle + f(0.5)), f(NO_PATH))
+        codes = numpy.where(reached, numpy.trunc(middle + f(0.5)), f(NO_PATH))
+        if patch not in self.internal:
+            return codes
+        return raised_middles(codes, self.internal[patch], border.longest / self.quantum[patch], NO_PATH)
 
     def cross_near(self, border, source, target, ways):
         """Those that are near take the least way over any position or segment."""

@@ -12,6 +12,7 @@ import xxhash
 import zstandard
 
 from packed import PackedTables
+from raised_middles import raised_middles
 
 MAGIC = bytes.fromhex("89474944580D0A1A")
 RAW, ZSTD, PNG, IMAGES = 0, 1, 2, 3
@@ -391,10 +392,10 @@ class Index:
         for patch in inners:
             to_ring = numpy.concatenate([borders[patch], inner[patch]])
             self.overlay_table.append(self._joined_rows(patch, places[patch], to_ring, owned[patch]))
-        for patch in range(self.patch_count):
-            self._check_middles(patch, places[patch][0], inner[patch], middles[patch])
         self.border_internal = {p: inner[p][:, places[p][1]].T for p in self.leaves}
         self.internal = {p: self._triangle(entries[0], insides[p]) for p, entries in zip(self.leaves, triangles)}
+        for patch in range(self.patch_count):
+            self._check_middles(patch, places[patch][0], inner[patch], middles[patch])
 
     def places(self, patch):
         """The position in the border of each place, and the own place of each position."""
@@ -433,16 +434,23 @@ class Index:
         return table
 
     def _check_middles(self, patch, on, inner, middles):
+        expected = self._middles(patch, on, inner)
+        require((numpy.isinf(expected) == numpy.isinf(middles)).all(), "a middle without a segment")
+        # Where the sum is rounded otherwise, the root may be, too.
+        off = numpy.abs(numpy.where(numpy.isinf(expected), 0, middles - expected))
+        require(not (off > 1).any(), "a middle is elsewhere")
+
+    def _middles(self, patch, on, inner):
+        middles = numpy.full(inner.shape, numpy.inf)
         for place, (i, j) in enumerate(zip(on, on[1:])):
             if self.segment_end[patch][i] == j:
                 length = self.segment_length[patch][i] / self.quantum[patch]
                 square = 0.5 * (inner[:, place] ** 2 + inner[:, place + 1] ** 2) - 0.25 * length**2
-                expected = numpy.where(square >= 0, numpy.trunc(numpy.sqrt(square) + 0.5), numpy.inf)
-                # Where the sum is rounded otherwise, the root may be, too.
-                off = numpy.abs(middles[:, place] - expected)
-                require(not (off > 1).any(), "a middle is elsewhere")
-            else:
-                require(numpy.isinf(middles[:, place]).all(), "a middle without a segment")
+                middles[:, place] = numpy.where(square >= 0, numpy.trunc(numpy.sqrt(square) + 0.5), numpy.inf)
+        if patch < self.inner_count:
+            return middles
+        longest = numpy.max(self.segment_length[patch][self.segment_end[patch] != NONE], initial=0)
+        return raised_middles(middles, self.internal[patch], longest / self.quantum[patch], numpy.inf)
 
     @staticmethod
     def _triangle(entries, size):

@@ -1,0 +1,99 @@
+#include "src/overlay/raised_middles.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "src/base/four_at_a_time.h"
+#include "src/overlay/kernels/lanes.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr size_t LANES = 8; // so many codes are compared at once. All of them are below 2^15.
+
+using Steps = VectorOf<int16_t, LANES * sizeof(int16_t)>::Type;
+
+bool any(const Steps& mask) {
+    const auto halves = std::bit_cast<std::array<uint64_t, 2>>(mask);
+    return (halves[0] | halves[1]) != 0;
+}
+
+// The largest whole number of steps that is not more, if that is a code.
+uint16_t whole_steps(float steps) {
+    return static_cast<uint16_t>(steps < TableCode::LARGEST ? steps : float{TableCode::LARGEST});
+}
+
+// A middle may also be derived a little too long, by up to a twentieth of its segment or so. A share of the
+// distance between two vertices is let pass, so that such middles do not raise right ones.
+uint16_t most_apart(uint16_t code) {
+    return static_cast<uint16_t>(std::min(code + code / 25, int{TableCode::LARGEST}));
+}
+
+}
+
+void MiddleRaiser::raise(uint32_t leaf, uint16_t* middles) {
+    middles_ = middles;
+    count_ = index_.numbering.internal_size(leaf);
+    places_ = index_.rings.size(leaf);
+    whole_places_ = (places_ + LANES - 1) / LANES * LANES;
+    copy_derived();
+    // Only near vertices raise each other: of two that are farther apart than the longest segment, the share
+    // that is let pass is as long as what middles are too short by.
+    const uint16_t most = whole_steps(index_.longest_segment[leaf] / index_.quantum[leaf]);
+    const uint16_t* apart = index_.hops.internal.data() + index_.numbering.internal_entry(leaf, 1, 0);
+    for (size_t i = 1; i < count_; apart += i++)
+        for (const uint32_t j : find_near(apart, i, most)) compare(i, j, most_apart(apart[j]));
+}
+
+void MiddleRaiser::copy_derived() {
+    derived_.resize(std::max(derived_.size(), count_ * whole_places_));
+    for (size_t i = 0; i < count_; ++i) {
+        uint16_t* const copy = derived_.data() + i * whole_places_;
+        std::transform(row(i), row(i) + places_, copy,
+                       [](uint16_t code) { return code == TableCode::UNREACHED ? 0 : code; });
+        std::fill(copy + places_, copy + whole_places_, uint16_t{0});
+    }
+}
+
+// The positions of codes that are at most `most`. Each position is written, and the next one over it unless
+// its code counts: a branch would often be mispredicted.
+std::span<const uint32_t> MiddleRaiser::find_near(const uint16_t* codes, size_t count, uint16_t most) {
+    near_.resize(std::max(near_.size(), count));
+    uint32_t* const first = near_.data();
+    size_t end = 0;
+    four_at_a_time(count, [&](size_t j) {
+        first[end] = static_cast<uint32_t>(j);
+        end += codes[j] <= most;
+    });
+    return {first, end};
+}
+
+void MiddleRaiser::compare(size_t i, size_t j, uint16_t most) {
+    if (!differ(i, j, most)) return;
+    raise_row(i, derived(j), most);
+    raise_row(j, derived(i), most);
+}
+
+// Whether two rows differ by more than so much in any place.
+bool MiddleRaiser::differ(size_t i, size_t j, uint16_t most) const {
+    const uint16_t *first = derived(i), *second = derived(j);
+    Steps largest{};
+    for (size_t k = 0; k < whole_places_; k += LANES) {
+        Steps of_first, of_second;
+        load(first + k, of_first);
+        load(second + k, of_second);
+        const Steps difference = of_first - of_second, opposite = of_second - of_first;
+        largest = largest > difference ? largest : difference;
+        largest = largest > opposite ? largest : opposite;
+    }
+    return any(largest > static_cast<int16_t>(most));
+}
+
+void MiddleRaiser::raise_row(size_t i, const uint16_t* by, uint16_t most) {
+    for (size_t k = 0; k < places_; ++k)
+        row(i)[k] = static_cast<uint16_t>(std::max(int{row(i)[k]}, by[k] - most));
+}
+
+}
