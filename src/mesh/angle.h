@@ -21,6 +21,7 @@ public:
         const double x = x_ * along - y_ * across, y = x_ * across + y_ * along;
         const bool was_past_half = is_past_half();
         const double size = std::abs(x) + std::abs(y);
+        if (!(size > 0 && std::isfinite(size))) return; // no direction, or one too long to tell
         x_ = x / size;
         y_ = y / size;
         if (was_past_half && !is_past_half()) ++whole_turns_; // no angle is more than half a turn
@@ -31,7 +32,8 @@ public:
     }
 
 private:
-    bool is_past_half() const { return y_ < 0 || (y_ == 0 && x_ < 0); } // half a turn included
+    // Whether the sum without whole turns is half a turn or more.
+    bool is_past_half() const { return y_ < 0 || (y_ == 0 && x_ < 0); }
 
     double x_ = 1, y_ = 0; // the sum without whole turns, as a direction
     int whole_turns_ = 0;

@@ -6,7 +6,7 @@ namespace geodesic {
 
 namespace {
 
-// So many near columns take as long together as one by one.
+// From so many near columns on, those of a block take less time together than one by one.
 constexpr size_t MANY_NEAR = 5;
 
 }

@@ -25,9 +25,10 @@ uint16_t whole_steps(float steps) {
     return static_cast<uint16_t>(steps < TableCode::LARGEST ? steps : float{TableCode::LARGEST});
 }
 
-// A middle may also be derived a little too long, by up to a twentieth of its segment or so. A share of the
-// distance between two vertices is let pass, so that such middles do not raise right ones.
-uint16_t most_apart(uint16_t code) {
+// By how much the distances of two vertices from one middle may differ. A middle may also be derived a little
+// too long, and then differs more than the vertices are apart: a share of 1/25 of that is let pass, so that
+// hardly any such middle raises right ones.
+uint16_t allowed_difference(uint16_t code) {
     return static_cast<uint16_t>(std::min(code + code / 25, int{TableCode::LARGEST}));
 }
 
@@ -36,15 +37,16 @@ uint16_t most_apart(uint16_t code) {
 void MiddleRaiser::raise(uint32_t leaf, uint16_t* middles) {
     middles_ = middles;
     count_ = index_.numbering.internal_size(leaf);
+    if (count_ > MOST_VERTICES) return;
     places_ = index_.rings.size(leaf);
     whole_places_ = (places_ + LANES - 1) / LANES * LANES;
     copy_derived();
-    // Only near vertices raise each other: of two that are farther apart than the longest segment, the share
-    // that is let pass is as long as what middles are too short by.
-    const uint16_t most = whole_steps(index_.longest_segment[leaf] / index_.quantum[leaf]);
+    // Only near vertices raise each other. Middles are derived too short by a part of a segment, which the
+    // share that is let pass between vertices farther apart would cover.
+    const uint16_t near_up_to = whole_steps(index_.longest_segment[leaf] / index_.quantum[leaf]);
     const uint16_t* apart = index_.hops.internal.data() + index_.numbering.internal_entry(leaf, 1, 0);
     for (size_t i = 1; i < count_; apart += i++)
-        for (const uint32_t j : find_near(apart, i, most)) compare(i, j, most_apart(apart[j]));
+        for (const uint32_t j : find_near(apart, i, near_up_to)) compare(i, j, allowed_difference(apart[j]));
 }
 
 void MiddleRaiser::copy_derived() {
@@ -70,14 +72,14 @@ std::span<const uint32_t> MiddleRaiser::find_near(const uint16_t* codes, size_t 
     return {first, end};
 }
 
-void MiddleRaiser::compare(size_t i, size_t j, uint16_t most) {
-    if (!differ(i, j, most)) return;
-    raise_row(i, derived(j), most);
-    raise_row(j, derived(i), most);
+void MiddleRaiser::compare(size_t i, size_t j, uint16_t allowed) {
+    if (!differ(i, j, allowed)) return;
+    raise_row(i, derived(j), allowed);
+    raise_row(j, derived(i), allowed);
 }
 
 // Whether two rows differ by more than so much in any place.
-bool MiddleRaiser::differ(size_t i, size_t j, uint16_t most) const {
+bool MiddleRaiser::differ(size_t i, size_t j, uint16_t allowed) const {
     const uint16_t *first = derived(i), *second = derived(j);
     Steps largest{};
     for (size_t k = 0; k < whole_places_; k += LANES) {
@@ -88,12 +90,12 @@ bool MiddleRaiser::differ(size_t i, size_t j, uint16_t most) const {
         largest = largest > difference ? largest : difference;
         largest = largest > opposite ? largest : opposite;
     }
-    return any(largest > static_cast<int16_t>(most));
+    return any(largest > static_cast<int16_t>(allowed));
 }
 
-void MiddleRaiser::raise_row(size_t i, const uint16_t* by, uint16_t most) {
+void MiddleRaiser::raise_row(size_t i, const uint16_t* by, uint16_t allowed) {
     for (size_t k = 0; k < places_; ++k)
-        row(i)[k] = static_cast<uint16_t>(std::max(int{row(i)[k]}, by[k] - most));
+        row(i)[k] = static_cast<uint16_t>(std::max(int{row(i)[k]}, by[k] - allowed));
 }
 
 }

@@ -18,15 +18,18 @@ public:
     explicit MiddleRaiser(const OverlayIndex& index) : index_(index) {}
 
     // Raises the middles of one leaf, which have been derived, in rows as those of the leaf's inner table,
-    // end to end. The internal table of the leaf must be filled.
+    // end to end. The internal table of the leaf must be filled. Leaves of more vertices than MOST_VERTICES
+    // are left as they are: each pair of vertices takes a pass over two rows, of which a file could ask for
+    // any number.
     void raise(uint32_t leaf, uint16_t* middles);
+    static constexpr size_t MOST_VERTICES = 256;
 
 private:
     void copy_derived();
     std::span<const uint32_t> find_near(const uint16_t* codes, size_t count, uint16_t most);
-    void compare(size_t i, size_t j, uint16_t most);
-    bool differ(size_t i, size_t j, uint16_t most) const;
-    void raise_row(size_t i, const uint16_t* by, uint16_t most);
+    void compare(size_t i, size_t j, uint16_t allowed);
+    bool differ(size_t i, size_t j, uint16_t allowed) const;
+    void raise_row(size_t i, const uint16_t* by, uint16_t allowed);
 
     uint16_t* row(size_t i) const { return middles_ + i * places_; }
     const uint16_t* derived(size_t i) const { return derived_.data() + i * whole_places_; }

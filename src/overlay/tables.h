@@ -17,7 +17,8 @@
 
 namespace geodesic {
 
-// The tables that hops read: codes of distances, in steps of the quantum of their patch.
+// The tables that hops read: codes of distances, in steps of the quantum of their patch. Those of two
+// vertices on the patch's border are stored in steps of the parent's, and are converted.
 //
 // Each distance of an inner patch's overlay table lies there twice, in a row of both vertices. A row is in
 // two parts: one code for each place of the patch's own ring, and one for each vertex that the patch owns.
@@ -36,7 +37,7 @@ struct HopTables {
         : border_begin(memory), owned_begin(memory), inner_begin(memory), on_border_begin(memory),
           on_border(memory), made(memory) {}
 
-    Array<uint64_t> border_begin, owned_begin; // per inner patch
+    Array<uint64_t> border_begin, owned_begin; // per inner patch; leaves have none
     Array<uint64_t> inner_begin;               // per patch
     Array<uint64_t> on_border_begin;           // per patch: where its flags begin in on_border
     // Per position of the overlay of a patch's parent: whether that vertex is on the patch's own border.

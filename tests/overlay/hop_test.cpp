@@ -361,14 +361,25 @@ TEST_CASE("hop: as the text has it on a surface with holes") {
 }
 
 // Heights are random, up to four edges, so that paths pass bumps on either side.
-TEST_CASE("hop: as the text has it where middles are raised") {
-    TestMesh mesh = hills(24, 22);
+TestMesh rough(uint32_t columns, uint32_t rows) {
+    TestMesh mesh = hills(columns, rows);
     std::mt19937 random(3);
     for (size_t i = 2; i < mesh.positions.size(); i += 3)
         mesh.positions[i] = static_cast<double>(random() % 1000) / 250;
-    const Built built(mesh, options_of(GEOIDX_METRIC_EXACT, {3, 3}));
+    return mesh;
+}
+
+TEST_CASE("hop: as the text has it where middles are raised") {
+    const Built built(rough(24, 22), options_of(GEOIDX_METRIC_EXACT, {3, 3}));
     CHECK(count_raised(built) > 20);
     check_hops(built);
+}
+
+TEST_CASE("hop: as the text has it where leaves are too large for that") {
+    const Built built(rough(40, 30), options_of(GEOIDX_METRIC_EXACT, {2}));
+    CHECK(built.numbering().internal_size(built.numbering().first_leaf()) > 256);
+    check_answers(hop_down(built));
+    check_answers(hop_down_at_once(built));
 }
 
 TEST_CASE("hop: as the text has it where the surface is in parts") {

@@ -47,11 +47,13 @@ inline std::vector<std::vector<float>> derived_middles(const StoredBorder& borde
     return codes;
 }
 
-// The same, raised. `apart` has the codes of all pairs of rows: of a leaf, and of other patches no rows.
+// The same, raised where there are at most 256 rows. `apart` has the codes of all pairs of rows: of a leaf,
+// and of other patches no rows.
 inline std::vector<std::vector<float>> middle_codes(const StoredBorder& border, const Rows& rows,
                                                     const Rows& apart, float quantum) {
     const auto derived = derived_middles(border, rows, quantum);
     auto codes = derived;
+    if (rows.size() > 256) return codes;
     const float longest =
         border.size() == 0 ? 0 : *std::max_element(border.length.begin(), border.length.end());
     for (size_t x = 0; x < apart.size(); ++x)

@@ -11,7 +11,7 @@ namespace geodesic {
 // Over which place of a border each column of a table has its least way, by sums of codes. Each place has a
 // row of the table.
 
-// With SKIP, rows of places that are not reached are left out; without, they count, with sums that are none.
+// With SKIP, rows of places that are not reached are left out; without, their sums are NO_SUM or more.
 template <size_t BYTES, bool SKIP>
 struct LeastSums {
     using Codes = typename Lanes<BYTES>::Codes;
@@ -82,8 +82,8 @@ inline ColumnRun first_run(Columns columns) {
     return {columns.first(count), first, last};
 }
 
-// Of each column of a run, and of those between them, from the first one on. Where a sum is NO_SUM or more,
-// it does not tell a place.
+// The least sums of the columns of a run and of those between them, from the first one on, and the places
+// that these are over. Where a sum is NO_SUM or more, it does not tell a place.
 struct NearestPlaces {
     static constexpr size_t ROOM = SourceCode::whole_blocks(ColumnRun::MOST);
 
@@ -125,7 +125,7 @@ inline int32_t find_nearest_place(const BorderFromSource& border, Rows rows, siz
 }
 
 // The places of up to 64 columns, counted from `first`, of which those without a way are returned. These get
-// the place of another column, unless there is none.
+// the place of another column, if there is one, so that the ways to all of them can be measured alike.
 [[gnu::always_inline]] inline Missing collect_places(const BorderFromSource& border, Rows rows,
                                                      const NearestPlaces& nearest, Columns columns,
                                                      uint32_t first, int32_t* places) {

@@ -107,7 +107,8 @@ void keep_common(const OverlayIndex& index, const CrossedRange& from, BorderRang
     }
 }
 
-// Hops to the targets that `crossing` holds, and writes the distances and the winners of their places.
+// Hops to the targets that `crossing` holds, and writes the distances and the winners of their places. Where
+// nothing is reached, distances are infinite, and winners say nothing.
 void hop_to_targets(const OverlayIndex& index, const CrossedRange& from, BorderCrossing& crossing, float* out,
                     uint16_t* winners) {
     if (crossing.on_ring.is_empty() && crossing.owned.is_empty()) return;
