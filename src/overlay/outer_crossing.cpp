@@ -19,14 +19,11 @@ bool OuterCrossing::begin(uint32_t child, DistanceField distance, const RingSegm
     numbers_.clear();
     places_.clear();
     owned_.clear();
-    const uint32_t border_size = numbering_.border_size(parent);
     for (uint32_t i = 0; i < numbering_.overlay_size(parent); ++i) {
         if (index_.is_on_border(child, i)) continue;
         numbers_.push_back(numbering_.overlay_number(parent, i));
-        if (i < border_size)
-            places_.push_back(rings_.place_of_slot[numbering_.border_begin[parent] + i]);
-        else
-            owned_.push_back(i - border_size);
+        const OverlayColumn column = index_.overlay_column(parent, i);
+        (column.is_owned ? owned_ : places_).push_back(column.number);
     }
     return crossing_.finish();
 }

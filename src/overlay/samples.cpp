@@ -244,29 +244,25 @@ uint64_t count_sample_codes(const OverlayIndex& index) {
 void RowsAcross::begin(const OverlayIndex& index, const Samples& samples, uint32_t patch) {
     index_ = &index;
     patch_ = patch;
-    const uint32_t parent = index.numbering.parent[patch], border_size = index.numbering.border_size(parent);
-    const uint32_t* const place_of_position =
-        index.rings.place_of_slot.data() + index.numbering.border_begin[parent];
-    columns_.clear();
-    for (const uint16_t place : samples.of(patch)) {
-        const uint32_t position = position_in_parent(index, patch, place);
-        const bool is_owned = position >= border_size;
-        columns_.push_back({vertex_at(index, patch, place),
-                            is_owned ? position - border_size : place_of_position[position], is_owned});
-    }
+    const uint32_t parent = index.numbering.parent[patch];
+    targets_.clear();
+    for (const uint16_t place : samples.of(patch))
+        targets_.push_back({vertex_at(index, patch, place),
+                            index.overlay_column(parent, position_in_parent(index, patch, place))});
 }
 
 void RowsAcross::fill(uint32_t sibling, uint16_t from, uint16_t* row) const {
     const uint32_t parent = index_->numbering.parent[patch_];
     const uint32_t position = position_in_parent(*index_, sibling, from);
     if (index_->is_on_border(patch_, position)) {
-        for (const Column& to : columns_)
+        for (const Target& to : targets_)
             *row++ = code_on_border(vertex_at(*index_, sibling, from), to.vertex);
         return;
     }
     const uint16_t* const to_ring = index_->row_to_ring(parent, position);
     const uint16_t* const to_owned = index_->row_to_owned(parent, position);
-    for (const Column& to : columns_) *row++ = (to.is_owned ? to_owned : to_ring)[to.number];
+    for (const auto& [vertex, column] : targets_)
+        *row++ = (column.is_owned ? to_owned : to_ring)[column.number];
 }
 
 void make_samples(const OverlayIndex& index, Samples& samples) { SampleWriter(index, samples).write(); }

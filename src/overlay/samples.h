@@ -17,7 +17,7 @@ constexpr size_t FEW_PAIRS = size_t{1} << 13;
 // The rows of a table across, which lead to all samples of one patch.
 class RowsAcross {
 public:
-    explicit RowsAcross(std::pmr::memory_resource* memory) : columns_(memory) {}
+    explicit RowsAcross(std::pmr::memory_resource* memory) : targets_(memory) {}
 
     // Chooses the patch. What is given must stay valid until the last row is filled.
     void begin(const OverlayIndex& index, const Samples& samples, uint32_t patch);
@@ -25,14 +25,13 @@ public:
     void fill(uint32_t sibling, uint16_t from, uint16_t* row) const;
 
 private:
-    // Where a sample is in the two parts of rows of the parent's overlay.
-    struct Column {
-        uint32_t vertex, number;
-        bool is_owned;
+    struct Target {
+        uint32_t vertex;
+        OverlayColumn column; // of the parent's overlay
     };
     const OverlayIndex* index_ = nullptr;
     uint32_t patch_ = 0;
-    Array<Column> columns_;
+    Array<Target> targets_;
 };
 
 // Fills empty `samples` of an index that has its rings and overlay tables.

@@ -48,6 +48,12 @@ struct HopTables {
     Array<uint16_t> made;               // `codes`, unless they lie in a file
 };
 
+// Where the vertex at a position of an overlay is in the two parts of a row.
+struct OverlayColumn {
+    bool is_owned;
+    uint32_t number; // among the owned vertices, or of the own place in the ring
+};
+
 // For rows of inner tables along long borders: the least code of each block of PLACES places, those of the
 // middles included. A sum of two codes in a block is at least the sum of the least ones, so that most blocks
 // of a row need not be read. They follow from the other tables and are in no file.
@@ -176,11 +182,15 @@ struct OverlayIndex {
     const uint16_t* row_to_owned(uint32_t patch, uint32_t position) const {
         return hops.owned.data() + hops.owned_begin[patch] + uint64_t{position} * numbering.inner_size(patch);
     }
+    OverlayColumn overlay_column(uint32_t patch, uint32_t position) const {
+        const uint32_t border = numbering.border_size(patch);
+        if (position >= border) return {true, position - border};
+        return {false, rings.place_of_slot[numbering.border_begin[patch] + position]};
+    }
     // The entry for the overlay positions i and j.
     uint16_t overlay_code(uint32_t patch, uint32_t i, uint32_t j) const {
-        const uint32_t border = numbering.border_size(patch);
-        if (j >= border) return row_to_owned(patch, i)[j - border];
-        return row_to_ring(patch, i)[rings.place_of_slot[numbering.border_begin[patch] + j]];
+        const OverlayColumn column = overlay_column(patch, j);
+        return (column.is_owned ? row_to_owned(patch, i) : row_to_ring(patch, i))[column.number];
     }
 
     // Whether the vertex at a position of the overlay of a patch's parent is on the patch's own border.

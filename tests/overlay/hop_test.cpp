@@ -165,15 +165,12 @@ uint32_t position_of(const OverlayIndex& index, uint32_t patch, uint16_t winner)
 // that is not on the border.
 std::vector<uint32_t> crossed_positions(const OverlayIndex& index, uint32_t child, const Field& source) {
     const Rings& rings = index.rings;
-    const uint32_t first = rings.begin[child], parent = index.numbering.parent[child],
-                   border_size = index.numbering.border_size(parent);
+    const uint32_t first = rings.begin[child], parent = index.numbering.parent[child];
     std::vector<uint32_t> on_ring, owned;
     for (uint32_t i = 0; i < index.numbering.overlay_size(parent); ++i)
         if (!index.is_on_border(child, i)) {
-            if (i < border_size)
-                on_ring.push_back(rings.place_of_slot[index.numbering.border_begin[parent] + i]);
-            else
-                owned.push_back(i - border_size);
+            const OverlayColumn column = index.overlay_column(parent, i);
+            (column.is_owned ? owned : on_ring).push_back(column.number);
         }
     OverlayCrossing crossing(index, std::pmr::get_default_resource());
     const auto border = crossing.begin(child, first, rings.size(child), segments_from(rings, first));

@@ -80,7 +80,6 @@ void keep_common(const OverlayIndex& index, const CrossedRange& from, BorderRang
                  uint16_t* winners) {
     const Rings& rings = index.rings;
     VertexFinder common({rings.vertex.data() + from.range.first, from.range.size()});
-    const uint8_t* const is_on_border = index.hops.on_border.data() + index.hops.on_border_begin[from.patch];
     const auto keep = [&](uint32_t i, float length, uint32_t at) {
         out[i] = length;
         winners[i] = static_cast<uint16_t>(from.range.first + at - from.read.first);
@@ -88,7 +87,7 @@ void keep_common(const OverlayIndex& index, const CrossedRange& from, BorderRang
     bool has_common = false;
     crossing.begin();
     for (uint32_t i = 0; i < to.size(); ++i) {
-        if (const uint32_t at_parent = position(i); !is_on_border[at_parent]) {
+        if (const uint32_t at_parent = position(i); !index.is_on_border(from.patch, at_parent)) {
             add(i, at_parent);
         } else if (const uint32_t at = common.find(rings.vertex[to.first + i]); at != NONE) {
             keep(i, from.distances[at], at);
@@ -113,8 +112,11 @@ void hop_to_targets(const OverlayIndex& index, const CrossedRange& from, BorderC
                     uint16_t* winners) {
     if (crossing.on_ring.is_empty() && crossing.owned.is_empty()) return;
     begin_hop(index, from, crossing.hop);
-    const bool is_reached = crossing.hop.finish();
-    if (!is_reached) std::ranges::fill(crossing.distances, INFINITE);
+    if (!crossing.hop.finish()) {
+        for (const HopTargets* targets : {&crossing.on_ring, &crossing.owned})
+            for (const uint32_t i : targets->places()) out[i] = INFINITE;
+        return;
+    }
     const auto take = [&](const HopTargets& targets) {
         const auto places = targets.places();
         for (size_t r = 0; r < places.size(); ++r) {
@@ -124,9 +126,9 @@ void hop_to_targets(const OverlayIndex& index, const CrossedRange& from, BorderC
     };
     float* const distances = crossing.distances.data();
     uint16_t* const over = crossing.winners.data();
-    if (is_reached) crossing.hop.cross_to_ring(crossing.on_ring.columns(), distances, over);
+    crossing.hop.cross_to_ring(crossing.on_ring.columns(), distances, over);
     take(crossing.on_ring);
-    if (is_reached) crossing.hop.cross_to_owned(crossing.owned.columns(), distances, over);
+    crossing.hop.cross_to_owned(crossing.owned.columns(), distances, over);
     take(crossing.owned);
 }
 
@@ -145,17 +147,12 @@ void cross_up(const OverlayIndex& index, const CrossedRange& from, BorderRange t
 // Crosses from a range of a patch's border to a range of a sibling's border.
 void cross_over(const OverlayIndex& index, const CrossedRange& from, uint32_t sibling, BorderRange to,
                 BorderCrossing& crossing, float* out, uint16_t* winners) {
-    const uint32_t parent = index.numbering.parent[from.patch],
-                   border_size = index.numbering.border_size(parent);
-    const uint32_t* const place_of_position =
-        index.rings.place_of_slot.data() + index.numbering.border_begin[parent];
+    const uint32_t parent = index.numbering.parent[from.patch];
     keep_common(
         index, from, to, [&](uint32_t i) { return index.position_in_parent(sibling, to.first + i); },
         [&](uint32_t i, uint32_t position) {
-            if (position < border_size)
-                crossing.on_ring.add(place_of_position[position], i);
-            else
-                crossing.owned.add(position - border_size, i);
+            const OverlayColumn column = index.overlay_column(parent, position);
+            (column.is_owned ? crossing.owned : crossing.on_ring).add(column.number, i);
         },
         crossing, out, winners);
     hop_to_targets(index, from, crossing, out, winners);
