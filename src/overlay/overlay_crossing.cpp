@@ -81,8 +81,8 @@ void OverlayCrossing::cross_near_block(Columns columns, size_t first, float* dis
 
 void OverlayCrossing::cross_near_row(uint32_t column, float& distance) {
     const NearRange& range = field_.near_range();
-    const size_t end = std::min(range.end + 1, rows_.size());
-    for (size_t k = range.begin; k < end; ++k) near_row_[k] = rows_[k][column];
+    const size_t end = std::min(range.end(rows_.size()) + 1, rows_.size());
+    for (size_t k = range.begin(); k < end; ++k) near_row_[k] = rows_[k][column];
     const uint16_t* const row = near_row_.data();
     field_.cross_near({&row, 1}, &distance);
 }

@@ -144,10 +144,8 @@ TEST_CASE("crossing: near is what lies within five segments, and what is far sta
             REQUIRE(prepared.range.is_near() == (share < 1));
             if (!prepared.range.is_near()) continue;
             for (size_t k = 0; k < line.size(); ++k)
-                if (distance(source, line[k]) <= reach) {
-                    CHECK(k >= prepared.range.begin + Rings::REACH);
-                    CHECK(std::min(k + Rings::REACH, line.size()) <= prepared.range.end);
-                }
+                CHECK((distance(source, line[k]) <= reach) ==
+                      (k >= prepared.range.first && k <= prepared.range.last));
             std::vector<float> distances{prepared.range.reach, prepared.range.reach * 2};
             kernels.cross_near(prepared.border, prepared.range, border.rows, distances.data());
             CHECK(double{distances[0]} == doctest::Approx(share * reach + 2).epsilon(1e-3));

@@ -17,10 +17,6 @@ namespace geodesic {
 
 // ---- The border, made ready
 
-// Floats that the widest vector holds, so that results are of the same ones whatever the width.
-constexpr size_t PART = Lanes<64>::FLOATS;
-constexpr size_t whole_parts(size_t places) { return (places + PART - 1) / PART * PART; }
-
 template <size_t BYTES>
 [[gnu::always_inline]] inline void find_near_range(const BorderFromSource& border, NearRange& range) {
     Floats<BYTES> nearest{}, shortest{}, distance, length;
@@ -31,14 +27,11 @@ template <size_t BYTES>
         lower(nearest, distance);
         lower<Floats<BYTES>>(shortest, distance < INFINITE ? -length : shortest);
     }
-    range = {least_of<BYTES>(nearest), near_radius(-least_of<BYTES>(shortest)), 0, 0};
+    range = {least_of<BYTES>(nearest), near_radius(-least_of<BYTES>(shortest)), 1, 0};
     if (range.nearest > range.reach) return;
     const auto is_far = [&](size_t k) { return border.distance[k] > range.reach; };
-    size_t first = 0, last = border.places - 1;
-    while (is_far(first)) ++first;
-    while (is_far(last)) --last;
-    range.begin = (std::max(first, size_t{Rings::REACH}) - Rings::REACH) / PART * PART;
-    range.end = whole_parts(std::min(last + Rings::REACH, border.places));
+    for (range.first = 0; is_far(range.first);) ++range.first;
+    for (range.last = border.places - 1; is_far(range.last);) --range.last;
 }
 
 // Codes of places that are not the border's own are as those of places that are not reached.
@@ -63,7 +56,7 @@ template <size_t BYTES>
 
 template <size_t BYTES>
 [[gnu::always_inline]] inline void unfold(const BorderFromSource& border, float* feet, float* heights) {
-    for (size_t k = 0; k < whole_parts(border.places); k += Lanes<BYTES>::FLOATS) {
+    for (size_t k = 0; k < NearRange::whole_parts(border.places); k += Lanes<BYTES>::FLOATS) {
         Segments<Floats<BYTES>> segments;
         load(border.length + k, segments.length);
         load(border.half_inverse + k, segments.half_inverse);
@@ -259,9 +252,10 @@ template <size_t BYTES>
 struct CrossNear {
     [[gnu::always_inline]] static void run(const BorderFromSource& border, const NearRange& range, Rows rows,
                                            float* distances) {
+        const size_t begin = range.begin(), end = range.end(border.places);
         for (size_t r = 0; r < rows.size(); ++r) {
             if (distances[r] > range.reach) continue;
-            const float way = way_within<BYTES>(border, range.begin, range.end, rows[r]);
+            const float way = way_within<BYTES>(border, begin, end, rows[r]);
             if (way < INFINITE) distances[r] = way;
         }
     }
@@ -284,9 +278,9 @@ private:
         Distances least{}, least_square, from_first, from_second, square;
         least += INFINITE;
         least_square = least;
-        const size_t end = std::min(range.end, border.places);
-        decode_row<BYTES>(rows[range.begin] + first, border.quantum, from_second);
-        for (size_t k = range.begin; k < end; ++k) {
+        const size_t begin = range.begin(), end = std::min(range.end(border.places), border.places);
+        decode_row<BYTES>(rows[begin] + first, border.quantum, from_second);
+        for (size_t k = begin; k < end; ++k) {
             from_first = from_second;
             lower<Distances>(least, border.distance[k] + from_first);
             if (k + 1 == border.places) break;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -32,10 +33,17 @@ struct BorderFromSource {
 
 // The part of a border that is near to the source.
 struct NearRange {
-    float nearest;     // the distance of the nearest place
-    float reach;       // up to which a distance is near
-    size_t begin, end; // holds all near places; none if begin = end
-    bool is_near() const { return begin < end; }
+    float nearest;      // the distance of the nearest place
+    float reach;        // up to which a distance is near
+    size_t first, last; // near places, and those between them; none if first > last
+    bool is_near() const { return first <= last; }
+
+    // What is read of the border, or of a row: Rings::REACH more places on each side, in whole parts, so that
+    // results are of the same ones whatever the width of a vector.
+    static constexpr size_t PART = 64 / sizeof(float);
+    static constexpr size_t whole_parts(size_t count) { return (count + PART - 1) / PART * PART; }
+    size_t begin() const { return (std::max(first, size_t{Rings::REACH}) - Rings::REACH) / PART * PART; }
+    size_t end(size_t places) const { return whole_parts(std::min(last + Rings::REACH, places)); }
 };
 
 // The samples of a border and the distances of one source from them.
@@ -104,7 +112,7 @@ struct Kernels {
     // distances[r] is read and written. If it is at most range.reach, it is replaced by the least way over
     // row r, which has a code for each place, and a near place, or straightened over any segment that is
     // near, if there is one. Where a border is jagged, the straight way does not always pass near the place
-    // with the least sum. Of a row, the codes from range.begin up to that at range.end are read.
+    // with the least sum. Of a row, the codes from range.begin() up to that at range.end() are read.
     void (*cross_near)(const BorderFromSource& border, const NearRange& range, Rows rows, float* distances);
 
     // ways[c]: the least way over a near place, or straightened over any segment that is near, to column
