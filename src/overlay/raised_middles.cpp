@@ -1,8 +1,6 @@
 #include "src/overlay/raised_middles.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 
 #include "src/base/four_at_a_time.h"
 #include "src/overlay/kernels/lanes.h"
@@ -14,11 +12,6 @@ namespace {
 constexpr size_t LANES = 8; // so many codes are compared at once. All of them are below 2^15.
 
 using Steps = VectorOf<int16_t, LANES * sizeof(int16_t)>::Type;
-
-bool any(const Steps& mask) {
-    const auto halves = std::bit_cast<std::array<uint64_t, 2>>(mask);
-    return (halves[0] | halves[1]) != 0;
-}
 
 // The largest whole number of steps that is not more, if that is a code.
 uint16_t whole_steps(float steps) {
@@ -90,7 +83,7 @@ bool MiddleRaiser::differ(size_t i, size_t j, uint16_t allowed) const {
         largest = largest > difference ? largest : difference;
         largest = largest > opposite ? largest : opposite;
     }
-    return any(largest > static_cast<int16_t>(allowed));
+    return any<Steps>(largest > static_cast<int16_t>(allowed));
 }
 
 void MiddleRaiser::raise_row(size_t i, const uint16_t* by, uint16_t allowed) {

@@ -44,6 +44,15 @@ template <class V>
     least = others < least ? others : least;
 }
 
+// Whether any lane of a mask is set.
+template <class V>
+[[gnu::always_inline]] inline bool any(const V& mask) {
+    int64_t bits[sizeof mask / sizeof(int64_t)], all = 0;
+    std::memcpy(bits, &mask, sizeof mask);
+    for (int64_t part : bits) all |= part;
+    return all != 0;
+}
+
 // least[i]: the least lane of four[i].
 template <class Four>
 [[gnu::always_inline]] inline void least_lanes(const Four four[4], Four& least) {

@@ -110,14 +110,6 @@ inline float way_over_places(const BorderDistances& border, size_t stride, const
     return least;
 }
 
-template <class V>
-[[gnu::always_inline]] inline bool any(const V& mask) {
-    int64_t bits[sizeof mask / sizeof(int64_t)], all = 0;
-    std::memcpy(bits, &mask, sizeof mask);
-    for (int64_t part : bits) all |= part;
-    return all != 0;
-}
-
 // least[i]: the least lane of eight[i].
 template <class Eight>
 [[gnu::always_inline]] inline void least_lanes_of_eight(const Eight eight[8], Eight& least) {
