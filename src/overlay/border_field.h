@@ -15,17 +15,14 @@ class BorderField {
 public:
     BorderField(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
-    // Begins a border with `count` places from `first` on, counted over all rings. The caller then writes the
-    // distances of these places to the result. `quantum` is that of the rows that will be added.
-    std::span<float> begin(const Rings& rings, size_t first, size_t count, float quantum) {
-        return begin(rings, first, count, quantum, segments_from(rings, first));
-    }
-    std::span<float> begin(const Rings& rings, size_t first, size_t count, float quantum,
-                           const RingSegments& segments) {
-        border_ = {count,        code_.data(),   distance_.data(), segments.length, segments.half_inverse,
+    // Begins a border with so many places, and what is known of each. The caller then writes the distances of
+    // these places to the result. `quantum` is that of the rows that will be added.
+    std::span<float> begin(size_t places, const RingSegments& segments, const int32_t* is_own,
+                           float quantum) {
+        border_ = {places,       code_.data(),   distance_.data(), segments.length, segments.half_inverse,
                    foot_.data(), height_.data(), quantum};
-        is_own_ = rings.is_own.data() + first;
-        return std::span(distance_).first(count);
+        is_own_ = is_own;
+        return std::span(distance_).first(places);
     }
 
     // Prepares the distances that were written. Returns whether the source reaches any of the places.

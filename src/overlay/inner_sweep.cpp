@@ -73,7 +73,8 @@ std::span<float> InnerSweep::result() {
 // Prepares the border for one of the sources. Returns whether that source reaches it.
 bool InnerSweep::begin_from(size_t source) {
     const uint32_t places = rings_.size(patch_);
-    const auto border = field_.begin(rings_, rings_.begin[patch_], places, border_.quantum, segments_);
+    const auto border =
+        field_.begin(places, segments_, rings_.is_own.data() + rings_.begin[patch_], border_.quantum);
     for (size_t k = 0; k < places; ++k) border[k] = distance_[k * sources_ + source];
     return field_.finish();
 }

@@ -13,9 +13,9 @@ OuterCrossing::OuterCrossing(const OverlayIndex& index, std::pmr::memory_resourc
 
 bool OuterCrossing::begin(uint32_t child, DistanceField distance, const RingSegments& segments) {
     const uint32_t parent = numbering_.parent[child];
-    const uint32_t first = rings_.begin[child], places = rings_.size(child);
-    const auto border = crossing_.begin(child, first, places, segments);
-    for (uint32_t k = 0; k < places; ++k) border[k] = distance[rings_.vertex[first + k]];
+    const uint32_t first = rings_.begin[child];
+    const auto border = crossing_.begin(child, segments);
+    for (uint32_t k = 0; k < border.size(); ++k) border[k] = distance[rings_.vertex[first + k]];
     numbers_.clear();
     places_.clear();
     owned_.clear();

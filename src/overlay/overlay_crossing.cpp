@@ -12,32 +12,46 @@ constexpr size_t MANY_NEAR = 5;
 }
 
 OverlayCrossing::OverlayCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : index_(index), field_(index, memory), rows_(memory),
+    : index_(index), field_(index, memory), of_part_(index.rings, memory), rows_(memory),
       near_row_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK,
                 TableCode::UNREACHED, memory) {
     rows_.reserve(index.rings.largest_size());
 }
 
-std::span<float> OverlayCrossing::begin(uint32_t patch, size_t first, size_t count,
-                                        const RingSegments& segments) {
+std::span<float> OverlayCrossing::begin(uint32_t patch, const BorderPart& part) {
+    of_part_.take(part);
+    return begin(patch, part, of_part_.segments(), of_part_.is_own());
+}
+
+std::span<float> OverlayCrossing::begin(uint32_t patch, const RingSegments& segments) {
+    const BorderRange whole = whole_border(index_.rings, patch);
+    return begin(patch, BorderPart(whole), segments, index_.rings.is_own.data() + whole.first);
+}
+
+std::span<float> OverlayCrossing::begin(uint32_t patch, const BorderPart& part, const RingSegments& segments,
+                                        const int32_t* is_own) {
     patch_ = patch;
     parent_ = index_.numbering.parent[patch];
-    first_ = first;
-    rows_.resize(count);
-    return field_.begin(index_.rings, first, count, index_.quantum[parent_], segments);
+    part_ = part;
+    rows_.resize(part.size());
+    return field_.begin(part.size(), segments, is_own, index_.quantum[parent_]);
 }
 
 void OverlayCrossing::cross_to_ring(Columns places, float* distances, uint16_t* winners) {
     if (places.empty()) return;
-    for (size_t k = 0; k < rows_.size(); ++k)
-        rows_[k] = index_.row_to_ring(parent_, index_.position_in_parent(patch_, first_ + k));
+    const uint16_t** row = rows_.data();
+    part_.for_each_place([&](uint32_t place) {
+        *row++ = index_.row_to_ring(parent_, index_.position_in_parent(patch_, place));
+    });
     cross(places, distances, winners);
 }
 
 void OverlayCrossing::cross_to_owned(Columns owned, float* distances, uint16_t* winners) {
     if (owned.empty()) return;
-    for (size_t k = 0; k < rows_.size(); ++k)
-        rows_[k] = index_.row_to_owned(parent_, index_.position_in_parent(patch_, first_ + k));
+    const uint16_t** row = rows_.data();
+    part_.for_each_place([&](uint32_t place) {
+        *row++ = index_.row_to_owned(parent_, index_.position_in_parent(patch_, place));
+    });
     cross(owned, distances, winners);
 }
 

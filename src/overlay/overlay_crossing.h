@@ -4,6 +4,7 @@
 #include <span>
 
 #include "src/overlay/border_field.h"
+#include "src/overlay/border_part.h"
 #include "src/overlay/ring_segments.h"
 #include "src/overlay/tables.h"
 
@@ -15,20 +16,23 @@ class OverlayCrossing {
 public:
     OverlayCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
-    // Begins with `count` places of the patch's ring from `first` on, counted over all rings. The caller then
-    // writes the distances of these places to the result. The patch must not be the whole mesh.
-    std::span<float> begin(uint32_t patch, size_t first, size_t count, const RingSegments& segments);
+    // Begins with a part of the patch's border, or with all of it and segments that stay valid. The caller
+    // then writes the distances of these places to the result. The patch must not be the whole mesh.
+    std::span<float> begin(uint32_t patch, const BorderPart& part);
+    std::span<float> begin(uint32_t patch, const RingSegments& segments);
 
     // Prepares the distances that were written. Returns whether the source reaches any of the places.
     bool finish() { return field_.finish(); }
 
     // Once finish() has returned true: hops to places of the parent's ring, and to vertices that the parent
     // owns, both counted from 0. distances[i] is infinite where there is no way. winners[i], if not NULL, is
-    // the place that the way leads over, counted from the first one, or BorderFromSource::NO_PLACE.
+    // the index of the place that the way leads over, or BorderFromSource::NO_PLACE.
     void cross_to_ring(Columns places, float* distances, uint16_t* winners = nullptr);
     void cross_to_owned(Columns owned, float* distances, uint16_t* winners = nullptr);
 
 private:
+    std::span<float> begin(uint32_t patch, const BorderPart& part, const RingSegments& segments,
+                           const int32_t* is_own);
     void cross(Columns columns, float* distances, uint16_t* winners);
     void cross_near(Columns columns, float* distances);
     void cross_near_block(Columns columns, size_t first, float* distances) const;
@@ -37,7 +41,8 @@ private:
     const OverlayIndex& index_;
     BorderField field_;
     uint32_t patch_ = 0, parent_ = 0;
-    size_t first_ = 0;            // place, counted over all rings
+    BorderPart part_;
+    PartOfRing of_part_;
     Array<const uint16_t*> rows_; // per place: to the ring, or to the owned vertices
     Array<uint16_t> near_row_;    // scratch: from one column to the places
 };

@@ -265,6 +265,20 @@ void RowsAcross::fill(uint32_t sibling, uint16_t from, uint16_t* row) const {
         *row++ = (column.is_owned ? to_owned : to_ring)[column.number];
 }
 
+NeighbouringSamples neighbouring_samples(const OverlayIndex& index, uint32_t patch, uint32_t sample) {
+    const auto places = index.pairs.samples.of(patch);
+    const uint32_t ring = index.rings.begin[patch], place = ring + places[sample];
+    const auto chain =
+        *std::ranges::lower_bound(index.rings.chains_of(patch), place, {}, &Rings::Chain::last);
+    NeighbouringSamples beside{NONE, NONE};
+    if (sample > 0 && ring + places[sample - 1] >= chain.first) beside.previous = sample - 1;
+    if (sample + 1 < places.size() && ring + places[sample + 1] <= chain.last) beside.next = sample + 1;
+    if (!chain.is_closed) return beside;
+    if (beside.next == NONE) beside.next = first_sample_from(index, patch, chain.first);
+    if (beside.previous == NONE) beside.previous = first_sample_from(index, patch, chain.last + 1) - 1;
+    return beside;
+}
+
 void make_samples(const OverlayIndex& index, Samples& samples) { SampleWriter(index, samples).write(); }
 
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory_resource>
 
@@ -33,6 +34,32 @@ private:
     uint32_t patch_ = 0;
     Array<Target> targets_;
 };
+
+// The first sample of a border, counted from the first of all, that comes at a place or behind it; the number
+// of samples if there is none. Places are counted over all rings.
+inline uint32_t first_sample_from(const OverlayIndex& index, uint32_t patch, uint32_t place) {
+    const auto places = index.pairs.samples.of(patch);
+    const auto found = std::ranges::lower_bound(places, place - index.rings.begin[patch]);
+    return static_cast<uint32_t>(found - places.begin());
+}
+
+// Calls use(chain, first, last) for each chain of a border, with its first and its last sample, counted from
+// the first sample of the border. Each chain has a sample.
+template <class Use>
+void for_each_chain_of_samples(const OverlayIndex& index, uint32_t patch, const Use& use) {
+    uint32_t first = 0;
+    for (const Rings::Chain& chain : index.rings.chains_of(patch)) {
+        const uint32_t end = first_sample_from(index, patch, chain.last + 1);
+        use(chain, first, end - 1);
+        first = end;
+    }
+}
+
+// The samples on each side of one along its chain, around it if it is closed; NONE where an open one ends.
+struct NeighbouringSamples {
+    uint32_t previous, next;
+};
+NeighbouringSamples neighbouring_samples(const OverlayIndex& index, uint32_t patch, uint32_t sample);
 
 // Fills empty `samples` of an index that has its rings and overlay tables.
 void make_samples(const OverlayIndex& index, Samples& samples);

@@ -173,7 +173,7 @@ std::vector<uint32_t> crossed_positions(const OverlayIndex& index, uint32_t chil
             (column.is_owned ? owned : on_ring).push_back(column.number);
         }
     OverlayCrossing crossing(index, std::pmr::get_default_resource());
-    const auto border = crossing.begin(child, first, rings.size(child), segments_from(rings, first));
+    const auto border = crossing.begin(child, segments_from(rings, first));
     for (uint32_t k = 0; k < border.size(); ++k) border[k] = source.distance[rings.vertex[first + k]];
     REQUIRE(crossing.finish());
     std::vector<float> ways(on_ring.size() + owned.size());

@@ -3,36 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <list>
 #include <random>
 
-#include "src/overlay/sssd/border_range.h"
-#include "tests/overlay/overlay_of.h"
+#include "tests/overlay/long_borders.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
 
 namespace {
-
-// Two patches with one long open border between them, and many, closed borders among theirs.
-const TestMesh& strip() {
-    static const TestMesh mesh = pressed(grid(400, 9), 0.01);
-    return mesh;
-}
-const TestMesh& square() {
-    static const TestMesh mesh = pressed(grid(400, 11), 0.025);
-    return mesh;
-}
-
-const std::list<OverlayOf>& built() {
-    static const std::list<OverlayOf> all = [] {
-        std::list<OverlayOf> made;
-        made.emplace_back(strip(), options_of_plane(strip(), {2, 4}));
-        made.emplace_back(square(), options_of_plane(square(), {12}));
-        return made;
-    }();
-    return all;
-}
 
 std::vector<uint32_t> vertices_of_samples(const OverlayIndex& overlay, uint32_t patch) {
     std::vector<uint32_t> vertices;
@@ -193,61 +171,30 @@ TEST_CASE("samples: their tables are entries of the overlay tables, but between 
     CHECK(across > 1000);
 }
 
-TEST_CASE("border ranges: each place lies well inside of the range beside it, or the border ends there") {
-    uint32_t moved = 0, repeated = 0;
-    for (const OverlayOf& of : built()) {
-        const OverlayIndex& overlay = of.overlay();
-        for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
-            const BorderRange whole = whole_border(overlay, p);
-            for (uint32_t first = whole.first; first <= whole.last; first += 3) {
-                const BorderRange range{first, std::min(first + 10, whole.last)};
-                for (uint32_t place = range.first; place <= range.last; ++place) {
-                    const BorderRange beside = range_beside(overlay, p, range, place);
-                    REQUIRE(whole.covers(beside));
-                    const uint32_t vertex = overlay.rings.vertex[place];
-                    bool is_there = false;
-                    for (uint32_t k = beside.first; k <= beside.last; ++k)
-                        is_there = is_there || overlay.rings.vertex[k] == vertex;
-                    CHECK(is_there);
-                    moved += !range.covers(beside);
-                    repeated += overlay.rings.is_own[place] == 0;
-                    if (beside.first == range.first && beside.last == range.last)
-                        CHECK((overlay.rings.is_own[place] == 0 || range.first == whole.first ||
-                               place >= range.first + Rings::REACH));
-                }
-            }
-        }
-    }
-    CHECK(moved > 100);
-    CHECK(repeated > 100);
-}
-
-TEST_CASE("border ranges: from the sample before the first one within a limit to the one after the last") {
-    uint64_t wrong = 0, parts = 0;
-    std::mt19937 random(5);
+TEST_CASE("samples: beside each lies the next one of its chain, around a closed one") {
+    uint32_t around = 0, ends = 0;
     for (const OverlayOf& of : built()) {
         const OverlayIndex& overlay = of.overlay();
         for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
             const auto places = overlay.pairs.samples.of(p);
-            if (places.empty()) continue;
-            const BorderRange whole = whole_border(overlay, p);
-            std::vector<float> values(places.size());
-            for (float& value : values) value = static_cast<float>(random() % 100);
-            for (const float limit : {-1.f, 2.f, 30.f, 99.f}) {
-                BorderRange expected = whole; // where no value is within the limit, too
-                bool is_any = false;
-                for (size_t i = 0; i < places.size(); ++i) {
-                    if (values[i] > limit) continue;
-                    if (!is_any) expected.first = whole.first + (i > 0 ? places[i - 1] : 0u);
-                    expected.last = i + 1 < places.size() ? whole.first + places[i + 1] : whole.last;
-                    is_any = true;
+            for (const auto& chain : overlay.rings.chains_of(p)) {
+                std::vector<uint32_t> in_chain;
+                for (uint32_t s = 0; s < places.size(); ++s)
+                    if (const uint32_t k = overlay.rings.begin[p] + places[s];
+                        k >= chain.first && k <= chain.last)
+                        in_chain.push_back(s);
+                for (size_t i = 0; i < in_chain.size(); ++i) {
+                    const bool at_begin = i == 0, at_end = i + 1 == in_chain.size();
+                    const uint32_t before = at_begin ? in_chain.back() : in_chain[i - 1],
+                                   behind = at_end ? in_chain.front() : in_chain[i + 1];
+                    const auto beside = neighbouring_samples(overlay, p, in_chain[i]);
+                    CHECK(beside.previous == (at_begin && !chain.is_closed ? NONE : before));
+                    CHECK(beside.next == (at_end && !chain.is_closed ? NONE : behind));
+                    (chain.is_closed ? around : ends) += at_begin || at_end;
                 }
-                const BorderRange range = range_within(overlay, p, values, limit);
-                wrong += range.first != expected.first || range.last != expected.last;
-                parts += range.size() < whole.size();
             }
         }
     }
-    CHECK(wrong == 0);
-    CHECK(parts > 20);
+    CHECK(around > 10);
+    CHECK(ends > 0);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "src/overlay/samples.h"
+
 namespace geodesic {
 
 namespace {
@@ -36,20 +38,25 @@ float least_of(uint32_t count, const Value& value) {
     return std::ranges::min(least);
 }
 
-// Finds the shortest of those ways that are worth measuring and no longer than the ways over the two
-// neighbouring samples, in ascending order.
-std::array<Way, Candidates::MOST_BY_LENGTH> shortest_ways(const WaysOverSamples& ways, float least) {
+// Finds the shortest of those ways that are worth measuring and no longer than the ways over the samples on
+// each side, in ascending order.
+std::array<Way, Candidates::MOST_BY_LENGTH> shortest_ways(const OverlayIndex& index, uint32_t patch,
+                                                          std::span<const float> lengths, float least) {
     const float longest = least * WORTH_MEASURING;
     std::array<Way, Candidates::MOST_BY_LENGTH> shortest;
     if (!(least < INFINITE)) return shortest;
-    for (uint32_t i = 0; i < ways.count(); ++i) {
-        Way way{ways.length(i), i};
-        if (way.length > longest || way.length > ways.length_of_previous(i) ||
-            way.length > ways.length_of_next(i))
-            continue;
-        for (Way& kept : shortest)
-            if (way < kept) std::swap(way, kept);
-    }
+    for_each_chain_of_samples(index, patch, [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
+        const float before_first = chain.is_closed ? lengths[last] : INFINITE,
+                    after_last = chain.is_closed ? lengths[first] : INFINITE;
+        for (uint32_t i = first; i <= last; ++i) {
+            if (lengths[i] > longest || lengths[i] > (i > first ? lengths[i - 1] : before_first) ||
+                lengths[i] > (i < last ? lengths[i + 1] : after_last))
+                continue;
+            Way way{lengths[i], i};
+            for (Way& kept : shortest)
+                if (way < kept) std::swap(way, kept);
+        }
+    });
     return shortest;
 }
 
@@ -62,7 +69,7 @@ uint32_t sample_beside_an_end(const WaysOverSamples& ways, float spacing) {
     if (least_of(ways.count(), nearer) >= least) return NONE;
     uint32_t beside = NONE;
     for (uint32_t i = 0; i < ways.count(); ++i) {
-        if (!(ways.length(i) < INFINITE) || nearer(i) >= least) continue;
+        if (!(ways.lengths[i] < INFINITE) || nearer(i) >= least) continue;
         least = nearer(i);
         beside = i;
     }
@@ -72,13 +79,14 @@ uint32_t sample_beside_an_end(const WaysOverSamples& ways, float spacing) {
 }
 
 float WaysOverSamples::least() const {
-    return least_of(count(), [&](uint32_t i) { return length(i); });
+    return least_of(count(), [&](uint32_t i) { return lengths[i]; });
 }
 
-Candidates find_candidates(const WaysOverSamples& ways, float least, float spacing) {
+Candidates find_candidates(const OverlayIndex& index, uint32_t patch, const WaysOverSamples& ways,
+                           float least) {
     Candidates candidates;
-    const auto shortest = shortest_ways(ways, least);
-    uint32_t beside = sample_beside_an_end(ways, spacing);
+    const auto shortest = shortest_ways(index, patch, ways.lengths, least);
+    uint32_t beside = sample_beside_an_end(ways, index.pairs.samples.spacing[patch]);
     for (const Way& way : shortest) {
         if (!(way.length < INFINITE)) break;
         candidates.add(way.sample);

@@ -23,7 +23,7 @@ constexpr size_t FEW_PAIRS_OF_CHAINS = size_t{1} << 20, PLACES_OF_SHORT_CHAIN = 
 constexpr float NEAR_SPACINGS = 14;
 
 // Unless these are more pairs of places than that, which would take too long.
-constexpr size_t MOST_NEAR_PAIRS = size_t{3} << 13;
+constexpr size_t MOST_NEAR_PAIRS = size_t{1} << 16;
 
 // Distances over samples come from rounded codes: they may be too short by less than this share.
 constexpr float SAMPLES_ROUNDING = 1e-3f;
@@ -52,26 +52,23 @@ uint32_t lowest_common_patch(const Numbering& numbering, uint32_t a, uint32_t b)
     return a;
 }
 
-// The range near the way to a sample of a border that comes over a sample of the border before.
-BorderRange range_before(const OverlayIndex& index, uint32_t patch_before, const SampledAscent& sampled,
-                         size_t border, uint32_t before, uint32_t sample) {
-    const size_t count = index.pairs.samples.of(patch_before).size();
-    return range_near(index, patch_before, before,
-                      {before > 0 ? sampled.way_over(border, before - 1, sample) : INFINITE,
-                       sampled.way_over(border, before, sample),
-                       before + 1 < count ? sampled.way_over(border, before + 1, sample) : INFINITE});
+// The part near the way to a sample of a border that comes over a sample of the border before.
+BorderPart part_before(const OverlayIndex& index, uint32_t patch_before, const SampledAscent& sampled,
+                       size_t border, uint32_t before, uint32_t sample) {
+    const auto length = [&](uint32_t over) { return sampled.way_over(border, over, sample); };
+    return part_near(index, patch_before, ways_near(index, patch_before, before, length));
 }
 
-// Of the places from both ends, the one with the least sum.
-uint32_t place_of_least_sum(const float* from, const float* to, uint32_t count) {
+// The index of the place that has the least sum of the distances from both ends.
+uint32_t index_of_least_sum(const float* from, const float* to, uint32_t count) {
     float least = INFINITE;
-    uint32_t place = 0;
+    uint32_t index = 0;
     for (uint32_t i = 0; i < count; ++i) {
         if (from[i] + to[i] >= least) continue;
         least = from[i] + to[i];
-        place = i;
+        index = i;
     }
-    return place;
+    return index;
 }
 
 }
@@ -102,70 +99,72 @@ bool OverlaySssd::End::crosses_segments(const OverlayIndex& index) const {
 
 // Returns whether each border has any vertex: around a separate part there may be none.
 bool OverlaySssd::End::take_whole_borders(const OverlayIndex& index) {
-    ranges.clear();
+    parts.clear();
     for (const uint32_t patch : ascent.patches) {
         if (index.rings.size(patch) == 0) return false;
-        ranges.push_back(whole_border(index, patch));
+        parts.emplace_back(whole_border(index.rings, patch));
     }
     return true;
 }
 
-// Takes the ranges near the way over samples to a sample of the last border, where `last_range` is, and asks
+// Takes the parts near the way over samples to a sample of the last border, where `last_part` is, and asks
 // for what the rings hold of them.
-void OverlaySssd::End::take_ranges(const OverlayIndex& index, uint32_t sample, BorderRange last_range) {
-    ranges.resize(ascent.patches.size());
-    ranges.back() = last_range;
-    for (size_t b = ranges.size(); b-- > 1;) {
+void OverlaySssd::End::take_parts(const OverlayIndex& index, uint32_t sample, const BorderPart& last_part) {
+    parts.resize(ascent.patches.size());
+    parts.back() = last_part;
+    for (size_t b = parts.size(); b-- > 1;) {
         const uint32_t before = sampled.sample_before(b, sample);
-        ranges[b - 1] = range_before(index, ascent.patches[b - 1], sampled, b, before, sample);
+        parts[b - 1] = part_before(index, ascent.patches[b - 1], sampled, b, before, sample);
         sample = before;
     }
     const Rings& rings = index.rings;
-    for (const BorderRange& range : ranges) {
-        prefetch(rings.position.data() + range.first, range.size());
-        prefetch(rings.segment_length.data() + range.first, range.size());
-        prefetch(rings.half_inverse.data() + range.first, range.size());
-        prefetch(rings.is_own.data() + range.first, range.size());
-        prefetch(rings.vertex.data() + range.first, range.size());
-    }
+    for (const BorderPart& part : parts)
+        for (const BorderRange& range : part.ranges()) {
+            prefetch(rings.position.data() + range.first, range.size());
+            prefetch(rings.segment_length.data() + range.first, range.size());
+            prefetch(rings.half_inverse.data() + range.first, range.size());
+            prefetch(rings.is_own.data() + range.first, range.size());
+            prefetch(rings.vertex.data() + range.first, range.size());
+        }
 }
 
-// Takes the ranges that a way no longer than this can cross.
-void OverlaySssd::End::take_ranges_within(const OverlayIndex& index, float length) {
-    ranges.clear();
+// Takes the parts that a way no longer than this can cross.
+void OverlaySssd::End::take_parts_within(const OverlayIndex& index, float length) {
+    parts.clear();
     for (size_t b = 0; b < ascent.patches.size(); ++b) {
         const uint32_t patch = ascent.patches[b];
-        ranges.push_back(
-            range_within(index, patch, sampled.distances(b), length + index.pairs.samples.spacing[patch]));
+        parts.push_back(
+            part_within(index, patch, sampled.distances(b), length + index.pairs.samples.spacing[patch]));
     }
 }
 
-size_t OverlaySssd::End::pairs_between_ranges() const {
+size_t OverlaySssd::End::pairs_between_parts() const {
     size_t pairs = 0;
-    for (size_t b = 1; b < ranges.size(); ++b) pairs += size_t{ranges[b - 1].size()} * ranges[b].size();
+    for (size_t b = 1; b < parts.size(); ++b) pairs += size_t{parts[b - 1].size()} * parts[b].size();
     return pairs;
 }
 
-// Asks for the codes from each range to the next one.
+// Asks for the codes from each part to the next one.
 void OverlaySssd::End::prefetch_rows(const OverlayIndex& index) const {
-    for (size_t b = 0; b + 1 < ranges.size(); ++b) {
+    for (size_t b = 0; b + 1 < parts.size(); ++b) {
         const uint32_t patch = ascent.patches[b], parent = ascent.patches[b + 1];
-        const uint32_t place = ranges[b + 1].first - index.rings.begin[parent];
-        for (uint32_t k = ranges[b].first; k <= ranges[b].last; ++k)
-            prefetch(index.row_to_ring(parent, index.position_in_parent(patch, k)) + place,
-                     ranges[b + 1].size());
+        parts[b].for_each_place([&](uint32_t place) {
+            const uint16_t* const row = index.row_to_ring(parent, index.position_in_parent(patch, place));
+            for (const BorderRange& range : parts[b + 1].ranges())
+                prefetch(row + (range.first - index.rings.begin[parent]), range.size());
+        });
     }
 }
 
-// Moves the ranges to where a shorter way may be than the one that was measured, which crosses the last
-// border at this place. Returns whether any has moved.
-bool OverlaySssd::End::move_ranges(const OverlayIndex& index, uint32_t place) {
+// Moves the parts to where a shorter way may be than the one that was measured, which crosses the last border
+// at this place. Returns whether any has moved.
+bool OverlaySssd::End::move_parts(const OverlayIndex& index, uint32_t place) {
     bool moved = false;
-    for (size_t b = ranges.size(); b-- > 0;) {
-        const BorderRange measured_range = measured.ranges()[b];
-        ranges[b] = range_beside(index, ascent.patches[b], measured_range, place);
-        moved = moved || !measured_range.covers(ranges[b]);
-        if (b > 0) place = measured.place_before(b, place);
+    for (size_t b = parts.size(); b-- > 0;) {
+        const BorderPart& measured_part = measured.parts()[b];
+        parts[b] = part_beside(index, ascent.patches[b], measured_part, place);
+        moved = moved || !measured_part.covers(parts[b]);
+        if (b > 0) place = index.rings.begin[ascent.patches[b - 1]] + measured.winner_before(b, place);
     }
     return moved;
 }
@@ -173,8 +172,9 @@ bool OverlaySssd::End::move_ranges(const OverlayIndex& index, uint32_t place) {
 // ---- Both ends
 
 OverlaySssd::OverlaySssd(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : index_(index), numbering_(index.numbering), crossing_(index, memory), from_(index, memory),
-      to_(index, memory), from_samples_(memory), lengths_(memory),
+    : index_(index), numbering_(index.numbering), crossing_(index, memory),
+      of_meeting_border_(index.rings, memory), from_(index, memory), to_(index, memory),
+      from_samples_(memory), lengths_(memory),
       from_distances_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, memory),
       from_winners_(from_distances_.size(), memory) {}
 
@@ -221,45 +221,43 @@ float OverlaySssd::distance_to_border(uint32_t border_vertex, uint32_t vertex) c
     return inner_row_of(index_, vertex)(own_place(index_.rings, numbering_, patch, position));
 }
 
-// Measures the path over whole borders if that takes little time, and over the ranges near each candidate
+// Measures the path over whole borders if that takes little time, and over the parts near each candidate
 // otherwise. Where no border has segments, all vertices are samples, and the shortest way over samples is the
 // path. That way is also the answer where it is shorter than every measured path by more than rounding: no
-// measured range may have a segment or a row that its best path needs.
+// measured part may have a segment or a row that its best path needs.
 float OverlaySssd::meet() {
     if (has_few_pairs()) {
         uint32_t place;
         return from_.take_whole_borders(index_) && to_.take_whole_borders(index_) ? measure(place) : INFINITE;
     }
     const uint32_t patch = meeting_patch();
-    const auto chains = index_.rings.chains_of(patch);
     to_.sampled.climb(to_.ascent);
     const std::span<const float> from = sample_from(), to = to_.sampled.last_distances();
     measure_ways(from, to);
-    const WaysOverSamples ways{from, to, lengths_, chains.size() == 1 && chains[0].is_closed};
+    const WaysOverSamples ways{from, to, lengths_};
     const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
     if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_)) return least;
     uint32_t place;
-    if (least < NEAR_SPACINGS * spacing && take_ranges_within(least)) return measure(place);
+    if (least < NEAR_SPACINGS * spacing && take_parts_within(least)) return measure(place);
     float shortest = INFINITE;
-    for (const uint32_t sample : find_candidates(ways, least, spacing)) {
-        take_ranges(sample, range_near(index_, patch, sample,
-                                       {ways.length_of_previous(sample), ways.length(sample),
-                                        ways.length_of_next(sample)}));
+    for (const uint32_t sample : find_candidates(index_, patch, ways, least)) {
+        const auto length = [&](uint32_t over) { return lengths_[over]; };
+        take_parts(sample, part_near(index_, patch, ways_near(index_, patch, sample, length)));
         shortest = std::min(shortest, follow(shortest));
     }
     return shortest <= least * (1 + SAMPLES_ROUNDING) ? shortest : least;
 }
 
-// Takes the ranges of both ends that a way no longer than this can cross. Returns whether they are small
+// Takes the parts of both ends that a way no longer than this can cross. Returns whether they are small
 // enough to be measured.
-bool OverlaySssd::take_ranges_within(float length) {
-    to_.take_ranges_within(index_, length);
+bool OverlaySssd::take_parts_within(float length) {
+    to_.take_parts_within(index_, length);
     const uint32_t patch = meeting_patch();
-    to_.ranges.back() = range_within(index_, patch, lengths_, length + index_.pairs.samples.spacing[patch]);
-    size_t pairs = to_.pairs_between_ranges();
+    to_.parts.back() = part_within(index_, patch, lengths_, length + index_.pairs.samples.spacing[patch]);
+    size_t pairs = to_.pairs_between_parts();
     if (!from_.is_at_top()) {
-        from_.take_ranges_within(index_, length);
-        pairs += from_.pairs_between_ranges() + size_t{from_.ranges.back().size()} * to_.ranges.back().size();
+        from_.take_parts_within(index_, length);
+        pairs += from_.pairs_between_parts() + size_t{from_.parts.back().size()} * to_.parts.back().size();
     }
     if (pairs > MOST_NEAR_PAIRS) return false;
     prefetch_rows();
@@ -309,15 +307,15 @@ void OverlaySssd::measure_ways(std::span<const float> from, std::span<const floa
     }
 }
 
-// Takes the ranges of both ends near the ways over samples to a sample of the meeting border.
-void OverlaySssd::take_ranges(uint32_t sample, BorderRange of_meeting_border) {
-    to_.take_ranges(index_, sample, of_meeting_border);
+// Takes the parts of both ends near the ways over samples to a sample of the meeting border.
+void OverlaySssd::take_parts(uint32_t sample, const BorderPart& of_meeting_border) {
+    to_.take_parts(index_, sample, of_meeting_border);
     if (!from_.is_at_top()) {
         const size_t meeting = from_.ascent.patches.size();
         const uint32_t before = from_.sampled.sample_before(meeting, sample);
-        from_.take_ranges(
+        from_.take_parts(
             index_, before,
-            range_before(index_, from_.ascent.last_patch(), from_.sampled, meeting, before, sample));
+            part_before(index_, from_.ascent.last_patch(), from_.sampled, meeting, before, sample));
     }
     prefetch_rows();
 }
@@ -327,7 +325,7 @@ void OverlaySssd::prefetch_rows() const {
     if (!from_.is_at_top()) from_.prefetch_rows(index_);
 }
 
-// Measures the path over the ranges that both ends have taken, and moves the ranges along with it while it
+// Measures the path over the parts that both ends have taken, and moves the parts along with it while it
 // gets shorter, unless it is longer than another way from the beginning.
 float OverlaySssd::follow(float other_way) {
     float shortest = INFINITE;
@@ -336,43 +334,45 @@ float OverlaySssd::follow(float other_way) {
         const float length = measure(place);
         if (!(length < shortest)) break;
         shortest = length;
-        if (shortest >= other_way || !move_ranges(place)) break;
+        if (shortest >= other_way || !move_parts(place)) break;
     }
     return shortest;
 }
 
-// Moves the ranges of both ends to where a shorter way may be than the one that was measured, which crosses
+// Moves the parts of both ends to where a shorter way may be than the one that was measured, which crosses
 // the meeting border at this place. Returns whether any has moved.
-bool OverlaySssd::move_ranges(uint32_t place) {
-    bool moved = to_.move_ranges(index_, place);
+bool OverlaySssd::move_parts(uint32_t place) {
+    bool moved = to_.move_parts(index_, place);
     if (!from_.is_at_top()) {
-        const uint16_t winner = from_winners_[place - to_.measured.last_range().first];
-        moved = from_.move_ranges(index_, from_crossed_ + winner) || moved;
+        const uint16_t winner = from_winners_[to_.measured.last_part().index(place)];
+        moved = from_.move_parts(index_, index_.rings.begin[from_.ascent.last_patch()] + winner) || moved;
     }
     if (!moved) return false;
     prefetch_rows();
     return true;
 }
 
-// Measures the path over the ranges that both ends have taken, and finds the place where it crosses the
-// meeting border, if there is a path. The kernel reads past the range up to whole blocks; infinity there
+// Measures the path over the parts that both ends have taken, and finds the place where it crosses the
+// meeting border, if there is a path. The kernel reads past the part up to whole blocks; infinity there
 // gives no way.
 float OverlaySssd::measure(uint32_t& place) {
-    to_.measured.measure(to_.ascent, to_.ranges, crossing_);
-    const BorderRange range = to_.measured.last_range();
+    to_.measured.measure(to_.ascent, to_.parts, crossing_);
+    const BorderPart& part = to_.measured.last_part();
     if (from_.is_at_top()) {
-        for (uint32_t i = 0; i < range.size(); ++i) from_distances_[i] = distance_from_top(range.first + i);
+        float* distance = from_distances_.data();
+        part.for_each_place([&](uint32_t of_part) { *distance++ = distance_from_top(of_part); });
     } else {
-        from_.measured.measure(from_.ascent, from_.ranges, crossing_);
-        from_crossed_ = from_.measured.cross_to(from_.ascent, meeting_patch(), range, crossing_,
-                                                from_distances_, from_winners_);
+        from_.measured.measure(from_.ascent, from_.parts, crossing_);
+        from_.measured.cross_to(from_.ascent, meeting_patch(), part, crossing_, from_distances_,
+                                from_winners_);
     }
-    std::fill_n(from_distances_.begin() + range.size(), SourceCode::BLOCK, INFINITE);
+    std::fill_n(from_distances_.begin() + part.size(), SourceCode::BLOCK, INFINITE);
     const float* to = to_.measured.last_distances();
-    place = range.first + place_of_least_sum(from_distances_.data(), to, range.size());
-    const RingSegments segments = segments_from(index_.rings, range.first);
+    place = part.place(index_of_least_sum(from_distances_.data(), to, part.size()));
+    of_meeting_border_.take(part);
+    const RingSegments segments = of_meeting_border_.segments();
     return runnable_kernels().back().meet(
-        {range.size(), from_distances_.data(), to, segments.length, segments.half_inverse});
+        {part.size(), from_distances_.data(), to, segments.length, segments.half_inverse});
 }
 
 }

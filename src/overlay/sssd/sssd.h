@@ -4,7 +4,7 @@
 #include <span>
 
 #include "src/overlay/sssd/ascent.h"
-#include "src/overlay/sssd/border_range.h"
+#include "src/overlay/sssd/border_parts.h"
 #include "src/overlay/sssd/candidates.h"
 #include "src/overlay/sssd/measured_path.h"
 #include "src/overlay/sssd/sampled_ascent.h"
@@ -15,7 +15,7 @@ namespace geodesic {
 // Single source, single destination on overlay tables. Both ends climb to the children of the lowest patch
 // that has them both and meet on the border of one of these children. Short borders, and those of many short
 // chains, are crossed as a whole. Of longer ones, samples give a few candidates; each is then measured over
-// all vertices of the border ranges around it, which move along with the way while it gets shorter. Vertices
+// all vertices of parts of borders around it, which move along with the way while it gets shorter. Vertices
 // are given by their numbers. An object is the scratch of one thread.
 class OverlaySssd {
 public:
@@ -31,9 +31,9 @@ public:
 private:
     struct End {
         End(const OverlayIndex& index, std::pmr::memory_resource* memory)
-            : ascent(memory), sampled(index, memory), ranges(memory), measured(index, memory) {
+            : ascent(memory), sampled(index, memory), parts(memory), measured(index, memory) {
             ascent.patches.reserve(index.numbering.level_count());
-            ranges.reserve(index.numbering.level_count());
+            parts.reserve(index.numbering.level_count());
         }
         void climb(const OverlayIndex& index, const PathEnd& of, uint32_t top);
         // Whether the end lies inside of the patch where the ends meet, and on no border inside of that.
@@ -41,15 +41,15 @@ private:
         bool has_few_pairs(const OverlayIndex& index) const;
         bool crosses_segments(const OverlayIndex& index) const;
         bool take_whole_borders(const OverlayIndex& index);
-        void take_ranges(const OverlayIndex& index, uint32_t sample, BorderRange last_range);
-        void take_ranges_within(const OverlayIndex& index, float length);
-        size_t pairs_between_ranges() const;
+        void take_parts(const OverlayIndex& index, uint32_t sample, const BorderPart& last_part);
+        void take_parts_within(const OverlayIndex& index, float length);
+        size_t pairs_between_parts() const;
         void prefetch_rows(const OverlayIndex& index) const;
-        bool move_ranges(const OverlayIndex& index, uint32_t place_of_last);
+        bool move_parts(const OverlayIndex& index, uint32_t place_of_last);
 
         Ascent ascent;
         SampledAscent sampled;
-        Array<BorderRange> ranges; // one for each patch of the ascent
+        Array<BorderPart> parts; // one for each patch of the ascent
         MeasuredEnd measured;
     };
 
@@ -63,22 +63,22 @@ private:
     float distance_from_top(uint32_t place) const;
     std::span<const float> sample_from();
     void measure_ways(std::span<const float> from, std::span<const float> to);
-    void take_ranges(uint32_t sample, BorderRange of_meeting_border);
-    bool take_ranges_within(float length);
+    void take_parts(uint32_t sample, const BorderPart& of_meeting_border);
+    bool take_parts_within(float length);
     void prefetch_rows() const;
     float follow(float other_way);
-    bool move_ranges(uint32_t place);
+    bool move_parts(uint32_t place);
     float measure(uint32_t& place);
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
     BorderCrossing crossing_;
+    PartOfRing of_meeting_border_; // the part that was measured last
     End from_, to_;
     Array<float> from_samples_; // the distances of `from_` to the samples of the meeting border
     Array<float> lengths_;      // of the ways over these samples
     Array<float> from_distances_;
     Array<uint16_t> from_winners_; // see MeasuredEnd::cross_to()
-    uint32_t from_crossed_ = 0;    // the place that winner 0 stands for
 };
 
 }

@@ -1,0 +1,81 @@
+#include "src/overlay/sssd/border_parts.h"
+
+#include <algorithm>
+
+namespace geodesic {
+
+namespace {
+
+// A part has so many places on each side of where a way is expected to cross.
+constexpr uint32_t EACH_SIDE = 5;
+
+// A chain with the places that repeat its vertices.
+BorderRange with_repeated(const Rings::Chain& chain) {
+    return {chain.first - Rings::REACH, chain.last + Rings::REACH};
+}
+
+// So many places on each side of one: around a closed chain, and otherwise as far as the ring goes.
+BorderPart part_about(const OverlayIndex& index, uint32_t patch, uint32_t place, uint32_t each_side) {
+    const uint32_t own = own_place(index.rings, index.numbering, patch, index.rings.position[place]);
+    const BorderRange whole = whole_border(index.rings, patch);
+    const BorderRange about{own - std::min(each_side, own - whole.first),
+                            own + std::min(each_side, whole.last - own)};
+    const auto chain = *std::ranges::lower_bound(index.rings.chains_of(patch), own, {}, &Rings::Chain::last);
+    const uint32_t before = own - chain.first, behind = chain.last - own;
+    if (!chain.is_closed || (before >= each_side && behind >= each_side)) return BorderPart(about);
+    const BorderRange all = with_repeated(chain);
+    if (before + behind <= 2 * each_side) return BorderPart(all);
+    BorderPart part({all.first, before < each_side ? own + each_side : chain.first + each_side - behind - 1});
+    part.add({before < each_side ? chain.last + 1 + before - each_side : own - each_side, all.last});
+    return part;
+}
+
+}
+
+BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<const float> values,
+                       float limit) {
+    const auto places = index.pairs.samples.of(patch);
+    const uint32_t ring = index.rings.begin[patch];
+    BorderPart part;
+    const auto add = [&](uint32_t first, uint32_t last) { part.add({first, last}); };
+    const auto is_within = [&](uint32_t sample) { return values[sample] <= limit; };
+    for_each_chain_of_samples(index, patch, [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
+        const BorderRange all = with_repeated(chain);
+        if (chain.is_closed && is_within(last)) add(all.first, ring + places[first]);
+        for (uint32_t i = first; i <= last; ++i) {
+            if (!is_within(i)) continue;
+            const uint32_t begin = i > first ? ring + places[i - 1] : all.first;
+            while (i < last && is_within(i + 1)) ++i;
+            add(begin, i < last ? ring + places[i + 1] : all.last);
+        }
+        if (chain.is_closed && is_within(first)) add(ring + places[last], all.last);
+    });
+    return part.size() > 0 ? part : BorderPart(whole_border(index.rings, patch));
+}
+
+// A parabola through the three lengths has its lowest point where the shortest way is expected.
+BorderPart part_near(const OverlayIndex& index, uint32_t patch, const WaysNearSample& ways) {
+    const auto places = index.pairs.samples.of(patch);
+    const auto [sample, beside, over_previous, over_sample, over_next] = ways;
+    const float before = over_previous - over_sample, after = over_next - over_sample;
+    auto place = static_cast<float>(places[sample]);
+    const bool is_around_an_end = beside.previous > sample || beside.next < sample; // of the ring's order
+    if (!is_around_an_end && before + after < INFINITE && before + after > 0) {
+        const float share = std::clamp((before - after) / (2 * (before + after)), -0.5f, 0.5f);
+        place += share * static_cast<float>(share > 0 ? places[beside.next] - places[sample]
+                                                      : places[sample] - places[beside.previous]);
+    }
+    return part_about(index, patch, index.rings.begin[patch] + static_cast<uint32_t>(place + 0.5f),
+                      EACH_SIDE);
+}
+
+BorderPart part_beside(const OverlayIndex& index, uint32_t patch, const BorderPart& part, uint32_t place) {
+    const auto is_well_inside = [&](const BorderRange& range) {
+        return place >= range.first + Rings::REACH && place + Rings::REACH <= range.last;
+    };
+    if (std::ranges::any_of(part.ranges(), is_well_inside)) return part;
+    if (part.covers(part_about(index, patch, place, Rings::REACH))) return part;
+    return part_about(index, patch, place, std::max(EACH_SIDE, part.size() / 2));
+}
+
+}

@@ -1,0 +1,211 @@
+// The parts of borders that a pair of vertices looks at.
+#include "src/overlay/sssd/border_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "src/overlay/sssd/sssd.h"
+#include "tests/overlay/long_borders.h"
+
+using namespace geodesic;
+using namespace geodesic::test;
+
+namespace {
+
+// The vertices of the places of a part.
+std::set<uint32_t> vertices_of(const OverlayIndex& overlay, const BorderPart& part) {
+    std::set<uint32_t> vertices;
+    part.for_each_place([&](uint32_t place) { vertices.insert(overlay.rings.vertex[place]); });
+    return vertices;
+}
+
+// The vertices of a chain from `steps` before one of them to `steps` behind it: around a closed chain, or as
+// far as an open one goes.
+std::set<uint32_t> along_chain(const Rings& rings, const Rings::Chain& chain, uint32_t place, int steps) {
+    std::set<uint32_t> vertices;
+    const auto count = static_cast<int64_t>(chain.last - chain.first + 1);
+    for (int step = -steps; step <= steps; ++step) {
+        int64_t at = int64_t{place} - chain.first + step;
+        if (chain.is_closed) at = (at % count + count) % count;
+        if (at >= 0 && at < count) vertices.insert(rings.vertex[chain.first + static_cast<size_t>(at)]);
+    }
+    return vertices;
+}
+
+// Whether a place of a chain is a sample within a limit, or comes between such a sample and the next one, or
+// the end of an open chain, on either side.
+bool is_beside_one_within(const Rings::Chain& chain, std::span<const uint16_t> places, uint32_t ring,
+                          std::span<const float> values, float limit, uint32_t place) {
+    const uint32_t count = chain.last - chain.first + 1;
+    const auto sample_at = [&](uint32_t k) {
+        return static_cast<size_t>(std::ranges::find(places, k - ring) - places.begin());
+    };
+    for (const uint32_t step : {1u, count - 1}) // on, and back
+        for (uint32_t walked = 0, at = place - chain.first; walked < count; ++walked) {
+            if (const size_t sample = sample_at(chain.first + at); sample < places.size()) {
+                if (values[sample] <= limit) return true;
+                if (walked > 0) break;
+            }
+            at = (at + step) % count;
+            const bool is_past_an_end = step == 1 ? at == 0 : at == count - 1;
+            if (is_past_an_end && !chain.is_closed) break;
+        }
+    return false;
+}
+
+// Of the places of a part that have none of these vertices, the most that follow each other.
+uint32_t longest_run_beside(const Rings& rings, const BorderPart& part, const std::set<uint32_t>& vertices) {
+    uint32_t longest = 0, run = 0;
+    part.for_each_place([&](uint32_t place) {
+        run = vertices.contains(rings.vertex[place]) ? 0 : run + 1;
+        longest = std::max(longest, run);
+    });
+    return longest;
+}
+
+}
+
+TEST_CASE("border parts: ranges are joined if few places lie between, or if there are too many") {
+    BorderPart part({10, 14});
+    part.add({19, 21}); // what kernels read of both touches
+    CHECK(part.ranges().size() == 1);
+    CHECK(part.size() == 12);
+    part.add({27, 30});
+    part.add({40, 40});
+    part.add({50, 39 + 10}); // empty
+    REQUIRE(part.ranges().size() == 3);
+    CHECK(part.size() == 17);
+    for (uint32_t i = 0; i < part.size(); ++i) CHECK(part.index(part.place(i)) == i);
+    CHECK(part.place(12) == 27);
+    CHECK(part.index(26) == NONE);
+    CHECK(part.covers(BorderPart({12, 20})));
+    CHECK(!part.covers(BorderPart({20, 30})));
+    part.add({60, 61});
+    part.add({70, 71});
+    CHECK(part.ranges().size() == BorderPart::MOST_RANGES);
+    CHECK(part.size() == 17 + 12);
+    CHECK(part.index(65) == 17 + 5);
+}
+
+TEST_CASE("border parts: kernels read the segments of a ring, with gaps between ranges") {
+    const OverlayOf& of = built().front();
+    const Rings& rings = of.overlay().rings;
+    const uint32_t first = rings.begin[1];
+    REQUIRE(rings.size(1) > 60);
+    BorderPart part({first + 3, first + 9});
+    PartOfRing of_ring(rings, std::pmr::get_default_resource());
+    of_ring.take(part);
+    CHECK(of_ring.segments().length == rings.segment_length.data() + first + 3);
+    part.add({first + 30, first + 41});
+    of_ring.take(part);
+    for (uint32_t i = 0; i < part.size(); ++i) {
+        const uint32_t place = part.place(i);
+        CHECK(of_ring.is_own()[i] == rings.is_own[place]);
+        if (place == first + 9 || place == first + 41) {
+            CHECK(std::isnan(of_ring.segments().length[i]));
+            CHECK(std::isnan(of_ring.segments().half_inverse[i]));
+        } else {
+            CHECK(of_ring.segments().length[i] == rings.segment_length[place]);
+            CHECK(of_ring.segments().half_inverse[i] == rings.half_inverse[place]);
+        }
+    }
+}
+
+TEST_CASE("border parts: each place lies well inside of the part beside it, or the border ends there") {
+    uint32_t moved = 0, repeated = 0, in_two = 0;
+    for (const OverlayOf& of : built()) {
+        const OverlayIndex& overlay = of.overlay();
+        const Rings& rings = overlay.rings;
+        for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
+            const BorderRange whole = whole_border(rings, p);
+            for (uint32_t first = whole.first; first <= whole.last; first += 3) {
+                const BorderPart part({first, std::min(first + 10, whole.last)});
+                part.for_each_place([&](uint32_t place) {
+                    const BorderPart beside = part_beside(overlay, p, part, place);
+                    REQUIRE(BorderPart(whole).covers(beside));
+                    const uint32_t own = own_place(rings, overlay.numbering, p, rings.position[place]);
+                    const auto chain = *std::ranges::find_if(rings.chains_of(p), [&](const Rings::Chain& c) {
+                        return own >= c.first && own <= c.last;
+                    });
+                    const auto needed = along_chain(rings, chain, own, Rings::REACH);
+                    CHECK(std::ranges::includes(vertices_of(overlay, beside), needed));
+                    moved += !part.covers(beside);
+                    repeated += rings.is_own[place] == 0;
+                    in_two += beside.ranges().size() == 2;
+                });
+            }
+        }
+    }
+    CHECK(moved > 100);
+    CHECK(repeated > 100);
+    CHECK(in_two > 100);
+}
+
+TEST_CASE("border parts: along each chain, from the sample before those within a limit to the one behind") {
+    uint64_t smaller = 0, in_more = 0;
+    std::mt19937 random(5);
+    for (const OverlayOf& of : built()) {
+        const OverlayIndex& overlay = of.overlay();
+        const Rings& rings = overlay.rings;
+        for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
+            const auto places = overlay.pairs.samples.of(p);
+            if (places.empty()) continue;
+            const BorderPart whole(whole_border(rings, p));
+            std::vector<float> values(places.size());
+            for (float& value : values) value = static_cast<float>(random() % 100);
+            for (const float limit : {-1.f, 1.f, 2.f, 30.f, 99.f}) {
+                const BorderPart part = part_within(overlay, p, values, limit);
+                REQUIRE(whole.covers(part));
+                std::set<uint32_t> needed;
+                for (const auto& chain : rings.chains_of(p))
+                    for (uint32_t k = chain.first; k <= chain.last; ++k)
+                        if (is_beside_one_within(chain, places, rings.begin[p], values, limit, k))
+                            needed.insert(rings.vertex[k]);
+                const auto vertices = vertices_of(overlay, part);
+                CHECK(std::ranges::includes(vertices, needed));
+                if (needed.empty()) CHECK(part.covers(whole));
+                smaller += vertices.size() < overlay.numbering.border_size(p);
+                in_more += part.ranges().size() > 1;
+                // Few places lie between ranges that are joined, unless there are too many ranges.
+                if (!needed.empty() && part.ranges().size() < BorderPart::MOST_RANGES)
+                    CHECK(longest_run_beside(rings, part, needed) <= 2 * Rings::REACH + 1);
+            }
+        }
+    }
+    CHECK(smaller > 20);
+    CHECK(in_more > 20);
+}
+
+// The ring of a border begins at some vertex of a closed chain. Ways that cross the border near this vertex
+// are found as those anywhere else.
+TEST_CASE("border parts: pairs find ways over the place where a ring is cut open") {
+    uint32_t count = 0;
+    double largest = 0;
+    const OverlayOf& of = built().back();
+    const TestMesh& mesh = wide();
+    const OverlayIndex& overlay = of.overlay();
+    OverlaySssd pairs(overlay, std::pmr::get_default_resource());
+    const auto ids = ids_by_number(of.index);
+    for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p)
+        for (const auto& chain : overlay.rings.chains_of(p)) {
+            if (!chain.is_closed) continue;
+            const uint32_t id = ids[overlay.rings.vertex[chain.first]], x = id % WIDE_X, y = id / WIDE_X;
+            for (uint32_t source_y = y - std::min(y, 3u); source_y <= y; ++source_y)
+                for (uint32_t target_y = y; target_y <= std::min(y + 3, WIDE_Y - 1); ++target_y)
+                    for (uint32_t dx = 0; dx <= 12; dx += 2) {
+                        const uint32_t source = source_y * WIDE_X + x - std::min(x, dx),
+                                       target = target_y * WIDE_X + std::min(x + dx, WIDE_X - 1);
+                        if (source == target) continue;
+                        const auto [low, high] =
+                            std::minmax({of.index.number_of_id[source], of.index.number_of_id[target]});
+                        const double straight = mesh.straight(source, target);
+                        const double answer = double{pairs.distance(low, high)};
+                        largest = std::max(largest, std::abs(answer - straight) / straight);
+                        ++count;
+                    }
+        }
+    CHECK(count > 500);
+    CHECK(largest < 0.1);
+}
