@@ -322,15 +322,12 @@ TEST_CASE("crossing: over samples it takes the least sum, with every instruction
         for (const size_t columns : {1u, 15u, 32u, 33u, 70u, 100u}) {
             CAPTURE(samples);
             CAPTURE(columns);
-            const size_t stride = SourceCode::whole_blocks(columns) + SourceCode::BLOCK;
             std::vector<float> distance(SourceCode::whole_blocks(samples), INFINITE);
-            std::vector<uint16_t> table(samples * stride);
-            std::vector<const uint16_t*> rows;
-            for (size_t i = 0; i < samples; ++i) {
+            std::vector<uint16_t> table(samples * columns + SourceCode::BLOCK);
+            const TableRows rows{table.data(), columns, samples};
+            for (size_t i = 0; i < samples; ++i)
                 if (random() % 8 != 0 || i == 0)
                     distance[i] = 1000.f + quantum * static_cast<float>(i ? random() % 2000 : 0);
-                rows.push_back(table.data() + i * stride);
-            }
             for (uint16_t& code : table)
                 code = random() % 16 == 0 ? TableCode::UNREACHED : static_cast<uint16_t>(random() % 3000);
             for (const Kernels& kernels : runnable_kernels()) {
@@ -338,8 +335,8 @@ TEST_CASE("crossing: over samples it takes the least sum, with every instruction
                 std::vector<int16_t> scratch(distance.size());
                 std::vector<float> found(SourceCode::whole_blocks(columns));
                 std::vector<uint16_t> winners(found.size());
-                kernels.cross_samples({distance.data(), quantum, {}, scratch.data()}, rows, columns,
-                                      found.data(), winners.data());
+                kernels.cross_samples({distance.data(), quantum, {}, scratch.data()}, rows, found.data(),
+                                      winners.data());
                 for (size_t c = 0; c < columns; ++c) {
                     float least = INFINITE;
                     size_t winner = 0;
@@ -358,14 +355,13 @@ TEST_CASE("crossing: over samples it takes the least sum, with every instruction
 
 TEST_CASE("crossing: over samples that are not reached there is no way") {
     const std::vector<float> distance(SourceCode::BLOCK, INFINITE);
-    const std::vector<uint16_t> row(SourceCode::BLOCK, 5);
-    const std::vector<const uint16_t*> rows(2, row.data());
+    const std::vector<uint16_t> table(2 * SourceCode::BLOCK, 5);
+    const TableRows rows{table.data(), 20, 2};
     for (const Kernels& kernels : runnable_kernels()) {
         std::vector<int16_t> scratch(SourceCode::BLOCK);
         std::vector<float> found(SourceCode::BLOCK, 0);
         std::vector<uint16_t> winners(SourceCode::BLOCK);
-        kernels.cross_samples({distance.data(), 1, {}, scratch.data()}, rows, 20, found.data(),
-                              winners.data());
+        kernels.cross_samples({distance.data(), 1, {}, scratch.data()}, rows, found.data(), winners.data());
         CHECK(std::ranges::all_of(found, [](float d) { return d == INFINITE; }));
     }
 }

@@ -307,19 +307,19 @@ struct CrossSamples {
     using Numbers = typename Lanes<BYTES>::Keys;
     static constexpr size_t LANES = Lanes<BYTES>::CODES;
 
-    [[gnu::always_inline]] static void run(const SampledBorder& border, Rows rows, size_t columns,
+    [[gnu::always_inline]] static void run(const SampledBorder& border, const TableRows& rows,
                                            float* distances, uint16_t* winners) {
         const float nearest = nearest_of(border, rows.size());
         if (!(nearest < INFINITE)) {
-            std::fill_n(distances, SourceCode::whole_blocks(columns), INFINITE);
+            std::fill_n(distances, SourceCode::whole_blocks(rows.columns), INFINITE);
             return;
         }
         round_all<BYTES>(border.distance, rows.size(), Floats<BYTES>{} + nearest,
                          steps_per_distance(border.quantum), border.code);
-        LeastSums<BYTES, false>::over_all(border.code, rows, 0, SourceCode::whole_blocks(columns),
+        LeastSums<BYTES, false>::over_all(border.code, rows, 0, SourceCode::whole_blocks(rows.columns),
                                           DecodeColumns{nearest, border.quantum, distances, winners});
         for (const Samples::LongSegment& segment : border.long_segments)
-            straighten(border, segment, rows, columns, distances, winners);
+            straighten(border, segment, rows, distances, winners);
     }
 
 private:
@@ -348,8 +348,8 @@ private:
     }
 
     [[gnu::always_inline]] static void straighten(const SampledBorder& border,
-                                                  const Samples::LongSegment& segment, Rows rows,
-                                                  size_t columns, float* distances, uint16_t* winners) {
+                                                  const Samples::LongSegment& segment, const TableRows& rows,
+                                                  float* distances, uint16_t* winners) {
         using Distances = Floats<BYTES>;
         constexpr size_t FLOATS = Lanes<BYTES>::FLOATS;
         SegmentsFromSource<Distances> from_source;
@@ -358,7 +358,7 @@ private:
         const Distances from_first = Distances{} + border.distance[segment.first],
                         from_second = Distances{} + border.distance[segment.second];
         from_source.segments.place_point(from_first, from_second, from_source.foot, from_source.height);
-        for (size_t c = 0; c < SourceCode::whole_blocks(columns); c += FLOATS) {
+        for (size_t c = 0; c < SourceCode::whole_blocks(rows.columns); c += FLOATS) {
             Distances to_first, to_second, way, known;
             decode_row<BYTES>(rows[segment.first] + c, border.quantum, to_first);
             decode_row<BYTES>(rows[segment.second] + c, border.quantum, to_second);

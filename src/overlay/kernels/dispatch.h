@@ -14,6 +14,14 @@ namespace geodesic {
 
 // Rows of a table, each one code a place.
 using Rows = std::span<const uint16_t* const>;
+// The same of rows that lie one after the other.
+struct TableRows {
+    const uint16_t* codes;
+    size_t columns, count;
+
+    size_t size() const { return count; }
+    const uint16_t* operator[](size_t row) const { return codes + row * columns; }
+};
 // Some columns of a table.
 using Columns = std::span<const uint32_t>;
 
@@ -120,11 +128,11 @@ struct Kernels {
     void (*cross_near_columns)(const BorderFromSource& border, const NearRange& range, Rows rows,
                                size_t first, float* ways);
 
-    // Fills border.code. rows[i] belongs to the i-th sample and has an entry for each column. distances[c]:
-    // the least way over a sample to column c, or straightened over a long segment where that is shorter, or
-    // infinity; winners[c]: the first sample with the least way, or the first end of that segment, if there
-    // is any way. Both are written in whole blocks.
-    void (*cross_samples)(const SampledBorder& border, Rows rows, size_t columns, float* distances,
+    // Fills border.code. rows[i] belongs to the i-th sample; the last one is followed by readable codes.
+    // distances[c]: the least way over a sample to column c, or straightened over a long segment where that
+    // is shorter, or infinity; winners[c]: the first sample with the least way, or the first end of that
+    // segment, if there is any way. Both are written in whole blocks.
+    void (*cross_samples)(const SampledBorder& border, const TableRows& rows, float* distances,
                           uint16_t* winners);
 
     // The least way over any place, or straightened over any segment, or infinity.

@@ -19,9 +19,9 @@ struct LeastSums {
 
     // Calls use(c, sums, places), for `count` columns from `first` on, up to whole vectors, with the least
     // sums of a vector of columns from first + c on, and the first places that they are over.
-    template <class Use>
-    [[gnu::always_inline]] static void over_all(const int16_t* code, Rows rows, size_t first, size_t count,
-                                                Use&& use) {
+    template <class AnyRows, class Use>
+    [[gnu::always_inline]] static void over_all(const int16_t* code, const AnyRows& rows, size_t first,
+                                                size_t count, Use&& use) {
         size_t c = 0;
         for (; c + AT_ONCE * LANES <= count; c += AT_ONCE * LANES)
             over_columns<AT_ONCE>(code, rows, first, c, use);
@@ -35,16 +35,16 @@ private:
     // for all of them.
     static constexpr size_t AT_ONCE = BYTES < 64 ? 4 : 8;
 
-    template <size_t VECTORS, class Use>
-    [[gnu::always_inline]] static void over_columns(const int16_t* code, Rows rows, size_t first, size_t c,
-                                                    Use&& use) {
+    template <size_t VECTORS, class AnyRows, class Use>
+    [[gnu::always_inline]] static void over_columns(const int16_t* code, const AnyRows& rows, size_t first,
+                                                    size_t c, Use&& use) {
         Codes least[VECTORS], place[VECTORS], here{};
         for (size_t v = 0; v < VECTORS; ++v) {
             least[v] = Codes{} + std::numeric_limits<int16_t>::max();
             place[v] = Codes{};
         }
-        const uint16_t* const* const row = rows.data();
-        for (size_t k = 0; k < rows.size(); ++k, here += 1) {
+        const AnyRows row = rows; // which nothing that is written can change
+        for (size_t k = 0; k < row.size(); ++k, here += 1) {
             if (SKIP && code[k] == SourceCode::UNREACHED) continue;
             const Codes from = Codes{} + code[k];
             for (size_t v = 0; v < VECTORS; ++v) {

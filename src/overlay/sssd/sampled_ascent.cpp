@@ -21,13 +21,11 @@ size_t largest_sample_count(const OverlayIndex& index) {
 
 SampledAscent::SampledAscent(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), stride_(SourceCode::whole_blocks(largest_sample_count(index))), borders_(memory),
-      distances_(memory), winners_(memory), rows_(memory), rows_across_(memory), across_(memory),
-      codes_(stride_, memory) {
+      distances_(memory), winners_(memory), rows_across_(memory), across_(memory), codes_(stride_, memory) {
     const size_t borders = index.numbering.level_count() + 1;
     borders_.reserve(borders);
     distances_.resize(borders * stride_);
     winners_.resize(borders * stride_);
-    rows_.resize(borders * stride_);
 }
 
 void SampledAscent::climb(const Ascent& ascent) {
@@ -41,23 +39,19 @@ void SampledAscent::climb(const Ascent& ascent) {
     std::fill(distances_of(0) + innermost.size(),
               distances_of(0) + SourceCode::whole_blocks(innermost.size()), INFINITE);
     borders_.assign(1, {.patch = ascent.patches.front()});
-    for (size_t b = 1; b < ascent.patches.size(); ++b) {
-        const size_t columns = samples.of(ascent.patches[b]).size();
-        const uint16_t* table = samples.codes.data() + samples.up_begin[ascent.patches[b - 1]];
-        hop({.patch = ascent.patches[b], .quantum = index_.quantum[ascent.patches[b]]},
-            [&](size_t i) { return table + i * columns; });
-    }
+    for (size_t b = 1; b < ascent.patches.size(); ++b)
+        hop({.patch = ascent.patches[b],
+             .quantum = index_.quantum[ascent.patches[b]],
+             .table = samples.codes.data() + samples.up_begin[ascent.patches[b - 1]]});
 }
 
 void SampledAscent::hop_across(const Ascent& ascent, uint32_t sibling) {
     const Samples& samples = index_.pairs.samples;
     const uint32_t patch = ascent.last_patch();
-    const size_t columns = samples.of(sibling).size();
-    const uint16_t* const table = samples.has_table_across(sibling)
-                                      ? samples.rows_across(index_.numbering, patch, sibling)
-                                      : make_rows_across(patch, sibling);
-    hop({.patch = sibling, .quantum = index_.quantum[index_.numbering.parent[patch]]},
-        [&](size_t i) { return table + i * columns; });
+    hop({.patch = sibling,
+         .quantum = index_.quantum[index_.numbering.parent[patch]],
+         .table = samples.has_table_across(sibling) ? samples.rows_across(index_.numbering, patch, sibling)
+                                                    : make_rows_across(patch, sibling)});
 }
 
 // The kernel reads rows as far as whole blocks.
@@ -72,22 +66,19 @@ const uint16_t* SampledAscent::make_rows_across(uint32_t patch, uint32_t sibling
 }
 
 float SampledAscent::way_over(size_t border, uint32_t before, uint32_t sample) const {
+    const Border& to = borders_[border];
     return distances_of(border - 1)[before] +
-           TableCode::distance(rows_[border * stride_ + before][sample], borders_[border].quantum);
+           TableCode::distance(to.table[before * samples_of(to).size() + sample], to.quantum);
 }
 
-// row(i) is the row of the i-th sample of the last border.
-template <class Row>
-void SampledAscent::hop(const Border& to, const Row& row) {
+void SampledAscent::hop(const Border& to) {
     const size_t border = borders_.size(), count = samples_of(borders_.back()).size();
     const size_t samples = samples_of(to).size();
-    const uint16_t** rows = rows_.data() + border * stride_;
-    for (size_t i = 0; i < count; ++i) rows[i] = row(i);
     float* const distance = distances_of(border);
     const uint32_t before = borders_.back().patch;
     runnable_kernels().back().cross_samples(
         {distances_of(border - 1), to.quantum, index_.pairs.samples.long_segments_of(before), codes_.data()},
-        {rows, count}, samples, distance, winners_.data() + border * stride_);
+        {to.table, samples, count}, distance, winners_.data() + border * stride_);
     std::fill(distance + samples, distance + SourceCode::whole_blocks(samples), INFINITE);
     borders_.push_back(to);
     if (index_.longest_segment[before] > 0) return;

@@ -37,11 +37,12 @@ public:
     float way_over(size_t border, uint32_t before, uint32_t sample) const;
 
 private:
-    // A border, and the quantum of the rows that a hop to it reads: one for each sample of the border before,
-    // with one entry for each of its own samples.
+    // A border, and the table that the hop to it reads, with its quantum: a row for each sample of the border
+    // before, with one entry for each of its own samples.
     struct Border {
         uint32_t patch = 0;
         float quantum = 0;
+        const uint16_t* table = nullptr;
     };
 
     std::span<const uint16_t> samples_of(const Border& border) const {
@@ -50,8 +51,7 @@ private:
 
     float* distances_of(size_t border) { return distances_.data() + border * stride_; }
     const float* distances_of(size_t border) const { return distances_.data() + border * stride_; }
-    template <class Row>
-    void hop(const Border& to, const Row& row);
+    void hop(const Border& to);
     const uint16_t* make_rows_across(uint32_t patch, uint32_t sibling);
     void keep_common(uint32_t before);
     void measure_over_vertices();
@@ -61,10 +61,9 @@ private:
     Array<Border> borders_;
     Array<float> distances_;
     Array<uint16_t> winners_;
-    Array<const uint16_t*> rows_; // that the hop to each border has read
-    RowsAcross rows_across_;      // where there is no table across:
-    Array<uint16_t> across_;      // the rows that are made in its place
-    Array<int16_t> codes_;        // scratch of a hop
+    RowsAcross rows_across_; // where there is no table across:
+    Array<uint16_t> across_; // the rows that are made in its place
+    Array<int16_t> codes_;   // scratch of a hop
 };
 
 }
