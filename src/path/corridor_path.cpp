@@ -185,10 +185,11 @@ bool CorridorPath::is_shortest(const StripPath& path) const {
 void CorridorPath::try_strip(Strip&& found, Strip& strip, StripPath& path) const {
     take_to_surface(found);
     StripPath shorter = straighten(whole_, found);
-    try_other_sides(whole_, found, shorter);
-    if (!(shorter.length < path.length)) return;
-    strip = std::move(found);
-    path = std::move(shorter);
+    StripWay way{std::move(found), std::move(shorter)};
+    try_other_sides(whole_, way);
+    if (!(way.path.length < path.length)) return;
+    strip = std::move(way.strip);
+    path = std::move(way.path);
 }
 
 // How long the shortest ways over edges are: over their best points, which are looked for among some first

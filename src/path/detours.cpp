@@ -90,15 +90,15 @@ PointRange Detours::around_face(size_t face) const {
 }
 
 void Detours::apply(const Change& change) {
-    strip_ = with_replaced(strip_, change.faces, change.new_faces, change.portals, change.new_portals);
-    const auto at = [&](size_t i) { return path_.shares.begin() + static_cast<std::ptrdiff_t>(i); };
-    const auto behind = path_.shares.erase(at(change.portals.first), at(change.portals.last));
-    path_.shares.insert(behind, change.new_shares.begin(), change.new_shares.end());
+    replace(strip_.faces, change.faces, change.new_faces);
+    replace(strip_.portals, change.portals, change.new_portals);
+    replace(path_.shares, change.portals, change.new_shares);
 }
 
 // Makes a change if that makes the path shorter when points slide within the range only.
 bool Detours::take(const Change& change, PointRange range) {
-    StripWay part{part_of(surface_, strip_, path_, range), {}};
+    StripWay part;
+    copy_part(surface_, strip_, path_, range, part.strip);
     const auto share = [&](size_t point) {
         return path_.shares.begin() + static_cast<std::ptrdiff_t>(point);
     };

@@ -95,7 +95,7 @@ StripWay PathFinder::find_straight() {
     if (!other || std::abs(one->path.length - other->path.length) <= SAME * one->path.length)
         other = std::nullopt;
     for (auto* found : {&one, &other})
-        if (*found) try_other_sides(surface_, (*found)->strip, (*found)->path);
+        if (*found) try_other_sides(surface_, **found);
     return std::move(other && other->path.length < one->path.length ? *other : *one);
 }
 

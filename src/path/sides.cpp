@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 
 class OtherSides {
 public:
-    OtherSides(const Surface& surface, Strip& strip, StripPath& path)
-        : surface_(surface), strip_(strip), path_(path) {
+    OtherSides(const Surface& surface, StripWay& way)
+        : surface_(surface), way_(way), straightening_(surface) {
         measure();
     }
 
@@ -35,8 +35,8 @@ private:
     void measure();
     Pass pass_of(size_t portal, uint32_t vertex) const;
     bool is_begin(size_t portal, uint32_t vertex) const {
-        return !strip_.portals[portal].is_vertex() &&
-               (portal == 0 || !strip_.portals[portal - 1].contains(vertex));
+        return !way_.strip.portals[portal].is_vertex() &&
+               (portal == 0 || !way_.strip.portals[portal - 1].contains(vertex));
     }
     double angle_around(uint32_t vertex);
     double length(PointRange range) const { return points_[range.last].along - points_[range.first].along; }
@@ -50,8 +50,9 @@ private:
     bool sweep();
 
     const Surface& surface_;
-    Strip& strip_;
-    StripPath& path_;
+    StripWay& way_;
+    Straightening straightening_;
+    StripWay other_; // a part of the way on the other side of a vertex
     std::vector<Point> points_;
     std::unordered_map<uint32_t, double> angles_; // all around vertices
     std::unordered_set<uint64_t> failed_;         // vertices and the lengths of the parts that were tried
@@ -60,18 +61,18 @@ private:
 
 void OtherSides::measure() {
     points_.clear();
-    points_.push_back({position_of(surface_, strip_.source)});
-    for (size_t i = 0; i < strip_.portals.size(); ++i)
-        points_.push_back({position_at(surface_, strip_.portals[i], path_.shares[i]),
-                           vertex_at(strip_.portals[i], path_.shares[i])});
-    points_.push_back({position_of(surface_, strip_.target)});
+    points_.push_back({position_of(surface_, way_.strip.source)});
+    for (size_t i = 0; i < way_.strip.portals.size(); ++i)
+        points_.push_back({position_at(surface_, way_.strip.portals[i], way_.path.shares[i]),
+                           vertex_at(way_.strip.portals[i], way_.path.shares[i])});
+    points_.push_back({position_of(surface_, way_.strip.target)});
     for (size_t i = 1; i < points_.size(); ++i)
         points_[i].along = points_[i - 1].along + (points_[i].at - points_[i - 1].at).norm();
 }
 
 Pass OtherSides::pass_of(size_t portal, uint32_t vertex) const {
     size_t last = portal;
-    while (last + 1 < strip_.portals.size() && strip_.portals[last + 1].contains(vertex)) ++last;
+    while (last + 1 < way_.strip.portals.size() && way_.strip.portals[last + 1].contains(vertex)) ++last;
     return {portal, last, vertex};
 }
 
@@ -132,7 +133,7 @@ PointRange OtherSides::with_next_pieces(PointRange range) const {
 // Otherwise the path would bend at the vertex, and turn back to where it came from.
 std::optional<Turn::Fan> OtherSides::other_side(const Pass& pass) {
     const auto place = beside(pass);
-    if (!place || strip_.faces[pass.first] == strip_.faces[pass.last + 1]) return std::nullopt;
+    if (!place || way_.strip.faces[pass.first] == way_.strip.faces[pass.last + 1]) return std::nullopt;
     const double here = angle_at(*place, piece_around(pass));
     if (!(angle_around(pass.vertex) < std::numbers::pi + here)) return std::nullopt;
     const Vector3d at = surface_.positions[pass.vertex], from = points_[pass.first].at - at,
@@ -140,25 +141,23 @@ std::optional<Turn::Fan> OtherSides::other_side(const Pass& pass) {
     if (from.isZero(0) || to.isZero(0)) return std::nullopt;
     Turn turn(surface_, pass.vertex);
     for (size_t i = pass.first; i <= pass.last; ++i) {
-        const Portal& portal = strip_.portals[i];
+        const Portal& portal = way_.strip.portals[i];
         turn.forbid(portal.a == pass.vertex ? portal.b : portal.a);
     }
     const double near = angle_at(*place, {pass.first, pass.last + 2});
-    return turn.below(std::numbers::pi + here - near, strip_.faces[pass.first], from,
-                      strip_.faces[pass.last + 1], to);
+    return turn.below(std::numbers::pi + here - near, way_.strip.faces[pass.first], from,
+                      way_.strip.faces[pass.last + 1], to);
 }
 
 bool OtherSides::take(const Pass& pass, const Turn::Fan& fan, PointRange range) {
     constexpr double SHORTER = 1e-12; // as a share: less is rounding
-    Strip other = with_fan(part_of(surface_, strip_, path_, range),
-                           {pass.first - range.first, pass.last - range.first, pass.vertex}, fan);
-    const double limit = length(range) * (1 - SHORTER);
-    if (!(straighten(surface_, other, limit).length < limit)) return false;
-    Strip whole = with_part(strip_, range, other);
-    StripPath shorter = straighten(surface_, whole);
-    if (!(shorter.length < path_.length * (1 - SHORTER))) return false;
-    strip_ = std::move(whole);
-    path_ = std::move(shorter);
+    copy_part(surface_, way_.strip, way_.path, range, other_.strip);
+    turn_around(other_.strip, {pass.first - range.first, pass.last - range.first, pass.vertex}, fan);
+    straightening_.straighten(other_);
+    const double before = length(range);
+    if (!(other_.path.length < before * (1 - SHORTER))) return false;
+    straightening_.replace_part(way_, range, other_, before);
+    straightening_.turn_bends(way_);
     measure();
     return true;
 }
@@ -180,9 +179,9 @@ std::optional<size_t> OtherSides::try_at(const Pass& pass) {
 bool OtherSides::sweep() {
     constexpr size_t MOST_TRIES = 1000;
     bool has_helped = false;
-    for (size_t i = 0; i < strip_.portals.size();) {
+    for (size_t i = 0; i < way_.strip.portals.size();) {
         std::optional<size_t> changed;
-        const auto [a, b] = strip_.portals[i];
+        const auto [a, b] = way_.strip.portals[i];
         for (const uint32_t vertex : {a, b})
             if (!changed && tries_ < MOST_TRIES && is_begin(i, vertex)) changed = try_at(pass_of(i, vertex));
         has_helped |= changed.has_value();
@@ -199,8 +198,6 @@ void OtherSides::run() {
 
 }
 
-void try_other_sides(const Surface& surface, Strip& strip, StripPath& path) {
-    OtherSides(surface, strip, path).run();
-}
+void try_other_sides(const Surface& surface, StripWay& way) { OtherSides(surface, way).run(); }
 
 }

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <unordered_set>
+
+#include "src/path/funnel.h"
 #include "src/path/strip.h"
 #include "src/path/turn.h"
 
@@ -11,12 +15,40 @@ struct Pass {
     uint32_t vertex;
 };
 
-// The strip with the faces of a fan around that vertex in the place of its own between the portals.
-Strip with_fan(const Strip& strip, const Pass& pass, const Turn::Fan& fan);
+// Puts the faces of a fan around that vertex in the place of the strip's own between the portals.
+void turn_around(Strip& strip, const Pass& pass, const Turn::Fan& fan);
 
-// Makes the path in a strip locally shortest: while it bends at a vertex whose other side has an angle of
-// less than pi, the strip is turned around that vertex (Xin and Wang 2007). Each turn makes the path shorter.
-// Where turns do not bring it below `limit`, the path is returned as it is then, not locally shortest.
-StripPath straighten(const Surface& surface, Strip& strip, double limit = UNREACHABLE);
+// Makes paths in strips locally shortest: while one bends at a vertex whose other side has an angle of less
+// than pi, the strip is turned around that vertex (Xin and Wang 2007). Each turn makes the path shorter. It
+// changes the path between the bends before and after it alone, so only that part is pulled tight again. The
+// object keeps its arrays from one strip to the next.
+class Straightening {
+public:
+    explicit Straightening(const Surface& surface) : surface_(surface), tight_paths_(surface) {}
+
+    // The path of the strip is not looked at.
+    void straighten(StripWay& way);
+
+    // Of a path that is as short as it can be between its bends.
+    void turn_bends(StripWay& way);
+
+    // Puts a part with the same ends in the place of a range between two bends, whose path was so long. Gives
+    // the first portal that the path may pass in another way now.
+    size_t replace_part(StripWay& way, PointRange range, const StripWay& part, double length_before);
+
+private:
+    static constexpr double SHORTER = 1e-13; // as a share of the path: less is rounding
+
+    std::optional<Turn::Fan> shorter_side(const StripWay& way, const Pass& pass) const;
+    std::optional<size_t> turn(StripWay& way, const Pass& pass);
+
+    const Surface& surface_;
+    TightPaths tight_paths_;
+    StripWay part_;                         // that a turn changes
+    std::unordered_set<uint32_t> straight_; // vertices where no turn helps as long as the path there stays
+};
+
+// The same for one strip. Gives its path.
+StripPath straighten(const Surface& surface, Strip& strip);
 
 }

@@ -42,43 +42,17 @@ double length_of(const Surface& surface, const Strip& strip, const std::vector<d
     return length + (position_of(surface, strip.target) - last).norm();
 }
 
-Strip with_replaced(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces,
-                    Replaced portals, const std::vector<Portal>& new_portals) {
-    Strip whole{strip.source, strip.target, {}, {}};
-    const auto join = [](auto& all, const auto& old, Replaced part, const auto& own) {
-        all.assign(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(part.first));
-        all.insert(all.end(), own.begin(), own.end());
-        all.insert(all.end(), old.begin() + static_cast<std::ptrdiff_t>(part.last), old.end());
-    };
-    join(whole.faces, strip.faces, faces, new_faces);
-    join(whole.portals, strip.portals, portals, new_portals);
-    return whole;
-}
-
-Strip with_part(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces, Replaced portals,
-                const std::vector<Portal>& new_portals) {
-    Strip whole = with_replaced(strip, faces, new_faces, portals, new_portals);
-    drop_returns(whole);
-    return whole;
-}
-
-Strip part_of(const Surface& surface, const Strip& strip, const StripPath& path, PointRange range) {
+void copy_part(const Surface& surface, const Strip& strip, const StripPath& path, PointRange range,
+               Strip& part) {
     const auto [first, last] = range;
     const auto offset = [](size_t i) { return static_cast<std::ptrdiff_t>(i); };
-    Strip part{strip.source, strip.target, {}, {}};
     part.faces.assign(strip.faces.begin() + offset(first), strip.faces.begin() + offset(last));
     part.portals.assign(strip.portals.begin() + offset(first), strip.portals.begin() + offset(last - 1));
     const auto portal_point = [&](size_t face, size_t portal) {
         return point_at(surface, strip.faces[face], strip.portals[portal], path.shares[portal]);
     };
-    if (first > 0) part.source = portal_point(first, first - 1);
-    if (last <= strip.portals.size()) part.target = portal_point(last - 1, last - 1);
-    return part;
-}
-
-Strip with_part(const Strip& strip, PointRange range, const Strip& part) {
-    return with_part(strip, {range.first, range.last}, part.faces, {range.first, range.last - 1},
-                     part.portals);
+    part.source = first > 0 ? portal_point(first, first - 1) : strip.source;
+    part.target = last <= strip.portals.size() ? portal_point(last - 1, last - 1) : strip.target;
 }
 
 void turn_back(Strip& strip) {
@@ -87,17 +61,19 @@ void turn_back(Strip& strip) {
     std::ranges::reverse(strip.portals);
 }
 
-void drop_returns(Strip& strip) {
-    for (size_t i = 0; i + 1 < strip.portals.size();) {
+void drop_returns(Strip& strip, Replaced portals) {
+    size_t i = portals.first - std::min<size_t>(portals.first, 1), end = portals.last;
+    while (i < end && i + 1 < strip.portals.size()) {
         const Portal entry = strip.portals[i], exit = strip.portals[i + 1];
         const bool comes_back = strip.faces[i] == strip.faces[i + 2];
         if (!entry.joins(exit) || (!comes_back && !exit.joins(entry))) {
             ++i;
             continue;
         }
-        const auto at = static_cast<std::ptrdiff_t>(i), count = std::ptrdiff_t{comes_back ? 2 : 1};
-        strip.faces.erase(strip.faces.begin() + at + 1, strip.faces.begin() + at + 1 + count);
-        strip.portals.erase(strip.portals.begin() + at, strip.portals.begin() + at + count);
+        const size_t count = comes_back ? 2 : 1;
+        replace(strip.faces, {i + 1, i + 1 + count}, {});
+        replace(strip.portals, {i, i + count}, {});
+        end = std::max(i, end - std::min(end, count));
         if (i > 0) --i;
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -52,15 +53,21 @@ Eigen::Vector3d position_after(const Surface& surface, const Strip& strip, const
 // The sum of the lengths of the pieces, by positions in space.
 double length_of(const Surface& surface, const Strip& strip, const std::vector<double>& shares);
 
-// A strip with other faces and portals in the place of some of its own, given as positions from the first one
-// up to, but without, the last one. with_part() also drops returns.
+// Positions from the first one up to, but without, the last one.
 struct Replaced {
     size_t first, last;
 };
-Strip with_replaced(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces,
-                    Replaced portals, const std::vector<Portal>& new_portals);
-Strip with_part(const Strip& strip, Replaced faces, const std::vector<uint32_t>& new_faces, Replaced portals,
-                const std::vector<Portal>& new_portals);
+
+// Puts other items in the place of some.
+template <class T>
+void replace(std::vector<T>& all, Replaced old, const std::vector<T>& own) {
+    const auto at = [&](size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
+    const size_t kept = std::min(old.last - old.first, own.size());
+    const auto rest = own.begin() + static_cast<std::ptrdiff_t>(kept);
+    std::copy(own.begin(), rest, at(old.first));
+    all.erase(at(old.first + kept), at(old.last));
+    all.insert(at(old.first + kept), rest, own.end());
+}
 
 // The points of a path are numbered: its source, where it passes each portal of its strip, its target. Face i
 // lies between points i and i + 1. A range of points stands for the faces between its ends.
@@ -68,16 +75,14 @@ struct PointRange {
     size_t first, last;
 };
 
-// The strip between two points of its path.
-Strip part_of(const Surface& surface, const Strip& strip, const StripPath& path, PointRange range);
-
-// The strip with another one, with the same ends, in the place of such a part.
-Strip with_part(const Strip& strip, PointRange range, const Strip& part);
+// Fills `part` with the strip between two points of its path.
+void copy_part(const Surface& surface, const Strip& strip, const StripPath& path, PointRange range,
+               Strip& part);
 
 // From its target to its source.
 void turn_back(Strip& strip);
 
-// Takes out faces that are left through the portal that they were entered by.
-void drop_returns(Strip& strip);
+// Takes out faces that are left through the portal that they were entered by, where these portals are new.
+void drop_returns(Strip& strip, Replaced portals);
 
 }

@@ -57,7 +57,8 @@ TEST_CASE("sides: the shorter way around a cone, from the longer one") {
     REQUIRE(strip);
     StripPath path = straighten(surface, *strip);
     CHECK(path.length == doctest::Approx(across((RAYS - TARGET_RAY) * facet, radius, radius)).epsilon(1e-9));
-    try_other_sides(surface, *strip, path);
-    CHECK(path.length == doctest::Approx(across(TARGET_RAY * facet, radius, radius)).epsilon(1e-9));
-    CHECK(path.length == doctest::Approx(length_of(surface, *strip, path.shares)).epsilon(1e-12));
+    StripWay way{std::move(*strip), std::move(path)};
+    try_other_sides(surface, way);
+    CHECK(way.path.length == doctest::Approx(across(TARGET_RAY * facet, radius, radius)).epsilon(1e-9));
+    CHECK(way.path.length == doctest::Approx(length_of(surface, way.strip, way.path.shares)).epsilon(1e-12));
 }
