@@ -67,17 +67,17 @@ public:
         corners_[2] = place_ahead(surface, {v[0], v[1], corners_[0], corners_[1]}, v[2]);
     }
 
-    // Goes on into the next face, whose third vertex is placed ahead of the gate.
-    Gate go_through(const Portal& portal, uint32_t next_face) {
+    // Goes on through a gate, which is added, into the next face, whose third vertex is placed ahead of it.
+    void go_through(const Portal& portal, uint32_t next_face, std::vector<Gate>& gates) {
         const size_t apex = !portal.contains(vertices_[0]) ? 0 : !portal.contains(vertices_[1]) ? 1 : 2;
         const size_t right = (apex + 1) % 3, left = (apex + 2) % 3;
-        const Gate gate{vertices_[left], vertices_[right], corners_[left], corners_[right]};
+        gates.push_back({vertices_[left], vertices_[right], corners_[left], corners_[right]});
+        const Gate& gate = gates.back();
         const auto& next = surface_.faces[next_face];
-        const uint32_t ahead = *std::ranges::find_if(next, [&](uint32_t v) { return !portal.contains(v); });
+        const uint32_t ahead = next[0] + next[1] + next[2] - portal.a - portal.b; // the one that is no end
         corners_ = {gate.left, gate.right, place_ahead(surface_, gate, ahead)};
         vertices_ = {gate.left_vertex, gate.right_vertex, ahead};
         face_ = next_face;
-        return gate;
     }
 
     // A point of that face, by its weights.
@@ -181,19 +181,21 @@ void TightPaths::unfold(const Strip& strip, const Part& part) {
     UnfoldedFace face(surface_, strip.faces[part.first]);
     gates_.clear();
     funnel_.begin(face.place(part.from.weights), part.last - part.first + 2);
-    for (size_t f = part.first; f < part.last; ++f)
-        add_gate(face.go_through(strip.portals[f], strip.faces[f + 1]));
+    for (size_t f = part.first; f < part.last; ++f) {
+        face.go_through(strip.portals[f], strip.faces[f + 1], gates_);
+        widen_funnel();
+    }
     funnel_.add_right(face.place(part.to.weights), NONE, gates_.size());
 }
 
-// From each gate to the next one, one of its ends stays.
-void TightPaths::add_gate(const Gate& gate) {
-    const size_t i = gates_.size();
+// By the last gate, of which one end is one of the gate before.
+void TightPaths::widen_funnel() {
+    const size_t i = gates_.size() - 1;
+    const Gate& gate = gates_[i];
     if (i == 0 || gates_[i - 1].left_vertex != gate.left_vertex)
         funnel_.add_left(gate.left, gate.left_vertex, i);
     if (i == 0 || gates_[i - 1].right_vertex != gate.right_vertex)
         funnel_.add_right(gate.right, gate.right_vertex, i);
-    gates_.push_back(gate);
 }
 
 void TightPaths::find_bends() {

@@ -56,7 +56,7 @@ public:
 private:
     struct Part;
     void unfold(const Strip& strip, const Part& part);
-    void add_gate(const Gate& gate);
+    void widen_funnel();
     void find_bends();
     void add_shares(std::span<const Portal> portals, std::vector<double>& shares) const;
 

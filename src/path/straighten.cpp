@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 namespace geodesic {
 
@@ -104,22 +105,22 @@ size_t Straightening::replace_part(StripWay& way, PointRange range, const StripW
     drop_returns(strip, {range.first, end});
     if (strip.portals.size() != count) { // faces at the ends of the part
         tight_paths_.pull_tight(strip, path);
-        straight_.clear();
+        is_straight_.clear();
         return 0;
     }
     replace(path.shares, portals, part.path.shares);
     path.length += part.path.length - length_before;
     for (size_t i = range.first > 0 ? range.first - 1 : 0; i < std::min(end + 1, count); ++i)
-        straight_.erase(vertex_of(way, i));
+        if (const uint32_t vertex = vertex_of(way, i); vertex != NONE) is_straight_[vertex] = false;
     return first_portal_at(way, range.first);
 }
 
 void Straightening::turn_bends(StripWay& way) {
-    straight_.clear();
+    is_straight_.clear();
     size_t next = 0;
     while (const auto pass = next_pass(way, next)) {
         next = pass->last + 1;
-        if (!straight_.insert(pass->vertex).second) continue;
+        if (std::exchange(is_straight_[pass->vertex], true)) continue;
         if (const auto first = turn(way, *pass)) next = *first;
     }
 }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <optional>
-#include <unordered_set>
 
+#include "src/base/number_map.h"
 #include "src/path/funnel.h"
 #include "src/path/strip.h"
 #include "src/path/turn.h"
@@ -44,8 +44,8 @@ private:
 
     const Surface& surface_;
     TightPaths tight_paths_;
-    StripWay part_;                         // that a turn changes
-    std::unordered_set<uint32_t> straight_; // vertices where no turn helps as long as the path there stays
+    StripWay part_;               // that a turn changes
+    NumberMap<bool> is_straight_; // per vertex: whether no turn helps as long as the path there stays
 };
 
 // The same for one strip. Gives its path.

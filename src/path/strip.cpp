@@ -6,19 +6,11 @@ namespace geodesic {
 
 using Eigen::Vector3d;
 
-Vector3d position_at(const Surface& surface, const Portal& portal, double share) {
-    return (1 - share) * surface.positions[portal.a] + share * surface.positions[portal.b];
-}
-
 SurfacePoint point_at(const Surface& surface, uint32_t face, const Portal& portal, double share) {
     SurfacePoint point{face, {}};
     point.weights[corner_of(surface, face, portal.a)] += 1 - share;
     point.weights[corner_of(surface, face, portal.b)] += share;
     return point;
-}
-
-uint32_t vertex_at(const Portal& portal, double share) {
-    return share == 0 ? portal.a : share == 1 ? portal.b : NONE;
 }
 
 Vector3d position_before(const Surface& surface, const Strip& strip, const StripPath& path, size_t i) {

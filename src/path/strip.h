@@ -38,13 +38,17 @@ struct StripWay {
     StripPath path;
 };
 
-Eigen::Vector3d position_at(const Surface& surface, const Portal& portal, double share);
+inline Eigen::Vector3d position_at(const Surface& surface, const Portal& portal, double share) {
+    return (1 - share) * surface.positions[portal.a] + share * surface.positions[portal.b];
+}
 
 // The same as a point of a face at the portal.
 SurfacePoint point_at(const Surface& surface, uint32_t face, const Portal& portal, double share);
 
 // The vertex where a path passes a portal, or NONE if it passes between two.
-uint32_t vertex_at(const Portal& portal, double share);
+inline uint32_t vertex_at(const Portal& portal, double share) {
+    return share == 0 ? portal.a : share == 1 ? portal.b : NONE;
+}
 
 // The position of the path before portal i (the source if i is 0), and after it.
 Eigen::Vector3d position_before(const Surface& surface, const Strip& strip, const StripPath& path, size_t i);

@@ -48,10 +48,4 @@ SurfacePoint point_at_vertex(const Surface& surface, uint32_t vertex) {
     return point;
 }
 
-uint32_t corner_of(const Surface& surface, uint32_t face, uint32_t vertex) {
-    for (uint32_t k = 0; k < 3; ++k)
-        if (surface.faces[face][k] == vertex) return k;
-    return NONE;
-}
-
 }

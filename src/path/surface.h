@@ -45,7 +45,11 @@ struct Surface {
 Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point);
 
 // The corner of a face that a vertex is, or NONE.
-uint32_t corner_of(const Surface& surface, uint32_t face, uint32_t vertex);
+inline uint32_t corner_of(const Surface& surface, uint32_t face, uint32_t vertex) {
+    for (uint32_t k = 0; k < 3; ++k)
+        if (surface.faces[face][k] == vertex) return k;
+    return NONE;
+}
 
 // The corner of the face around a vertex that is the first one of the caller's.
 SurfacePoint point_at_vertex(const Surface& surface, uint32_t vertex);

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <optional>
 #include <vector>
 
+#include "src/base/array.h"
+#include "src/mesh/angle.h"
 #include "src/path/surface.h"
 
 namespace geodesic {
@@ -42,7 +46,6 @@ private:
     struct Sector {
         uint32_t face;
         std::array<uint32_t, 2> spokes;
-        double angle;
     };
 
     Eigen::Vector3d direction(uint32_t vertex) const {
@@ -51,13 +54,20 @@ private:
     void add_face(uint32_t face);
     uint32_t spoke_of(uint32_t vertex);
     const Sector& sector_of(uint32_t face) const { return *std::ranges::find(sectors_, face, &Sector::face); }
-    void spread(double limit, uint32_t from_face, uint32_t to_face);
+    double angle_of(const Sector& sector) const {
+        const auto [a, b] = sector.spokes;
+        return angle_between(direction(spokes_[a].vertex), direction(spokes_[b].vertex));
+    }
+    uint32_t nearest_spoke(double limit) const;
+    void spread(uint32_t spoke, uint32_t from_face, uint32_t to_face);
     Fan fan_to(uint32_t spoke) const;
 
     const Surface& surface_;
     const uint32_t vertex_;
-    std::vector<Spoke> spokes_;
-    std::vector<Sector> sectors_;
+    std::array<std::byte, 1024> room_; // for the faces of most vertices
+    std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
+    Array<Spoke> spokes_{&memory_};
+    Array<Sector> sectors_{&memory_};
 };
 
 }
