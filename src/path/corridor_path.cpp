@@ -186,7 +186,7 @@ void CorridorPath::try_strip(Strip&& found, Strip& strip, StripPath& path) const
     take_to_surface(found);
     StripPath shorter = straighten(whole_, found);
     StripWay way{std::move(found), std::move(shorter)};
-    try_other_sides(whole_, way);
+    try_other_sides(whole_, {&way, 1});
     if (!(way.path.length < path.length)) return;
     strip = std::move(way.strip);
     path = std::move(way.path);

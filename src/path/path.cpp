@@ -89,14 +89,15 @@ StripWay PathFinder::find_straight() {
     constexpr double SAME = 1e-9; // lengths of one way, as a share
     query_.prepare_end(1, points_.face_point_of(target_));
     query_.prepare_end(0, points_.face_point_of(source_));
-    auto one = led_by(1);
-    if (!one) no_path();
-    auto other = led_by(0);
-    if (!other || std::abs(one->path.length - other->path.length) <= SAME * one->path.length)
-        other = std::nullopt;
-    for (auto* found : {&one, &other})
-        if (*found) try_other_sides(surface_, **found);
-    return std::move(other && other->path.length < one->path.length ? *other : *one);
+    std::vector<StripWay> ways;
+    for (const size_t end : {size_t{1}, size_t{0}})
+        if (auto way = led_by(end)) ways.push_back(std::move(*way));
+    if (ways.empty()) no_path();
+    if (std::abs(ways.front().path.length - ways.back().path.length) <= SAME * ways.front().path.length)
+        ways.resize(1);
+    try_other_sides(surface_, ways);
+    return std::move(
+        *std::ranges::min_element(ways, {}, [](const StripWay& way) { return way.path.length; }));
 }
 
 SurfacePath PathFinder::find(PathQuality quality) {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <unordered_map>
 #include <unordered_set>
 
+#include "src/base/number_map.h"
 #include "src/mesh/angle.h"
 #include "src/path/nearby.h"
 #include "src/path/straighten.h"
@@ -19,18 +19,16 @@ using Eigen::Vector3d;
 
 class OtherSides {
 public:
-    OtherSides(const Surface& surface, StripWay& way)
-        : surface_(surface), way_(way), straightening_(surface) {
-        measure();
-    }
+    explicit OtherSides(const Surface& surface) : surface_(surface), straightening_(surface) {}
 
-    void run();
+    void run(StripWay& way);
 
 private:
     struct Point {
         Vector3d at;
-        uint32_t vertex = NONE; // that the path passes there
-        double along = 0;       // length of the path up to there
+        uint32_t vertex = NONE;                 // that the path passes there
+        double along = 0;                       // length of the path up to there
+        size_t bend_before = 0, bend_after = 0; // the next points at vertices, or the ends
     };
     void measure();
     Pass pass_of(size_t portal, uint32_t vertex) const;
@@ -50,12 +48,12 @@ private:
     bool sweep();
 
     const Surface& surface_;
-    StripWay& way_;
+    StripWay way_;
     Straightening straightening_;
     StripWay other_; // a part of the way on the other side of a vertex
     std::vector<Point> points_;
-    std::unordered_map<uint32_t, double> angles_; // all around vertices
-    std::unordered_set<uint64_t> failed_;         // vertices and the lengths of the parts that were tried
+    NumberMap<double> angles_;            // all around vertices
+    std::unordered_set<uint64_t> failed_; // vertices and the lengths of the parts that were tried
     size_t tries_ = 0;
 };
 
@@ -68,6 +66,12 @@ void OtherSides::measure() {
     points_.push_back({position_of(surface_, way_.strip.target)});
     for (size_t i = 1; i < points_.size(); ++i)
         points_[i].along = points_[i - 1].along + (points_[i].at - points_[i - 1].at).norm();
+    const size_t end = points_.size() - 1;
+    for (size_t i = 1; i <= end; ++i)
+        points_[i].bend_before = points_[i - 1].vertex != NONE ? i - 1 : points_[i - 1].bend_before;
+    points_[end].bend_after = end;
+    for (size_t i = end; i-- > 0;)
+        points_[i].bend_after = points_[i + 1].vertex != NONE ? i + 1 : points_[i + 1].bend_after;
 }
 
 Pass OtherSides::pass_of(size_t portal, uint32_t vertex) const {
@@ -77,8 +81,8 @@ Pass OtherSides::pass_of(size_t portal, uint32_t vertex) const {
 }
 
 double OtherSides::angle_around(uint32_t vertex) {
-    const auto [found, is_new] = angles_.try_emplace(vertex, 0);
-    if (!is_new) return found->second;
+    double& angle = angles_[vertex];
+    if (angle > 0) return angle;
     const Vector3d at = surface_.positions[vertex];
     AngleSum sum;
     for (const uint32_t face : surface_.vertex_faces[vertex]) {
@@ -87,7 +91,7 @@ double OtherSides::angle_around(uint32_t vertex) {
                        b = surface_.positions[surface_.faces[face][(k + 2) % 3]] - at;
         sum.add(a, b);
     }
-    return found->second = sum.value();
+    return angle = sum.value();
 }
 
 // The angle at which the straight path between two points is seen.
@@ -113,10 +117,7 @@ std::optional<Place> OtherSides::beside(const Pass& pass) const {
 
 // Between the bends before and after it.
 PointRange OtherSides::piece_around(const Pass& pass) const {
-    PointRange piece{pass.first, pass.last + 2};
-    while (piece.first > 0 && points_[piece.first].vertex == NONE) --piece.first;
-    while (piece.last + 1 < points_.size() && points_[piece.last].vertex == NONE) ++piece.last;
-    return piece;
+    return {points_[pass.first + 1].bend_before, points_[pass.last + 1].bend_after};
 }
 
 PointRange OtherSides::with_next_pieces(PointRange range) const {
@@ -132,10 +133,12 @@ PointRange OtherSides::with_next_pieces(PointRange range) const {
 // The fan there, if the vertex sees the bends before and after it at an angle of less than pi over that side.
 // Otherwise the path would bend at the vertex, and turn back to where it came from.
 std::optional<Turn::Fan> OtherSides::other_side(const Pass& pass) {
+    const double around = angle_around(pass.vertex);
+    if (!(around < 2 * std::numbers::pi)) return std::nullopt;
     const auto place = beside(pass);
     if (!place || way_.strip.faces[pass.first] == way_.strip.faces[pass.last + 1]) return std::nullopt;
     const double here = angle_at(*place, piece_around(pass));
-    if (!(angle_around(pass.vertex) < std::numbers::pi + here)) return std::nullopt;
+    if (!(around < std::numbers::pi + here)) return std::nullopt;
     const Vector3d at = surface_.positions[pass.vertex], from = points_[pass.first].at - at,
                    to = points_[pass.last + 2].at - at;
     if (from.isZero(0) || to.isZero(0)) return std::nullopt;
@@ -190,14 +193,22 @@ bool OtherSides::sweep() {
     return has_helped;
 }
 
-void OtherSides::run() {
+void OtherSides::run(StripWay& way) {
     constexpr int MOST_SWEEPS = 4;
+    std::swap(way, way_);
+    tries_ = 0;
+    failed_.clear();
+    measure();
     for (int i = 0; i < MOST_SWEEPS && sweep(); ++i) {
     }
+    std::swap(way, way_);
 }
 
 }
 
-void try_other_sides(const Surface& surface, StripWay& way) { OtherSides(surface, way).run(); }
+void try_other_sides(const Surface& surface, std::span<StripWay> ways) {
+    OtherSides sides(surface);
+    for (StripWay& way : ways) sides.run(way);
+}
 
 }

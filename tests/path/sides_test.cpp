@@ -58,7 +58,7 @@ TEST_CASE("sides: the shorter way around a cone, from the longer one") {
     StripPath path = straighten(surface, *strip);
     CHECK(path.length == doctest::Approx(across((RAYS - TARGET_RAY) * facet, radius, radius)).epsilon(1e-9));
     StripWay way{std::move(*strip), std::move(path)};
-    try_other_sides(surface, way);
+    try_other_sides(surface, {&way, 1});
     CHECK(way.path.length == doctest::Approx(across(TARGET_RAY * facet, radius, radius)).epsilon(1e-9));
     CHECK(way.path.length == doctest::Approx(length_of(surface, way.strip, way.path.shares)).epsilon(1e-12));
 }
