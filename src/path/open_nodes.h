@@ -1,32 +1,63 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <functional>
-#include <queue>
 #include <utility>
 #include <vector>
 
 namespace geodesic {
 
-// What a search has open, by what is expected in all.
+// What a search has open, by what is expected in all: a heap of four children each, since a search opens more
+// nodes than it comes to.
 template <class Node>
 class OpenNodes {
 public:
     void push(double expected, Node&& node) {
-        queue_.push({expected, static_cast<uint32_t>(nodes_.size())});
+        const Entry entry{expected, static_cast<uint32_t>(nodes_.size())};
         nodes_.push_back(std::move(node));
+        heap_.push_back(entry);
+        size_t at = heap_.size() - 1;
+        for (; at > 0 && entry < heap_[(at - 1) / CHILDREN]; at = (at - 1) / CHILDREN)
+            heap_[at] = heap_[(at - 1) / CHILDREN];
+        heap_[at] = entry;
     }
-    bool empty() const { return queue_.empty(); }
+    bool empty() const { return heap_.empty(); }
     uint32_t pop() {
-        const uint32_t node = queue_.top().second;
-        queue_.pop();
+        const uint32_t node = heap_.front().node;
+        const Entry last = heap_.back();
+        heap_.pop_back();
+        if (!heap_.empty()) sink(last);
         return node;
     }
     const Node& operator[](uint32_t i) const { return nodes_[i]; }
 
 private:
-    using Entry = std::pair<double, uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+    static constexpr size_t CHILDREN = 4;
+    struct Entry {
+        double expected;
+        uint32_t node;
+
+        // Of two that are expected to be as long, the one that was opened first.
+        bool operator<(const Entry& other) const {
+            return expected < other.expected || (expected == other.expected && node < other.node);
+        }
+    };
+
+    // From the root, which is free.
+    void sink(const Entry& entry) {
+        size_t at = 0;
+        for (size_t child; (child = CHILDREN * at + 1) < heap_.size();) {
+            const size_t end = std::min(child + CHILDREN, heap_.size());
+            for (size_t other = child + 1; other < end; ++other)
+                if (heap_[other] < heap_[child]) child = other;
+            if (!(heap_[child] < entry)) break;
+            heap_[at] = heap_[child];
+            at = child;
+        }
+        heap_[at] = entry;
+    }
+
+    std::vector<Entry> heap_;
     std::vector<Node> nodes_;
 };
 

@@ -1,13 +1,11 @@
 #include "src/path/search.h"
 
-#include <algorithm>
-#include <memory_resource>
-#include <unordered_map>
-#include <unordered_set>
-
+#include "src/base/number_map.h"
 #include "src/path/edge_crossing.h"
 #include "src/path/nearby.h"
 #include "src/path/open_nodes.h"
+#include <algorithm>
+#include <utility>
 
 namespace geodesic {
 
@@ -21,7 +19,7 @@ public:
                const TargetDistances& distances)
         : surface_(surface), distances_(distances), target_position_(position_of(surface, target)) {
         for_each_alias(surface, source, [&](const SurfacePoint& alias) { sources_.push_back(alias); });
-        for_each_alias(surface, target, [&](const SurfacePoint& alias) { targets_[alias.face] = alias; });
+        for_each_alias(surface, target, [&](const SurfacePoint& alias) { targets_.push_back(alias); });
     }
 
     std::optional<Strip> run();
@@ -37,89 +35,109 @@ private:
         uint32_t before;
     };
 
+    // What is known of a face, or of a vertex and its distance to the target.
+    struct Met {
+        double expected = UNREACHABLE; // the least length in all over nodes that are open there
+        double rest = UNKNOWN;
+    };
+    static constexpr double UNKNOWN = -1,
+                            CLOSED = -UNREACHABLE; // CLOSED is expected where nodes are too late
+
+    Met& met(Kind kind, uint32_t item) { return kind == Kind::FACE ? faces_[item] : vertices_[item]; }
     double rest_from(uint32_t vertex);
-    EdgeCrossing cross_edge(uint32_t a, uint32_t b, const Vector3d& from);
+    void open(double rest, Node&& node);
     bool close(const Node& node);
+    void reach_target(uint32_t index);
     void leave_face(uint32_t index);
     void pass_vertex(uint32_t index, uint32_t vertex);
-    void cross_to_next(uint32_t index, const Portal& portal, const EdgeCrossing& crossing);
+    void pass_edge(uint32_t index, const Portal& portal);
+    EdgeCrossing cross_edge(const Portal& portal, const Vector3d& from);
     void leave_vertex(uint32_t index);
     Strip strip_to(uint32_t index) const;
 
     const Surface& surface_;
     const TargetDistances& distances_;
     const Vector3d target_position_;
-    std::vector<SurfacePoint> sources_;
-    std::pmr::monotonic_buffer_resource memory_{1 << 14};
-    std::pmr::unordered_map<uint32_t, SurfacePoint> targets_{&memory_}; // by face
+    std::vector<SurfacePoint> sources_, targets_;
     OpenNodes<Node> open_;
-    std::pmr::unordered_map<uint32_t, double> rest_{&memory_}; // distances that have been asked for
-    std::pmr::unordered_set<uint32_t> closed_faces_{&memory_}, closed_vertices_{&memory_};
+    NumberMap<Met> faces_, vertices_;
 };
 
 double FaceSearch::rest_from(uint32_t vertex) {
-    const auto [found, is_new] = rest_.try_emplace(vertex, 0);
-    if (is_new) found->second = distances_.at_vertex(vertex);
-    return found->second;
+    double& rest = vertices_[vertex].rest;
+    if (rest == UNKNOWN) rest = distances_.at_vertex(vertex);
+    return rest;
 }
 
-EdgeCrossing FaceSearch::cross_edge(uint32_t a, uint32_t b, const Vector3d& from) {
-    const auto inside = distances_.inside_edge ? distances_.inside_edge(a, b) : std::span<const double>();
-    return geodesic::cross_edge(surface_, a, b, from, rest_from(a), inside, rest_from(b));
+// Unless the face or vertex is closed or will be before this node's turn.
+void FaceSearch::open(double rest, Node&& node) {
+    const double expected = node.length + rest;
+    double& least = met(node.kind, node.item).expected;
+    if (!(expected < least)) return;
+    least = expected;
+    open_.push(expected, std::move(node));
 }
 
 bool FaceSearch::close(const Node& node) {
-    auto& closed = node.kind == Kind::FACE ? closed_faces_ : closed_vertices_;
-    return closed.insert(node.item).second;
+    double& expected = met(node.kind, node.item).expected;
+    if (expected == CLOSED) return false;
+    expected = CLOSED;
+    return true;
+}
+
+void FaceSearch::reach_target(uint32_t index) {
+    const Node& node = open_[index];
+    const double length = node.length + (target_position_ - node.at).norm();
+    open_.push(length, {Kind::TARGET, node.item, {}, target_position_, length, index});
 }
 
 // What the edge that the way came over leads to was reached from the face before, in a shorter way.
 void FaceSearch::leave_face(uint32_t index) {
     const Node node = open_[index];
-    if (targets_.contains(node.item)) {
-        const double length = node.length + (target_position_ - node.at).norm();
-        open_.push(length, {Kind::TARGET, node.item, {}, target_position_, length, index});
-    }
+    if (std::ranges::find(targets_, node.item, &SurfacePoint::face) != targets_.end()) reach_target(index);
     const auto corners = surface_.faces[node.item];
     for (uint32_t k = 0; k < 3; ++k) {
         const auto [a, b] = std::minmax({corners[(k + 1) % 3], corners[(k + 2) % 3]});
         const Portal opposite{a, b};
         const bool is_entry = opposite == node.portal;
         if (is_entry || node.portal.is_vertex()) pass_vertex(index, corners[k]);
-        if (is_entry) continue;
-        const EdgeCrossing crossing = cross_edge(a, b, node.at);
-        if (crossing.rest < UNREACHABLE) cross_to_next(index, opposite, crossing);
+        if (!is_entry) pass_edge(index, opposite);
     }
 }
 
 void FaceSearch::pass_vertex(uint32_t index, uint32_t vertex) {
-    const double rest = rest_from(vertex);
-    if (closed_vertices_.contains(vertex) || !(rest < UNREACHABLE)) return;
     const Vector3d at = surface_.positions[vertex];
     const double length = open_[index].length + (at - open_[index].at).norm();
-    open_.push(length + rest, {Kind::VERTEX, vertex, {}, at, length, index});
+    open(rest_from(vertex), {Kind::VERTEX, vertex, {}, at, length, index});
 }
 
-void FaceSearch::cross_to_next(uint32_t index, const Portal& portal, const EdgeCrossing& crossing) {
-    const Vector3d at = position_at(surface_, portal, crossing.share);
-    const double length = open_[index].length + (at - open_[index].at).norm();
-    for_each_face_beyond(surface_, open_[index].item, portal.a, portal.b, [&](uint32_t face) {
-        if (!closed_faces_.contains(face))
-            open_.push(length + crossing.rest, {Kind::FACE, face, portal, at, length, index});
+void FaceSearch::pass_edge(uint32_t index, const Portal& portal) {
+    const Node node = open_[index];
+    for_each_face_beyond(surface_, node.item, portal.a, portal.b, [&](uint32_t face) {
+        if (faces_[face].expected == CLOSED) return;
+        const EdgeCrossing crossing = cross_edge(portal, node.at);
+        const Vector3d at = position_at(surface_, portal, crossing.share);
+        const double length = node.length + (at - node.at).norm();
+        open(crossing.rest, {Kind::FACE, face, portal, at, length, index});
     });
+}
+
+EdgeCrossing FaceSearch::cross_edge(const Portal& portal, const Vector3d& from) {
+    const auto [a, b] = portal;
+    const auto inside = distances_.inside_edge ? distances_.inside_edge(a, b) : std::span<const double>();
+    return geodesic::cross_edge(surface_, a, b, from, rest_from(a), inside, rest_from(b));
 }
 
 void FaceSearch::leave_vertex(uint32_t index) {
     const Node node = open_[index];
+    const Portal portal{node.item, node.item};
     for (const uint32_t face : surface_.vertex_faces[node.item])
-        if (!closed_faces_.contains(face))
-            open_.push(node.length + rest_from(node.item),
-                       {Kind::FACE, face, {node.item, node.item}, node.at, node.length, index});
+        open(rest_from(node.item), {Kind::FACE, face, portal, node.at, node.length, index});
 }
 
 std::optional<Strip> FaceSearch::run() {
     for (const SurfacePoint& source : sources_)
-        open_.push(0, {Kind::FACE, source.face, {NONE, NONE}, position_of(surface_, source), 0, NONE});
+        open(0, {Kind::FACE, source.face, {NONE, NONE}, position_of(surface_, source), 0, NONE});
     while (!open_.empty()) {
         const uint32_t index = open_.pop();
         const Node& node = open_[index];
@@ -135,7 +153,7 @@ std::optional<Strip> FaceSearch::run() {
 
 Strip FaceSearch::strip_to(uint32_t index) const {
     Strip strip;
-    strip.target = targets_.at(open_[index].item);
+    strip.target = *std::ranges::find(targets_, open_[index].item, &SurfacePoint::face);
     for (uint32_t i = open_[index].before; i != NONE; i = open_[i].before) {
         if (open_[i].kind == Kind::VERTEX) continue;
         strip.faces.push_back(open_[i].item);
@@ -173,7 +191,7 @@ private:
     const std::function<double(uint32_t)>& distance_to_target_;
     const std::function<double(uint32_t, uint32_t)>& edge_length_;
     OpenNodes<Node> open_;
-    std::unordered_set<uint32_t> closed_;
+    NumberMap<bool> is_closed_;
     std::vector<uint32_t> neighbours_;
 };
 
@@ -192,7 +210,7 @@ void EdgeSearch::leave(uint32_t index) {
     neighbours_.clear();
     for (const uint32_t face : surface_.vertex_faces[node.vertex])
         for (const uint32_t other : surface_.faces[face])
-            if (other != node.vertex && !closed_.contains(other)) neighbours_.push_back(other);
+            if (other != node.vertex && !is_closed_[other]) neighbours_.push_back(other);
     std::ranges::sort(neighbours_);
     neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
     for (const uint32_t other : neighbours_)
@@ -212,7 +230,7 @@ std::optional<std::vector<uint32_t>> EdgeSearch::run(std::span<const VertexEnd> 
     while (!open_.empty()) {
         const uint32_t index = open_.pop();
         if (open_[index].vertex == NONE) return vertices_to(index);
-        if (closed_.insert(open_[index].vertex).second) leave(index);
+        if (!std::exchange(is_closed_[open_[index].vertex], true)) leave(index);
     }
     return std::nullopt;
 }
