@@ -42,7 +42,8 @@ private:
     std::optional<Place> beside(const Pass& pass) const;
     PointRange piece_around(const Pass& pass) const;
     PointRange with_next_pieces(PointRange range) const;
-    std::optional<Turn::Fan> other_side(const Pass& pass);
+    std::optional<Place> place_to_pass(const Pass& pass);
+    std::optional<Turn::Fan> other_side(const Pass& pass, const Place& place) const;
     bool take(const Pass& pass, const Turn::Fan& fan, PointRange range);
     std::optional<size_t> try_at(const Pass& pass);
     bool sweep();
@@ -53,7 +54,7 @@ private:
     StripWay other_; // a part of the way on the other side of a vertex
     std::vector<Point> points_;
     NumberMap<double> angles_;            // all around vertices
-    std::unordered_set<uint64_t> failed_; // vertices and the lengths of the parts that were tried
+    std::unordered_set<uint64_t> failed_; // vertices and the rounded lengths of parts, of any way
     size_t tries_ = 0;
 };
 
@@ -123,33 +124,36 @@ PointRange OtherSides::piece_around(const Pass& pass) const {
 PointRange OtherSides::with_next_pieces(PointRange range) const {
     auto& [first, last] = range;
     for (const uint32_t v = points_[first].vertex; first > 0 && points_[first].vertex == v;) --first;
-    while (first > 0 && points_[first].vertex == NONE) --first;
+    if (points_[first].vertex == NONE) first = points_[first].bend_before;
     const size_t end = points_.size() - 1;
     for (const uint32_t v = points_[last].vertex; last < end && points_[last].vertex == v;) ++last;
-    while (last < end && points_[last].vertex == NONE) ++last;
+    if (points_[last].vertex == NONE) last = points_[last].bend_after;
     return range;
 }
 
-// The fan there, if the vertex sees the bends before and after it at an angle of less than pi over that side.
-// Otherwise the path would bend at the vertex, and turn back to where it came from.
-std::optional<Turn::Fan> OtherSides::other_side(const Pass& pass) {
+// Where the vertex is, if it sees the bends before and after it at an angle of less than pi over its other
+// side. Otherwise the path would bend at the vertex, and turn back to where it came from.
+std::optional<Place> OtherSides::place_to_pass(const Pass& pass) {
     const double around = angle_around(pass.vertex);
     if (!(around < 2 * std::numbers::pi)) return std::nullopt;
     const auto place = beside(pass);
-    if (!place || way_.strip.faces[pass.first] == way_.strip.faces[pass.last + 1]) return std::nullopt;
-    const double here = angle_at(*place, piece_around(pass));
-    if (!(around < std::numbers::pi + here)) return std::nullopt;
+    if (!place || !(around < std::numbers::pi + angle_at(*place, piece_around(pass)))) return std::nullopt;
+    return place;
+}
+
+std::optional<Turn::Fan> OtherSides::other_side(const Pass& pass, const Place& place) const {
     const Vector3d at = surface_.positions[pass.vertex], from = points_[pass.first].at - at,
                    to = points_[pass.last + 2].at - at;
-    if (from.isZero(0) || to.isZero(0)) return std::nullopt;
+    const uint32_t first = way_.strip.faces[pass.first], last = way_.strip.faces[pass.last + 1];
+    if (first == last || from.isZero(0) || to.isZero(0)) return std::nullopt;
     Turn turn(surface_, pass.vertex);
     for (size_t i = pass.first; i <= pass.last; ++i) {
         const Portal& portal = way_.strip.portals[i];
         turn.forbid(portal.a == pass.vertex ? portal.b : portal.a);
     }
-    const double near = angle_at(*place, {pass.first, pass.last + 2});
-    return turn.below(std::numbers::pi + here - near, way_.strip.faces[pass.first], from,
-                      way_.strip.faces[pass.last + 1], to);
+    const double here = angle_at(place, piece_around(pass)),
+                 near = angle_at(place, {pass.first, pass.last + 2});
+    return turn.below(std::numbers::pi + here - near, first, from, last, to);
 }
 
 bool OtherSides::take(const Pass& pass, const Turn::Fan& fan, PointRange range) {
@@ -167,11 +171,14 @@ bool OtherSides::take(const Pass& pass, const Turn::Fan& fan, PointRange range) 
 
 // Between the bends, and one farther, since a bend may go. Gives the first portal of the part if it helped.
 std::optional<size_t> OtherSides::try_at(const Pass& pass) {
-    const auto fan = other_side(pass);
-    if (!fan) return std::nullopt;
+    const auto place = place_to_pass(pass);
+    if (!place) return std::nullopt;
     const PointRange range = with_next_pieces(piece_around(pass));
-    const uint64_t key = std::bit_cast<uint64_t>(length(range)) ^ (uint64_t{pass.vertex} << 32);
+    const auto rounded = static_cast<float>(length(range));
+    const uint64_t key = (uint64_t{pass.vertex} << 32) | std::bit_cast<uint32_t>(rounded);
     if (failed_.contains(key)) return std::nullopt;
+    const auto fan = other_side(pass, *place);
+    if (!fan) return std::nullopt;
     ++tries_;
     if (take(pass, *fan, range)) return range.first;
     failed_.insert(key);
@@ -197,7 +204,6 @@ void OtherSides::run(StripWay& way) {
     constexpr int MOST_SWEEPS = 4;
     std::swap(way, way_);
     tries_ = 0;
-    failed_.clear();
     measure();
     for (int i = 0; i < MOST_SWEEPS && sweep(); ++i) {
     }

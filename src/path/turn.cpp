@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 uint32_t Turn::spoke_of(uint32_t vertex) {
     const auto found = std::ranges::find(spokes_, vertex, &Spoke::vertex);
     if (found == spokes_.end()) {
-        spokes_.push_back({vertex});
+        spokes_.push_back({vertex, surface_.positions[vertex] - surface_.positions[vertex_]});
         return static_cast<uint32_t>(spokes_.size() - 1);
     }
     return static_cast<uint32_t>(found - spokes_.begin());
@@ -66,12 +66,12 @@ Turn::Fan Turn::fan_to(uint32_t spoke) const {
 std::optional<Turn::Fan> Turn::below(double limit, uint32_t from_face, const Vector3d& from, uint32_t to_face,
                                      const Vector3d& to) {
     for (const uint32_t s : sector_of(from_face).spokes)
-        spokes_[s].angle = std::min(spokes_[s].angle, angle_between(from, direction(spokes_[s].vertex)));
+        spokes_[s].angle = std::min(spokes_[s].angle, angle_between(from, spokes_[s].direction));
     uint32_t best = NONE;
     const auto ends = sector_of(to_face).spokes;
     for (uint32_t s; (s = nearest_spoke(limit)) != NONE; spread(s, from_face, to_face)) {
         if (s != ends[0] && s != ends[1]) continue;
-        const double angle = spokes_[s].angle + angle_between(to, direction(spokes_[s].vertex));
+        const double angle = spokes_[s].angle + angle_between(to, spokes_[s].direction);
         if (!(angle < limit)) continue;
         limit = angle;
         best = s;

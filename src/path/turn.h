@@ -39,6 +39,7 @@ public:
 private:
     struct Spoke {
         uint32_t vertex;
+        Eigen::Vector3d direction;  // to its other end
         double angle = UNREACHABLE; // from the first direction
         uint32_t before = NONE, face = NONE;
         bool is_done = false, is_forbidden = false;
@@ -48,15 +49,12 @@ private:
         std::array<uint32_t, 2> spokes;
     };
 
-    Eigen::Vector3d direction(uint32_t vertex) const {
-        return surface_.positions[vertex] - surface_.positions[vertex_];
-    }
     void add_face(uint32_t face);
     uint32_t spoke_of(uint32_t vertex);
     const Sector& sector_of(uint32_t face) const { return *std::ranges::find(sectors_, face, &Sector::face); }
     double angle_of(const Sector& sector) const {
         const auto [a, b] = sector.spokes;
-        return angle_between(direction(spokes_[a].vertex), direction(spokes_[b].vertex));
+        return angle_between(spokes_[a].direction, spokes_[b].direction);
     }
     uint32_t nearest_spoke(double limit) const;
     void spread(uint32_t spoke, uint32_t from_face, uint32_t to_face);
