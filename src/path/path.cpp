@@ -48,7 +48,8 @@ private:
         return end_distance(index_, query_, surface_, end, vertex);
     }
     TargetDistances distances_from(size_t end) {
-        return {[this, end](uint32_t vertex) { return distance(end, vertex); }, {}};
+        constexpr double ERROR = 0.005; // of most distances of most indexes
+        return {[this, end](uint32_t vertex) { return distance(end, vertex); }, {}, ERROR};
     }
     std::optional<StripWay> led_by(size_t end);
     double least_distance(double distance) const;
@@ -84,20 +85,23 @@ std::optional<StripWay> PathFinder::led_by(size_t end) {
     return StripWay{std::move(*strip), std::move(path)};
 }
 
-// The errors of the two fields may lead to different ways around a bump.
+// The errors of the two fields may lead to different ways around a bump. The longer one is given up where it
+// is no other, or longer by more than other sides of vertices make up for, but for few paths.
 StripWay PathFinder::find_straight() {
-    constexpr double SAME = 1e-9; // lengths of one way, as a share
+    constexpr double SAME = 1e-9;        // as a share of the length
+    constexpr double MADE_UP_FOR = 0.02; // as a share of an edge
+    const auto length = [](const StripWay& way) { return way.path.length; };
     query_.prepare_end(1, points_.face_point_of(target_));
     query_.prepare_end(0, points_.face_point_of(source_));
     std::vector<StripWay> ways;
     for (const size_t end : {size_t{1}, size_t{0}})
         if (auto way = led_by(end)) ways.push_back(std::move(*way));
     if (ways.empty()) no_path();
-    if (std::abs(ways.front().path.length - ways.back().path.length) <= SAME * ways.front().path.length)
-        ways.resize(1);
+    std::ranges::sort(ways, {}, length);
+    const double longer = length(ways.back()) - length(ways.front());
+    if (longer <= SAME * length(ways.front()) || longer > MADE_UP_FOR * surface_.average_edge) ways.resize(1);
     try_other_sides(surface_, ways);
-    return std::move(
-        *std::ranges::min_element(ways, {}, [](const StripWay& way) { return way.path.length; }));
+    return std::move(*std::ranges::min_element(ways, {}, length));
 }
 
 SurfacePath PathFinder::find(PathQuality quality) {

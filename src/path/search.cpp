@@ -71,7 +71,7 @@ double FaceSearch::rest_from(uint32_t vertex) {
 
 // Unless the face or vertex is closed or will be before this node's turn.
 void FaceSearch::open(double rest, Node&& node) {
-    const double expected = node.length + rest;
+    const double expected = node.length + rest * (1 + distances_.error);
     double& least = met(node.kind, node.item).expected;
     if (!(expected < least)) return;
     least = expected;

@@ -13,6 +13,8 @@ struct TargetDistances {
     // Distances of evenly spaced points inside of an edge, from the vertex with the smaller number to the
     // other; empty where none are known.
     std::function<std::span<const double>(uint32_t, uint32_t)> inside_edge;
+    // As a share, how far they may be off: ways that lead on are followed unless others seem shorter by more.
+    double error = 0;
 };
 
 // A strip from one point to another: A* over faces, each entered at a point of an edge, and over vertices. A
