@@ -10,7 +10,7 @@
 namespace geodesic {
 
 // The part of a border between the samples whose value is at most `limit`: along each chain, from the sample
-// before such samples to the one after them. The whole border if there is none.
+// before such samples to the one after them. The whole border, which must not be empty, if there is none.
 BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<const float> values, float limit);
 
 // A sample, those beside it (see neighbouring_samples), and the lengths of the ways over these: infinite

@@ -35,19 +35,20 @@ Reached reached_of(std::span<const float> distances) {
     return {static_cast<uint32_t>(first), static_cast<uint32_t>(behind - 1)};
 }
 
-// A part of a border that is crossed from, what a hop reads around it, and the distances of its places.
+// A part of a border that is crossed from, which is not empty, what a hop reads around it, and the distances
+// of its places.
 struct CrossedPart {
     CrossedPart(const OverlayIndex& index, uint32_t of_patch, const BorderPart& crossed, const float* known)
         : patch(of_patch), ring(index.rings.begin[of_patch]), part(crossed),
           read(part_read(index, of_patch, crossed)), first_read(read.ranges().front()), distances(known) {}
 
-    // Winners are places, counted from the first one of the ring. The kernel tells the index in what is read,
-    // or NO_PLACE.
+    // Winners are places of the part, counted from the first one of the ring, also where there is no way. The
+    // kernel tells the index in what is read, or NO_PLACE.
     uint16_t winner(uint32_t place) const { return static_cast<uint16_t>(place - ring); }
     uint16_t winner_of_kernel(uint16_t in_read) const {
         if (in_read < first_read.size()) [[likely]]
             return winner(first_read.first + in_read);
-        return in_read == BorderFromSource::NO_PLACE ? 0 : winner(read.place(in_read));
+        return winner(in_read == BorderFromSource::NO_PLACE ? part.place(0) : read.place(in_read));
     }
 
     uint32_t patch, ring; // and the first place of its ring
@@ -62,7 +63,7 @@ struct CrossedPart {
 std::pair<float, uint32_t> go_along(const OverlayIndex& index, const CrossedPart& crossed, Reached reached,
                                     uint32_t overlay_position) {
     const uint32_t parent = index.numbering.parent[crossed.patch];
-    std::pair<float, uint32_t> least{INFINITE, crossed.part.ranges().front().first};
+    std::pair<float, uint32_t> least{INFINITE, crossed.part.place(0)};
     if (reached.last < reached.first) return least;
     for (const uint32_t end : {reached.first, reached.last}) {
         const uint32_t place = crossed.part.place(end);
@@ -111,7 +112,7 @@ void keep_common(const OverlayIndex& index, const CrossedPart& from, const Borde
             keep(i, from.distances[at.index], at.place);
             has_common = has_common || from.distances[at.index] < INFINITE;
         } else {
-            keep(i, INFINITE, from.ring);
+            keep(i, INFINITE, from.part.place(0));
             crossing.beside.push_back(i);
         }
         ++i;

@@ -28,7 +28,7 @@ constexpr size_t MOST_NEAR_PAIRS = size_t{1} << 16;
 // Distances over samples come from rounded codes: they may be too short by less than this share.
 constexpr float SAMPLES_ROUNDING = 1e-3f;
 
-// Ranges are moved along with the way at most this many times.
+// Parts are moved along with the way at most this many times.
 constexpr int MOST_MOVES = 8;
 
 // Whether a border has segments, and consists of several chains with fewer than PLACES_OF_SHORT_CHAIN places
