@@ -110,9 +110,10 @@ size_t Straightening::replace_part(StripWay& way, PointRange range, const StripW
     }
     replace(path.shares, portals, part.path.shares);
     path.length += part.path.length - length_before;
-    for (size_t i = range.first > 0 ? range.first - 1 : 0; i < std::min(end + 1, count); ++i)
-        if (const uint32_t vertex = vertex_of(way, i); vertex != NONE) is_straight_[vertex] = false;
-    return first_portal_at(way, range.first);
+    const size_t first = first_portal_at(way, range.first);
+    for (size_t i = first; i < std::min(end + 1, count); ++i)
+        if (vertex_of(way, i) != NONE) is_straight_[strip.faces[i]] = false;
+    return first;
 }
 
 void Straightening::turn_bends(StripWay& way) {
@@ -120,7 +121,7 @@ void Straightening::turn_bends(StripWay& way) {
     size_t next = 0;
     while (const auto pass = next_pass(way, next)) {
         next = pass->last + 1;
-        if (std::exchange(is_straight_[pass->vertex], true)) continue;
+        if (std::exchange(is_straight_[way.strip.faces[pass->first]], true)) continue;
         if (const auto first = turn(way, *pass)) next = *first;
     }
 }

@@ -44,8 +44,10 @@ private:
 
     const Surface& surface_;
     TightPaths tight_paths_;
-    StripWay part_;               // that a turn changes
-    NumberMap<bool> is_straight_; // per vertex: whether no turn helps as long as the path there stays
+    StripWay part_; // that a turn changes
+    // Per face before a bend, which tells two passes of one vertex apart: whether no turn helps there as long
+    // as the path stays.
+    NumberMap<bool> is_straight_;
 };
 
 // The same for one strip. Gives its path.
