@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,44 +16,44 @@ class NumberMap {
 public:
     // The value of a number, T{} at first. The next number that is new moves it.
     T& operator[](uint32_t number) {
-        if (2 * (count_ + 1) > slots_.size()) grow();
-        Slot& slot = slot_of(number);
-        if (slot.number == NONE) {
-            slot.number = number;
+        if (2 * (count_ + 1) > cells_.size()) grow();
+        Cell& cell = cell_of(number);
+        if (cell.number == NONE) {
+            cell.number = number;
             ++count_;
         }
-        return slot.value;
+        return cell.value;
     }
 
     void clear() {
-        slots_.assign(slots_.size(), {});
+        cells_.assign(cells_.size(), {});
         count_ = 0;
     }
 
 private:
-    static constexpr size_t FEWEST_SLOTS = 64;
-    struct Slot {
+    static constexpr size_t FEWEST_CELLS = 64;
+    struct Cell {
         uint32_t number = NONE;
         T value{};
     };
 
-    // The slot with the number, or the one where it belongs.
-    Slot& slot_of(uint32_t number) {
+    // The cell with the number, or the one where it belongs.
+    Cell& cell_of(uint32_t number) {
         constexpr uint32_t GOLDEN = 0x9e3779b9; // spreads numbers that are close to each other
         size_t i = (number * GOLDEN) >> shift_;
-        while (slots_[i].number != number && slots_[i].number != NONE) i = (i + 1) & (slots_.size() - 1);
-        return slots_[i];
+        while (cells_[i].number != number && cells_[i].number != NONE) i = (i + 1) & (cells_.size() - 1);
+        return cells_[i];
     }
 
     void grow() {
-        std::vector<Slot> old(slots_.empty() ? FEWEST_SLOTS : 2 * slots_.size());
-        old.swap(slots_);
-        shift_ = 32 - std::countr_zero(slots_.size());
-        for (Slot& slot : old)
-            if (slot.number != NONE) slot_of(slot.number) = slot;
+        std::vector<Cell> old(cells_.empty() ? FEWEST_CELLS : 2 * cells_.size());
+        old.swap(cells_);
+        shift_ = 32 - std::countr_zero(cells_.size());
+        for (Cell& cell : old)
+            if (cell.number != NONE) cell_of(cell.number) = cell;
     }
 
-    std::vector<Slot> slots_; // a power of two, at least half of them without a number
+    std::vector<Cell> cells_; // a power of two, at least half of them without a number
     size_t count_ = 0;
     int shift_ = 0;
 };

@@ -86,7 +86,7 @@ std::optional<StripWay> PathFinder::led_by(size_t end) {
 }
 
 // The errors of the two fields may lead to different ways around a bump. The longer one is given up where it
-// is no other, or longer by more than other sides of vertices make up for, but for few paths.
+// is the same way, or longer by more than other sides of vertices nearly ever make up for.
 StripWay PathFinder::find_straight() {
     constexpr double SAME = 1e-9;        // as a share of the length
     constexpr double MADE_UP_FOR = 0.02; // as a share of an edge

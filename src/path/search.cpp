@@ -1,11 +1,12 @@
 #include "src/path/search.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "src/base/number_map.h"
 #include "src/path/edge_crossing.h"
 #include "src/path/nearby.h"
 #include "src/path/open_nodes.h"
-#include <algorithm>
-#include <utility>
 
 namespace geodesic {
 
@@ -40,8 +41,8 @@ private:
         double expected = UNREACHABLE; // the least length in all over nodes that are open there
         double rest = UNKNOWN;
     };
-    static constexpr double UNKNOWN = -1,
-                            CLOSED = -UNREACHABLE; // CLOSED is expected where nodes are too late
+    static constexpr double UNKNOWN = -1;
+    static constexpr double CLOSED = -UNREACHABLE; // expected where no node is opened any more
 
     Met& met(Kind kind, uint32_t item) { return kind == Kind::FACE ? faces_[item] : vertices_[item]; }
     double rest_from(uint32_t vertex);

@@ -1,10 +1,10 @@
 #include "src/path/sides.h"
 
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <unordered_set>
+#include <set>
+#include <tuple>
 
 #include "src/base/number_map.h"
 #include "src/mesh/angle.h"
@@ -53,8 +53,9 @@ private:
     Straightening straightening_;
     StripWay other_; // a part of the way on the other side of a vertex
     std::vector<Point> points_;
-    NumberMap<double> angles_;            // all around vertices
-    std::unordered_set<uint64_t> failed_; // vertices and the rounded lengths of parts, of any way
+    NumberMap<double> angles_; // all around vertices
+    // What did not help, of any way: the vertex and the face before it, and the length of the part.
+    std::set<std::tuple<uint32_t, uint32_t, double>> failed_;
     size_t tries_ = 0;
 };
 
@@ -174,8 +175,8 @@ std::optional<size_t> OtherSides::try_at(const Pass& pass) {
     const auto place = place_to_pass(pass);
     if (!place) return std::nullopt;
     const PointRange range = with_next_pieces(piece_around(pass));
-    const auto rounded = static_cast<float>(length(range));
-    const uint64_t key = (uint64_t{pass.vertex} << 32) | std::bit_cast<uint32_t>(rounded);
+    const double rounded = double{static_cast<float>(length(range))};
+    const std::tuple key(pass.vertex, way_.strip.faces[pass.first], rounded);
     if (failed_.contains(key)) return std::nullopt;
     const auto fan = other_side(pass, *place);
     if (!fan) return std::nullopt;
