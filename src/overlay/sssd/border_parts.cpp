@@ -14,9 +14,9 @@ BorderRange with_repeated(const Rings::Chain& chain) {
     return {chain.first - Rings::REACH, chain.last + Rings::REACH};
 }
 
-// So many places on each side of one: around a closed chain, and otherwise as far as the ring goes.
-BorderPart part_about(const OverlayIndex& index, uint32_t patch, uint32_t place, uint32_t each_side) {
-    const uint32_t own = own_place(index.rings, index.numbering, patch, index.rings.position[place]);
+// So many places on each side of a vertex's own: around a closed chain, and otherwise as far as the ring
+// goes.
+BorderPart part_about(const OverlayIndex& index, uint32_t patch, uint32_t own, uint32_t each_side) {
     const BorderRange whole = whole_border(index.rings, patch);
     const BorderRange about{own - std::min(each_side, own - whole.first),
                             own + std::min(each_side, whole.last - own)};
@@ -53,7 +53,8 @@ BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<cons
     return part.size() > 0 ? part : BorderPart(whole_border(index.rings, patch));
 }
 
-// A parabola through the three lengths has its lowest point where the shortest way is expected.
+// A parabola through the three lengths has its lowest point where the shortest way is expected. Between two
+// samples of a chain all places are own ones.
 BorderPart part_near(const OverlayIndex& index, uint32_t patch, const WaysNearSample& ways) {
     const auto places = index.pairs.samples.of(patch);
     const auto [sample, beside, over_previous, over_sample, over_next] = ways;
@@ -74,8 +75,9 @@ BorderPart part_beside(const OverlayIndex& index, uint32_t patch, const BorderPa
         return place >= range.first + Rings::REACH && place + Rings::REACH <= range.last;
     };
     if (std::ranges::any_of(part.ranges(), is_well_inside)) return part;
-    if (part.covers(part_about(index, patch, place, Rings::REACH))) return part;
-    return part_about(index, patch, place, std::max(EACH_SIDE, part.size() / 2));
+    const uint32_t own = own_place(index.rings, index.numbering, patch, index.rings.position[place]);
+    if (part.covers(part_about(index, patch, own, Rings::REACH))) return part;
+    return part_about(index, patch, own, std::max(EACH_SIDE, part.size() / 2));
 }
 
 }

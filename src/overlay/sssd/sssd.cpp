@@ -23,7 +23,7 @@ constexpr size_t FEW_PAIRS_OF_CHAINS = size_t{1} << 20, PLACES_OF_SHORT_CHAIN = 
 constexpr float NEAR_SPACINGS = 14;
 
 // Unless these are more pairs of places than that, which would take too long.
-constexpr size_t MOST_NEAR_PAIRS = size_t{1} << 16;
+constexpr size_t MOST_NEAR_PAIRS = size_t{1} << 15;
 
 // Distances over samples come from rounded codes: they may be too short by less than this share.
 constexpr float SAMPLES_ROUNDING = 1e-3f;
