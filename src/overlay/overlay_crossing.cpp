@@ -38,24 +38,20 @@ std::span<float> OverlayCrossing::begin(uint32_t patch, const BorderPart& part, 
 }
 
 void OverlayCrossing::cross_to_ring(Columns places, float* distances, uint16_t* winners) {
-    if (places.empty()) return;
-    const uint16_t** row = rows_.data();
-    part_.for_each_place([&](uint32_t place) {
-        *row++ = index_.row_to_ring(parent_, index_.position_in_parent(patch_, place));
-    });
-    cross(places, distances, winners);
+    cross([&](uint32_t position) { return index_.row_to_ring(parent_, position); }, places, distances,
+          winners);
 }
 
 void OverlayCrossing::cross_to_owned(Columns owned, float* distances, uint16_t* winners) {
-    if (owned.empty()) return;
-    const uint16_t** row = rows_.data();
-    part_.for_each_place([&](uint32_t place) {
-        *row++ = index_.row_to_owned(parent_, index_.position_in_parent(patch_, place));
-    });
-    cross(owned, distances, winners);
+    cross([&](uint32_t position) { return index_.row_to_owned(parent_, position); }, owned, distances,
+          winners);
 }
 
-void OverlayCrossing::cross(Columns columns, float* distances, uint16_t* winners) {
+template <class RowAt>
+void OverlayCrossing::cross(const RowAt& row_at, Columns columns, float* distances, uint16_t* winners) {
+    if (columns.empty()) return;
+    const uint16_t** row = rows_.data();
+    part_.for_each_place([&](uint32_t place) { *row++ = row_at(index_.position_in_parent(patch_, place)); });
     field_.cross(rows_, columns, distances, winners);
     if (field_.is_near()) cross_near(columns, distances);
 }

@@ -33,7 +33,9 @@ public:
 private:
     std::span<float> begin(uint32_t patch, const BorderPart& part, const RingSegments& segments,
                            const int32_t* is_own);
-    void cross(Columns columns, float* distances, uint16_t* winners);
+    // row_at(position) is the row of the vertex at a position of the parent's overlay.
+    template <class RowAt>
+    void cross(const RowAt& row_at, Columns columns, float* distances, uint16_t* winners);
     void cross_near(Columns columns, float* distances);
     void cross_near_block(Columns columns, size_t first, float* distances) const;
     void cross_near_row(uint32_t column, float& distance);

@@ -51,6 +51,10 @@ struct Rings {
     std::span<const Chain> chains_of(uint32_t patch) const {
         return {chains.data() + chain_begin[patch], chains.data() + chain_begin[patch + 1]};
     }
+    // The chain of a patch's border that has an own place, counted over all rings.
+    const Chain& chain_at(uint32_t patch, uint32_t own) const {
+        return *std::ranges::lower_bound(chains_of(patch), own, {}, &Chain::last);
+    }
     uint32_t largest_size() const {
         uint32_t largest = 0;
         for (size_t p = 0; p + 1 < begin.size(); ++p) largest = std::max(largest, begin[p + 1] - begin[p]);

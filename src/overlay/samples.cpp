@@ -267,9 +267,8 @@ void RowsAcross::fill(uint32_t sibling, uint16_t from, uint16_t* row) const {
 
 NeighbouringSamples neighbouring_samples(const OverlayIndex& index, uint32_t patch, uint32_t sample) {
     const auto places = index.pairs.samples.of(patch);
-    const uint32_t ring = index.rings.begin[patch], place = ring + places[sample];
-    const auto chain =
-        *std::ranges::lower_bound(index.rings.chains_of(patch), place, {}, &Rings::Chain::last);
+    const uint32_t ring = index.rings.begin[patch];
+    const Rings::Chain& chain = index.rings.chain_at(patch, ring + places[sample]);
     NeighbouringSamples beside{NONE, NONE};
     if (sample > 0 && ring + places[sample - 1] >= chain.first) beside.previous = sample - 1;
     if (sample + 1 < places.size() && ring + places[sample + 1] <= chain.last) beside.next = sample + 1;

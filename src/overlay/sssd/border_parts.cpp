@@ -20,7 +20,7 @@ BorderPart part_about(const OverlayIndex& index, uint32_t patch, uint32_t own, u
     const BorderRange whole = whole_border(index.rings, patch);
     const BorderRange about{own - std::min(each_side, own - whole.first),
                             own + std::min(each_side, whole.last - own)};
-    const auto chain = *std::ranges::lower_bound(index.rings.chains_of(patch), own, {}, &Rings::Chain::last);
+    const Rings::Chain& chain = index.rings.chain_at(patch, own);
     const uint32_t before = own - chain.first, behind = chain.last - own;
     if (!chain.is_closed || (before >= each_side && behind >= each_side)) return BorderPart(about);
     const BorderRange all = with_repeated(chain);
