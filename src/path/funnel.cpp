@@ -103,12 +103,6 @@ double share(const Gate& gate, const Portal& portal, const Funnel::Point& before
     return gate.right_vertex == portal.a ? from_right : 1 - from_right;
 }
 
-SurfacePoint at_vertex(const Surface& surface, uint32_t face, uint32_t vertex) {
-    SurfacePoint point{face, {}};
-    point.weights[corner_of(surface, face, vertex)] = 1;
-    return point;
-}
-
 }
 
 void Funnel::begin(const Vector2d& source, size_t count) {
@@ -165,14 +159,14 @@ void TightPaths::pull_tight(const Strip& strip, StripPath& path) {
         const bool is_end = part.last == strip.portals.size();
         if (!is_end && !strip.portals[part.last].is_vertex()) continue;
         const uint32_t vertex = is_end ? NONE : strip.portals[part.last].a;
-        part.to = is_end ? strip.target : at_vertex(surface_, strip.faces[part.last], vertex);
+        part.to = is_end ? strip.target : corner_point(surface_, strip.faces[part.last], vertex);
         unfold(strip, part);
         find_bends();
         add_shares(std::span(strip.portals).subspan(part.first, part.last - part.first), path.shares);
         if (is_end) break;
         path.shares.push_back(0);
         part.first = part.last + 1;
-        part.from = at_vertex(surface_, strip.faces[part.first], vertex);
+        part.from = corner_point(surface_, strip.faces[part.first], vertex);
     }
     path.length = length_of(surface_, strip, path.shares);
 }

@@ -30,12 +30,8 @@ void for_each_alias(const Surface& surface, const SurfacePoint& point, const Use
     for (size_t k = 0; k < 3; ++k) {
         const auto& corners = surface.faces[point.face];
         if (point.weights[k] == 1) {
-            for (const uint32_t face : surface.vertex_faces[corners[k]]) {
-                if (face == point.face) continue;
-                SurfacePoint alias{face, {}};
-                alias.weights[corner_of(surface, face, corners[k])] = 1;
-                use(alias);
-            }
+            for (const uint32_t face : surface.vertex_faces[corners[k]])
+                if (face != point.face) use(corner_point(surface, face, corners[k]));
             return;
         }
     }

@@ -50,9 +50,7 @@ float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target)
 void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
                                   std::vector<Query::KnownWay>& known) const {
     const auto add = [&](const SurfacePoint& from, uint32_t vertex, uint32_t face) {
-        SurfacePoint at{face, {}};
-        at.weights[corner_of(surface_, face, vertex)] = 1;
-        const double way = straight_nearby(surface_, from, at);
+        const double way = straight_nearby(surface_, from, corner_point(surface_, face, vertex));
         if (way < UNREACHABLE && number_of(vertex) != NONE)
             known.push_back({position, number_of(vertex), offset + static_cast<float>(way)});
     };

@@ -43,9 +43,7 @@ SurfacePoint point_at_vertex(const Surface& surface, uint32_t vertex) {
     const auto around = surface.vertex_faces[vertex];
     const uint32_t first =
         *std::ranges::min_element(around, {}, [&](uint32_t face) { return surface.triangle_of_face[face]; });
-    SurfacePoint point{first, {}};
-    point.weights[corner_of(surface, first, vertex)] = 1;
-    return point;
+    return corner_point(surface, first, vertex);
 }
 
 }

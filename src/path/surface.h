@@ -51,6 +51,13 @@ inline uint32_t corner_of(const Surface& surface, uint32_t face, uint32_t vertex
     return NONE;
 }
 
+// A vertex as a point of one of its faces.
+inline SurfacePoint corner_point(const Surface& surface, uint32_t face, uint32_t vertex) {
+    SurfacePoint point{face, {}};
+    point.weights[corner_of(surface, face, vertex)] = 1;
+    return point;
+}
+
 // The corner of the face around a vertex that is the first one of the caller's.
 SurfacePoint point_at_vertex(const Surface& surface, uint32_t vertex);
 
