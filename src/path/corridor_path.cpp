@@ -184,8 +184,7 @@ bool CorridorPath::is_shortest(const StripPath& path) const {
 // Takes a strip of the corridor if its path is shorter.
 void CorridorPath::try_strip(Strip&& found, Strip& strip, StripPath& path) const {
     take_to_surface(found);
-    StripPath shorter = straighten(whole_, found);
-    StripWay way{std::move(found), std::move(shorter)};
+    StripWay way = straighten(whole_, std::move(found));
     try_other_sides(whole_, {&way, 1});
     if (!(way.path.length < path.length)) return;
     strip = std::move(way.strip);

@@ -54,7 +54,7 @@ void go_on_from(const Surface& surface, const StripPlace& place, StripWay& left)
     if (is_on_path)
         path.length = length_of(surface, strip, path.shares);
     else
-        path = straighten(surface, strip);
+        left = straighten(surface, std::move(strip));
 }
 
 // The first piece of the path that is longer than 0: several portals may lie where it begins.

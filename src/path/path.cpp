@@ -81,8 +81,7 @@ std::optional<StripWay> PathFinder::led_by(size_t end) {
                           : search_strip(surface_, target_, source_, distances);
     if (!strip) return std::nullopt;
     if (end == 0) turn_back(*strip);
-    StripPath path = straighten(surface_, *strip);
-    return StripWay{std::move(*strip), std::move(path)};
+    return straighten(surface_, std::move(*strip));
 }
 
 // The errors of the two fields may lead to different ways around a bump. The longer one is given up where it

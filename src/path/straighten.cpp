@@ -131,11 +131,10 @@ void Straightening::straighten(StripWay& way) {
     turn_bends(way);
 }
 
-StripPath straighten(const Surface& surface, Strip& strip) {
+StripWay straighten(const Surface& surface, Strip&& strip) {
     StripWay way{std::move(strip), {}};
     Straightening(surface).straighten(way);
-    strip = std::move(way.strip);
-    return std::move(way.path);
+    return way;
 }
 
 }

@@ -50,7 +50,7 @@ private:
     NumberMap<bool> is_straight_;
 };
 
-// The same for one strip. Gives its path.
-StripPath straighten(const Surface& surface, Strip& strip);
+// The same for one strip.
+StripWay straighten(const Surface& surface, Strip&& strip);
 
 }

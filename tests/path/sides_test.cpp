@@ -55,9 +55,9 @@ TEST_CASE("sides: the shorter way around a cone, from the longer one") {
     auto strip = search_strip(surface, point_of(surface, vertex_of(0, RING)),
                               point_of(surface, vertex_of(TARGET_RAY, RING)), distances);
     REQUIRE(strip);
-    StripPath path = straighten(surface, *strip);
-    CHECK(path.length == doctest::Approx(across((RAYS - TARGET_RAY) * facet, radius, radius)).epsilon(1e-9));
-    StripWay way{std::move(*strip), std::move(path)};
+    StripWay way = straighten(surface, std::move(*strip));
+    CHECK(way.path.length ==
+          doctest::Approx(across((RAYS - TARGET_RAY) * facet, radius, radius)).epsilon(1e-9));
     try_other_sides(surface, {&way, 1});
     CHECK(way.path.length == doctest::Approx(across(TARGET_RAY * facet, radius, radius)).epsilon(1e-9));
     CHECK(way.path.length == doctest::Approx(length_of(surface, way.strip, way.path.shares)).epsilon(1e-12));
