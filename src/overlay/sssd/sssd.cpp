@@ -13,10 +13,14 @@ namespace geodesic {
 
 namespace {
 
+// Of a path that crosses several borders, all hops together may look at so many pairs of places instead of
+// FEW_PAIRS: ways over samples take more time then, too, and lose more.
+constexpr size_t FEW_PAIRS_OF_HOPS = 3 * FEW_PAIRS;
+
 // In a border of many short chains, as patches of a lattice of tubes have, places that are near in space are
-// far apart in the ring, so that a range of places would miss them. It is crossed as a whole up to this many
-// pairs.
-constexpr size_t FEW_PAIRS_OF_CHAINS = size_t{1} << 20, PLACES_OF_SHORT_CHAIN = 48;
+// far apart in the ring, so that a range of places would miss them. It is crossed as a whole even where that
+// takes long: so many of its pairs count as one.
+constexpr size_t PAIRS_OF_CHAINS_AS_ONE = 128, PLACES_OF_SHORT_CHAIN = 48;
 
 // Of ways no longer than so many spacings of samples, the shortest one need not be the shortest over samples:
 // these make each longer by a share of a spacing. Everything that such a way can cross is measured.
@@ -39,12 +43,18 @@ bool has_short_chains(const OverlayIndex& index, uint32_t patch) {
            index.longest_segment[patch] > 0;
 }
 
-// Whether the whole of one border may be crossed to the whole of the other.
-bool have_few_pairs(const OverlayIndex& index, uint32_t first, uint32_t second) {
-    const bool have_short_chains = has_short_chains(index, first) || has_short_chains(index, second);
-    return size_t{index.rings.size(first)} * index.rings.size(second) <=
-           (have_short_chains ? FEW_PAIRS_OF_CHAINS : FEW_PAIRS);
-}
+// What hops from all of a border to all of the next one look at.
+struct WholeHops {
+    size_t hops = 0, pairs = 0;
+
+    void add(const OverlayIndex& index, uint32_t first, uint32_t second) {
+        const bool have_short_chains = has_short_chains(index, first) || has_short_chains(index, second);
+        ++hops;
+        pairs += size_t{index.rings.size(first)} * index.rings.size(second) /
+                 (have_short_chains ? PAIRS_OF_CHAINS_AS_ONE : 1);
+    }
+    bool are_few() const { return pairs <= (hops > 1 ? FEW_PAIRS_OF_HOPS : FEW_PAIRS); }
+};
 
 // Returns the lowest patch that two patches lie in. A parent has a smaller number than its children.
 uint32_t lowest_common_patch(const Numbering& numbering, uint32_t a, uint32_t b) {
@@ -82,13 +92,6 @@ void OverlaySssd::End::climb(const OverlayIndex& index, const PathEnd& of, uint3
         geodesic::climb(index, of.vertex, top, ascent);
     measured.begin();
     if (!is_at_top()) prefetch(ascent.first_row.codes, index.rings.size(ascent.patches.front()));
-}
-
-// Whether the borders of the ascent are so short that all of each may be crossed.
-bool OverlaySssd::End::has_few_pairs(const OverlayIndex& index) const {
-    for (size_t b = 1; b < ascent.patches.size(); ++b)
-        if (!have_few_pairs(index, ascent.patches[b - 1], ascent.patches[b])) return false;
-    return true;
 }
 
 // Whether any border of the ascent has segments.
@@ -266,8 +269,12 @@ bool OverlaySssd::take_parts_within(float length) {
 
 // Whether all borders may be crossed as a whole.
 bool OverlaySssd::has_few_pairs() const {
-    return to_.has_few_pairs(index_) && from_.has_few_pairs(index_) &&
-           (from_.is_at_top() || have_few_pairs(index_, from_.ascent.last_patch(), meeting_patch()));
+    WholeHops hops;
+    for (const End* end : {&from_, &to_})
+        for (size_t b = 1; b < end->ascent.patches.size(); ++b)
+            hops.add(index_, end->ascent.patches[b - 1], end->ascent.patches[b]);
+    if (!from_.is_at_top()) hops.add(index_, from_.ascent.last_patch(), meeting_patch());
+    return hops.are_few();
 }
 
 // Returns the distance of `from_`, which is at the top, from the vertex at a place of the meeting border.

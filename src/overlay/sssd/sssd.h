@@ -38,7 +38,6 @@ private:
         void climb(const OverlayIndex& index, const PathEnd& of, uint32_t top);
         // Whether the end lies inside of the patch where the ends meet, and on no border inside of that.
         bool is_at_top() const { return ascent.patches.empty(); }
-        bool has_few_pairs(const OverlayIndex& index) const;
         bool crosses_segments(const OverlayIndex& index) const;
         bool take_whole_borders(const OverlayIndex& index);
         void take_parts(const OverlayIndex& index, uint32_t sample, const BorderPart& last_part);
