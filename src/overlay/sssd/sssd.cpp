@@ -147,18 +147,6 @@ size_t OverlaySssd::End::pairs_between_parts() const {
     return pairs;
 }
 
-// Asks for the codes from each part to the next one.
-void OverlaySssd::End::prefetch_rows(const OverlayIndex& index) const {
-    for (size_t b = 0; b + 1 < parts.size(); ++b) {
-        const uint32_t patch = ascent.patches[b], parent = ascent.patches[b + 1];
-        parts[b].for_each_place([&](uint32_t place) {
-            const uint16_t* const row = index.row_to_ring(parent, index.position_in_parent(patch, place));
-            for (const BorderRange& range : parts[b + 1].ranges())
-                prefetch(row + (range.first - index.rings.begin[parent]), range.size());
-        });
-    }
-}
-
 // Moves the parts to where a shorter way may be than the one that was measured, which crosses the last border
 // at this place. Returns whether any has moved.
 bool OverlaySssd::End::move_parts(const OverlayIndex& index, uint32_t place) {
@@ -263,7 +251,6 @@ bool OverlaySssd::take_parts_within(float length) {
         pairs += from_.pairs_between_parts() + size_t{from_.parts.back().size()} * to_.parts.back().size();
     }
     if (pairs > MOST_NEAR_PAIRS) return false;
-    prefetch_rows();
     return true;
 }
 
@@ -324,12 +311,6 @@ void OverlaySssd::take_parts(uint32_t sample, const BorderPart& of_meeting_borde
             index_, before,
             part_before(index_, from_.ascent.last_patch(), from_.sampled, meeting, before, sample));
     }
-    prefetch_rows();
-}
-
-void OverlaySssd::prefetch_rows() const {
-    to_.prefetch_rows(index_);
-    if (!from_.is_at_top()) from_.prefetch_rows(index_);
 }
 
 // Measures the path over the parts that both ends have taken, and moves the parts along with it while it
@@ -354,9 +335,7 @@ bool OverlaySssd::move_parts(uint32_t place) {
         const uint16_t winner = from_winners_[to_.measured.last_part().index(place)];
         moved = from_.move_parts(index_, index_.rings.begin[from_.ascent.last_patch()] + winner) || moved;
     }
-    if (!moved) return false;
-    prefetch_rows();
-    return true;
+    return moved;
 }
 
 // Measures the path over the parts that both ends have taken, and finds the place where it crosses the

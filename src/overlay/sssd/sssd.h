@@ -43,7 +43,6 @@ private:
         void take_parts(const OverlayIndex& index, uint32_t sample, const BorderPart& last_part);
         void take_parts_within(const OverlayIndex& index, float length);
         size_t pairs_between_parts() const;
-        void prefetch_rows(const OverlayIndex& index) const;
         bool move_parts(const OverlayIndex& index, uint32_t place_of_last);
 
         Ascent ascent;
@@ -64,7 +63,6 @@ private:
     void measure_ways(std::span<const float> from, std::span<const float> to);
     void take_parts(uint32_t sample, const BorderPart& of_meeting_border);
     bool take_parts_within(float length);
-    void prefetch_rows() const;
     float follow(float other_way);
     bool move_parts(uint32_t place);
     float measure(uint32_t& place);
