@@ -86,7 +86,7 @@ void GraphQuery::cross_overlay(uint32_t patch, uint32_t start_count) {
 }
 
 void GraphQuery::activate(uint32_t slot) {
-    const uint32_t child = numbering_.patch_of_slot[slot];
+    const uint32_t child = index_.slots.patch_of_slot[slot];
     nearest_active_[child] = std::min(nearest_active_[child], slot_distance_[slot]);
     if (slot_is_active_[slot]) return;
     slot_is_active_[slot] = 1;
@@ -125,7 +125,7 @@ void GraphQuery::cross_child(uint32_t patch, uint32_t child) {
 }
 
 void GraphQuery::pass_on(uint32_t patch, uint32_t slot, double distance) {
-    for (uint32_t copy : numbering_.slots_of(patch, numbering_.overlay_position[slot])) {
+    for (uint32_t copy : index_.slots.of(patch, numbering_.overlay_position[slot])) {
         slot_distance_[copy] = distance;
         if (copy != slot) activate(copy);
     }

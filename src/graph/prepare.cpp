@@ -19,6 +19,7 @@ void place_border_tables(GraphIndex& index) {
 
 void prepare_graph(const StoredIndex& stored, GraphIndex& index) {
     number_vertices(stored, index.numbering);
+    find_slots(index.numbering, index.slots);
     index.bound_scale = stored.description.bound_scale;
     place_border_tables(index);
     const float* entry = stored.border_tables.data();

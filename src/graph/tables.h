@@ -1,16 +1,18 @@
 #pragma once
 
 #include "src/index/numbering.h"
+#include "src/index/slots.h"
 
 namespace geodesic {
 
 // What the graph engine answers from: the paper's tables of distances on the whole surface.
 struct GraphIndex {
     explicit GraphIndex(std::pmr::memory_resource* memory)
-        : numbering(memory), border_table_begin(memory), border_tables(memory),
+        : numbering(memory), slots(memory), border_table_begin(memory), border_tables(memory),
           border_internal_tables(memory), internal_tables(memory) {}
 
     Numbering numbering;
+    Slots slots;
     float bound_scale = 0;               // distance(a, b) >= bound_scale * |a - b|
     Array<uint64_t> border_table_begin;  // per patch
     Array<float> border_tables;          // Bv x Bv, full, rows and columns in border order

@@ -13,9 +13,8 @@ namespace geodesic {
 Numbering::Numbering(std::pmr::memory_resource* memory)
     : level_begin(memory), parent(memory), child_begin(memory), positions(memory), owned_begin(memory),
       internal_begin(memory), border_begin(memory), border(memory), owner(memory), leaf_of_block(memory),
-      overlay_position(memory), patch_of_slot(memory), overlay_begin(memory), slot_begin(memory),
-      slots(memory), vertex_borders_begin(memory), vertex_borders(memory), border_internal_begin(memory),
-      internal_table_begin(memory) {}
+      overlay_position(memory), vertex_borders_begin(memory), vertex_borders(memory),
+      border_internal_begin(memory), internal_table_begin(memory) {}
 
 namespace {
 
@@ -84,48 +83,22 @@ void derive_overlay_positions(Numbering& numbering) {
     }
 }
 
-// Every overlay position needs a slot on the border of a child. So there cannot be more positions than slots,
-// whose count fits 32 bits.
+// Every overlay position needs a slot on the border of a child.
 void require_children_around(const Numbering& numbering) {
-    uint64_t positions = 0;
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) positions += numbering.overlay_size(p);
-    if (positions > numbering.border.size())
+    std::vector<uint8_t> has_slot; // per position of one overlay
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
+        has_slot.assign(numbering.overlay_size(p), 0);
+        for (uint32_t slot = numbering.border_begin[numbering.child_begin[p]];
+             slot < numbering.border_begin[numbering.child_begin[p + 1]]; ++slot)
+            has_slot[numbering.overlay_position[slot]] = 1;
+        const auto without = std::ranges::find(has_slot, 0);
+        if (without == has_slot.end()) continue;
+        const auto position = static_cast<uint32_t>(without - has_slot.begin());
         throw Error(GEOIDX_ERROR_CORRUPT,
-                    "the overlays have " + std::to_string(positions) +
-                        " positions, but the borders of children only " +
-                        std::to_string(numbering.border.size()),
+                    "border vertex " + std::to_string(numbering.overlay_number(p, position)) +
+                        " is on the border of no child of patch " + std::to_string(p),
                     TAG_BORDERS);
-}
-
-void derive_slots(Numbering& numbering) {
-    require_children_around(numbering);
-    numbering.patch_of_slot.resize(numbering.border.size());
-    for (uint32_t p = 0; p < numbering.patch_count(); ++p)
-        std::fill(numbering.patch_of_slot.begin() + numbering.border_begin[p],
-                  numbering.patch_of_slot.begin() + numbering.border_begin[p + 1], p);
-    numbering.overlay_begin.assign(1, 0);
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
-        numbering.overlay_begin.push_back(numbering.overlay_begin.back() + numbering.overlay_size(p));
-    const auto overlay_of = [&](size_t slot) {
-        return numbering.overlay_begin[numbering.parent[numbering.patch_of_slot[slot]]] +
-               numbering.overlay_position[slot];
-    };
-    numbering.slot_begin.assign(size_t{numbering.overlay_begin.back()} + 1, 0);
-    for (size_t slot = 0; slot < numbering.border.size(); ++slot)
-        ++numbering.slot_begin[overlay_of(slot) + 1];
-    for (size_t i = 1; i < numbering.slot_begin.size(); ++i)
-        numbering.slot_begin[i] += numbering.slot_begin[i - 1];
-    numbering.slots.resize(numbering.border.size());
-    std::vector<uint32_t> next(numbering.slot_begin.begin(), numbering.slot_begin.end() - 1);
-    for (uint32_t slot = 0; slot < numbering.border.size(); ++slot)
-        numbering.slots[next[overlay_of(slot)]++] = slot;
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
-        for (uint32_t i = 0; i < numbering.overlay_size(p); ++i)
-            if (numbering.slots_of(p, i).empty())
-                throw Error(GEOIDX_ERROR_CORRUPT,
-                            "border vertex " + std::to_string(numbering.overlay_number(p, i)) +
-                                " is on the border of no child of patch " + std::to_string(p),
-                            TAG_BORDERS);
+    }
 }
 
 void derive_vertex_borders(Numbering& numbering) {
@@ -181,7 +154,7 @@ void number_vertices(const StoredIndex& stored, Numbering& numbering) {
     number_borders(stored, numbering);
     derive_owners(numbering);
     derive_overlay_positions(numbering);
-    derive_slots(numbering);
+    require_children_around(numbering);
     derive_vertex_borders(numbering);
     derive_leaves(numbering);
     lay_out_leaf_tables(numbering);

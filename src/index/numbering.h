@@ -54,12 +54,7 @@ struct Numbering {
     static constexpr uint32_t LEAF_BLOCK = 16;
 
     // A *slot* is an index in `border`: it stands for one vertex on the border of one patch.
-    Array<uint32_t> overlay_position; // per slot: position in the overlay of the patch's parent
-    Array<uint32_t> patch_of_slot;
-    Array<uint32_t> overlay_begin; // per inner patch: where its overlay positions begin in slot_begin
-    // The slots of overlay position i of patch p begin at slots[slot_begin[overlay_begin[p] + i]].
-    Array<uint32_t> slot_begin;
-    Array<uint32_t> slots;
+    Array<uint32_t> overlay_position;     // per slot: position in the overlay of the patch's parent
     Array<uint32_t> vertex_borders_begin; // per border vertex: where its borders begin, by ascending patch
     Array<PatchPosition> vertex_borders;  // the borders that a vertex is on, and where
 
@@ -95,10 +90,6 @@ struct Numbering {
     uint32_t first_internal(uint32_t leaf) const { return internal_begin[leaf - first_leaf()]; }
     uint32_t overlay_size(uint32_t patch) const {
         return border_size(patch) + owned_begin[patch + 1] - owned_begin[patch];
-    }
-    std::span<const uint32_t> slots_of(uint32_t patch, uint32_t overlay_position) const {
-        const uint32_t* begin = slot_begin.data() + overlay_begin[patch] + overlay_position;
-        return {slots.data() + begin[0], slots.data() + begin[1]};
     }
     std::span<const PatchPosition> borders_of(uint32_t border_vertex) const {
         return {vertex_borders.data() + vertex_borders_begin[border_vertex],

@@ -17,8 +17,7 @@ public:
 
     // Begins a border with so many places, and what is known of each. The caller then writes the distances of
     // these places to the result. `quantum` is that of the rows that will be added.
-    std::span<float> begin(size_t places, const RingSegments& segments, const int32_t* is_own,
-                           float quantum) {
+    std::span<float> begin(size_t places, const RingSegments& segments, const int8_t* is_own, float quantum) {
         border_ = {places,       code_.data(),   distance_.data(), segments.length, segments.half_inverse,
                    foot_.data(), height_.data(), quantum};
         is_own_ = is_own;
@@ -45,7 +44,7 @@ public:
 private:
     const Kernels& kernels_;
     BorderFromSource border_{};
-    const int32_t* is_own_ = nullptr;
+    const int8_t* is_own_ = nullptr;
     NearRange range_{};
     Array<float> distance_;
     Array<int16_t> code_;

@@ -89,14 +89,14 @@ public:
     void take(const BorderPart& part);
 
     RingSegments segments() const { return segments_; }
-    const int32_t* is_own() const { return is_own_; }
+    const int8_t* is_own() const { return is_own_; }
 
 private:
     const Rings& rings_;
     RingSegments segments_{};
-    const int32_t* is_own_ = nullptr;
+    const int8_t* is_own_ = nullptr;
     Array<float> lengths_, half_inverses_; // the copies
-    Array<int32_t> is_own_copy_;
+    Array<int8_t> is_own_copy_;
 };
 
 }

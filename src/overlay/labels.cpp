@@ -122,7 +122,7 @@ private:
         codes_.resize(count * border_size_);
         TableCode::round_all({of_border_.data() + begin_[patch], codes_.size()}, steps_per_distance(quantum),
                              codes_.data());
-        const uint32_t* position = index_.rings.position.data() + index_.rings.begin[labelled];
+        const uint16_t* position = index_.rings.position.data() + index_.rings.begin[labelled];
         const uint32_t places = index_.rings.size(labelled);
         uint16_t* code = labels_.codes.get() + labels_.begin[patch];
         for (size_t row = 0; row < codes_.size(); row += border_size_)

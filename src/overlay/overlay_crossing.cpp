@@ -29,7 +29,7 @@ std::span<float> OverlayCrossing::begin(uint32_t patch, const RingSegments& segm
 }
 
 std::span<float> OverlayCrossing::begin(uint32_t patch, const BorderPart& part, const RingSegments& segments,
-                                        const int32_t* is_own) {
+                                        const int8_t* is_own) {
     patch_ = patch;
     parent_ = index_.numbering.parent[patch];
     part_ = part;

@@ -32,7 +32,7 @@ public:
 
 private:
     std::span<float> begin(uint32_t patch, const BorderPart& part, const RingSegments& segments,
-                           const int32_t* is_own);
+                           const int8_t* is_own);
     // row_at(position) is the row of the vertex at a position of the parent's overlay.
     template <class RowAt>
     void cross(const RowAt& row_at, Columns columns, float* distances, uint16_t* winners);

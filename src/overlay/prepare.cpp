@@ -68,19 +68,19 @@ void view_hop_codes(OverlayIndex& index, std::span<const uint16_t> codes) {
 
 // Marks, of the vertices in the overlay of a patch's parent, those that are on the patch's border.
 void mark_border(const Numbering& numbering, uint32_t patch, HopTables& hops) {
-    const auto first =
-        hops.on_border.insert(hops.on_border.end(), numbering.overlay_size(numbering.parent[patch]), 0);
-    for (uint32_t slot = numbering.border_begin[patch]; slot < numbering.border_begin[patch + 1]; ++slot)
-        first[numbering.overlay_position[slot]] = 1;
-    hops.on_border_begin.push_back(hops.on_border.size());
+    const uint64_t first = hops.on_border_begin[patch];
+    for (uint32_t slot = numbering.border_begin[patch]; slot < numbering.border_begin[patch + 1]; ++slot) {
+        const uint64_t flag = first + numbering.overlay_position[slot];
+        hops.on_border[flag / 8] = static_cast<uint8_t>(hops.on_border[flag / 8] | 1 << flag % 8);
+    }
 }
 
 void mark_borders(const Numbering& numbering, HopTables& hops) {
-    uint64_t flags = 0;
-    for (uint32_t p = 1; p < numbering.patch_count(); ++p)
-        flags += numbering.overlay_size(numbering.parent[p]);
-    hops.on_border.reserve(flags);
     hops.on_border_begin.assign(2, 0); // the whole mesh has no parent
+    for (uint32_t p = 1; p < numbering.patch_count(); ++p)
+        hops.on_border_begin.push_back(hops.on_border_begin.back() +
+                                       numbering.overlay_size(numbering.parent[p]));
+    hops.on_border.assign((hops.on_border_begin.back() + 7) / 8, 0);
     for (uint32_t p = 1; p < numbering.patch_count(); ++p) mark_border(numbering, p, hops);
 }
 
@@ -157,7 +157,7 @@ private:
     const Numbering& numbering_;
     uint32_t patch_;
     size_t places_, border_, owned_;
-    const uint32_t* place_; // per position of the border: its own place
+    const uint16_t* place_; // per position of the border: its own place
     uint16_t *border_rows_, *inner_rows_, *owned_rows_;
 };
 
@@ -174,7 +174,7 @@ void write_overlay_tables(const StoredIndex& stored, const OverlayIndex& index,
 // Writes the inner table of a leaf. `stored` has a row for each vertex of its border.
 void write_leaf_rows(const OverlayIndex& index, uint32_t leaf, const uint16_t* stored, uint16_t* rows) {
     const uint32_t count = index.numbering.internal_size(leaf), places = index.rings.size(leaf);
-    const uint32_t* const position = index.rings.position.data() + index.rings.begin[leaf];
+    const uint16_t* const position = index.rings.position.data() + index.rings.begin[leaf];
     for (uint32_t i = 0; i < count; ++i)
         for (uint32_t k = 0; k < places; ++k) *rows++ = stored[size_t{position[k]} * count + i];
 }

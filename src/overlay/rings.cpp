@@ -15,7 +15,7 @@ constexpr uint32_t REACH = Rings::REACH;
 constexpr float GAP = Rings::GAP;
 
 void add_place(Rings& rings, uint32_t position, float length, bool own) {
-    rings.position.push_back(position);
+    rings.position.push_back(static_cast<uint16_t>(position));
     rings.segment_length.push_back(length);
     rings.half_inverse.push_back(0.5f / length);
     rings.is_own.push_back(own ? -1 : 0);
@@ -73,7 +73,7 @@ void number_places(const Numbering& numbering, Rings& rings) {
         for (uint32_t k = rings.begin[p]; k < rings.begin[p + 1]; ++k) {
             const uint32_t slot = numbering.border_begin[p] + rings.position[k];
             rings.vertex[k] = numbering.border[slot];
-            if (rings.is_own[k]) rings.place_of_slot[slot] = k - rings.begin[p];
+            if (rings.is_own[k]) rings.place_of_slot[slot] = static_cast<uint16_t>(k - rings.begin[p]);
         }
 }
 
@@ -102,12 +102,14 @@ void lay_out_rings(std::span<const uint32_t> segment_end, std::span<const float>
 
 BorderSegments segments_of_rings(const Rings& rings, const Numbering& numbering) {
     BorderSegments segments(numbering.border.size());
-    for (size_t slot = 0; slot < numbering.border.size(); ++slot) {
-        const size_t place = rings.begin[numbering.patch_of_slot[slot]] + rings.place_of_slot[slot];
-        if (std::isnan(rings.segment_length[place])) continue;
-        segments.end[slot] = rings.position[place + 1];
-        segments.length[slot] = rings.segment_length[place];
-    }
+    for (uint32_t p = 0; p < numbering.patch_count(); ++p)
+        for (uint32_t i = 0; i < numbering.border_size(p); ++i) {
+            const size_t place = own_place(rings, numbering, p, i);
+            if (std::isnan(rings.segment_length[place])) continue;
+            const uint32_t slot = numbering.border_begin[p] + i;
+            segments.end[slot] = rings.position[place + 1];
+            segments.length[slot] = rings.segment_length[place];
+        }
     return segments;
 }
 

@@ -38,14 +38,14 @@ struct Rings {
 
     Array<uint32_t> begin; // per patch
     // Per place.
-    Array<uint32_t> position;      // the vertex's position in the border
+    Array<uint16_t> position;      // the vertex's position in the border
     Array<uint32_t> vertex;        // the vertex's number
     Array<float> segment_length;   // of the segment to the next place; GAP if there is none
     Array<float> half_inverse;     // 0.5 / segment_length
-    Array<int32_t> is_own;         // -1 at the vertex's own place, 0 where it is repeated
+    Array<int8_t> is_own;          // -1 at the vertex's own place, 0 where it is repeated
     Array<uint32_t> chain_begin;   // per patch: where its chains begin
     Array<Chain> chains;           // in the order of their places
-    Array<uint32_t> place_of_slot; // per slot: the vertex's own place in the ring of its patch
+    Array<uint16_t> place_of_slot; // per slot: the vertex's own place in the ring of its patch
 
     uint32_t size(uint32_t patch) const { return begin[patch + 1] - begin[patch]; }
     std::span<const Chain> chains_of(uint32_t patch) const {

@@ -41,6 +41,7 @@ struct HopTables {
     Array<uint64_t> inner_begin;               // per patch
     Array<uint64_t> on_border_begin;           // per patch: where its flags begin in on_border
     // Per position of the overlay of a patch's parent: whether that vertex is on the patch's own border.
+    // Eight flags a byte, the first one in the lowest bit.
     Array<uint8_t> on_border;
     std::span<const uint16_t> codes; // those of the following five, in this order
     std::span<const uint16_t> border, owned, inner, inner_middles;
@@ -195,7 +196,8 @@ struct OverlayIndex {
 
     // Whether the vertex at a position of the overlay of a patch's parent is on the patch's own border.
     bool is_on_border(uint32_t patch, uint32_t parent_position) const {
-        return hops.on_border[hops.on_border_begin[patch] + parent_position] != 0;
+        const uint64_t flag = hops.on_border_begin[patch] + parent_position;
+        return (hops.on_border[flag / 8] >> flag % 8 & 1) != 0;
     }
     // Where the vertex at a place of a patch's ring, counted over all rings, is in the parent's overlay.
     uint32_t position_in_parent(uint32_t patch, size_t place) const {

@@ -38,10 +38,10 @@ struct LeastSums {
 // Fills the distances from one vertex of a patch's overlay to all others, over the tables of the children.
 class RowFromBelow {
 public:
-    RowFromBelow(uint32_t patch, const Numbering& numbering, const Rings& rings, const DistanceTables& tables,
-                 std::span<float> row)
+    RowFromBelow(uint32_t patch, const Numbering& numbering, const Slots& slots, const Rings& rings,
+                 const DistanceTables& tables, std::span<float> row)
         : patch_(patch), first_slot_(numbering.border_begin[numbering.child_begin[patch]]),
-          numbering_(numbering), rings_(rings), tables_(tables), row_(row),
+          numbering_(numbering), slots_(slots), rings_(rings), tables_(tables), row_(row),
           changed_(numbering.border_begin[numbering.child_begin[patch + 1]] - first_slot_, uint8_t{0}),
           nearest_changed_(numbering.child_begin[patch + 1] - numbering.child_begin[patch], INFINITE) {}
 
@@ -63,8 +63,8 @@ private:
     // child over which it was reached is left out: its table holds distances on the whole surface, so that
     // crossing it twice in a row gains nothing.
     void mark(uint32_t position, uint32_t reached_over) {
-        for (uint32_t slot : numbering_.slots_of(patch_, position)) {
-            const uint32_t child = numbering_.patch_of_slot[slot];
+        for (uint32_t slot : slots_.of(patch_, position)) {
+            const uint32_t child = slots_.patch_of_slot[slot];
             if (child == reached_over) continue;
             changed_[slot - first_slot_] = 1;
             float& nearest = nearest_changed_[child - numbering_.child_begin[patch_]];
@@ -102,6 +102,7 @@ private:
 
     const uint32_t patch_, first_slot_;
     const Numbering& numbering_;
+    const Slots& slots_;
     const Rings& rings_;
     const DistanceTables& tables_;
     std::span<float> row_;
@@ -178,12 +179,12 @@ std::vector<float> border_block(uint32_t patch, const Numbering& numbering, cons
 
 }
 
-void close_from_below(uint32_t patch, const Numbering& numbering, const Rings& rings, Workers& workers,
-                      DistanceTables& tables) {
+void close_from_below(uint32_t patch, const Numbering& numbering, const Slots& slots, const Rings& rings,
+                      Workers& workers, DistanceTables& tables) {
     const size_t size = numbering.overlay_size(patch);
     std::vector<float>& table = tables.overlay[patch];
     workers.run(size, [&](FieldSolver&, size_t i) {
-        RowFromBelow(patch, numbering, rings, tables, std::span(table).subspan(i * size, size))
+        RowFromBelow(patch, numbering, slots, rings, tables, std::span(table).subspan(i * size, size))
             .fill(static_cast<uint32_t>(i));
     });
     make_symmetric(table, size);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "src/index/slots.h"
 #include "src/metric/workers.h"
 #include "src/overlay/rings.h"
 #include "src/tables/distance_tables.h"
@@ -8,8 +9,8 @@ namespace geodesic {
 
 // Puts the overlay table of a patch together from the tables of its children. Entries are shortest paths over
 // the children's borders, straightened where they cross a border between two vertices.
-void close_from_below(uint32_t patch, const Numbering& numbering, const Rings& rings, Workers& workers,
-                      DistanceTables& tables);
+void close_from_below(uint32_t patch, const Numbering& numbering, const Slots& slots, const Rings& rings,
+                      Workers& workers, DistanceTables& tables);
 
 // Lowers the overlay table of a patch by paths that leave the patch and come back. The parent's table holds
 // their distances.

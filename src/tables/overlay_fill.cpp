@@ -129,9 +129,11 @@ void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_fac
     if (!can_be_squared(segments)) segments = BorderSegments(numbering.border.size());
     Rings rings(std::pmr::get_default_resource());
     lay_out_rings(segments.end, segments.length, numbering, rings);
+    Slots slots(std::pmr::get_default_resource());
+    find_slots(numbering, slots);
     workers.begin_stage("closure", options.stage_end, closure_rows(numbering, exact));
     for (uint32_t p = numbering.first_leaf(); p-- > 0;)
-        if (!exact[p]) close_from_below(p, numbering, rings, workers, tables);
+        if (!exact[p]) close_from_below(p, numbering, slots, rings, workers, tables);
     const auto rounding = rounding_of_patches(numbering, tables, options.rounding);
     close_downwards_and_hand_over(numbering, exact, rings, rounding, workers, tables, stored);
     stored.segment_end = std::move(segments.end);

@@ -23,10 +23,7 @@ Numbering numbering_of(const std::vector<uint32_t>& border_sizes) {
     for (const uint32_t size : border_sizes) {
         const auto patch = static_cast<uint32_t>(numbering.parent.size());
         numbering.parent.push_back(0);
-        for (uint32_t i = 0; i < size; ++i) {
-            numbering.border.push_back(1000 * patch + 7 * i);
-            numbering.patch_of_slot.push_back(patch);
-        }
+        for (uint32_t i = 0; i < size; ++i) numbering.border.push_back(1000 * patch + 7 * i);
         numbering.border_begin.push_back(static_cast<uint32_t>(numbering.border.size()));
     }
     return numbering;

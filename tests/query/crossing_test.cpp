@@ -48,7 +48,7 @@ struct PreparedBorder {
         border.code = code.data();
         border.foot = foot.data();
         border.height = height.data();
-        const std::vector<int32_t> is_own(code.size(), -1);
+        const std::vector<int8_t> is_own(code.size(), -1);
         range = kernels.prepare_crossing(border, is_own.data(), code.data(), foot.data(), height.data());
     }
     PreparedBorder(const PreparedBorder&) = delete;
@@ -215,7 +215,7 @@ TEST_CASE("crossing: a border is made ready, by every instruction set") {
         std::fill(border.to_source.begin() + static_cast<std::ptrdiff_t>(places), border.to_source.end(),
                   INFINITE);
         if (places > 30) border.to_source[20] = INFINITE;
-        std::vector<int32_t> is_own(room, -1);
+        std::vector<int8_t> is_own(room, -1);
         is_own[0] = is_own[1] = is_own[places - 2] = is_own[places - 1] = 0;
         float nearest = INFINITE;
         for (size_t k = 0; k < places; ++k) nearest = std::min(nearest, border.to_source[k]);

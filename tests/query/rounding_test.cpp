@@ -33,7 +33,7 @@ Codes codes_of_crossing(const Kernels& kernels, const Distances& distances, floa
     Distances distance(distances);
     distance.resize(room, INFINITE);
     const std::vector<float> gaps(room, NAN);
-    const std::vector<int32_t> is_own(room, -1);
+    const std::vector<int8_t> is_own(room, -1);
     Codes code(room, 77);
     std::vector<float> foot(room), height(room);
     const BorderFromSource border{places,      code.data(), distance.data(), gaps.data(),

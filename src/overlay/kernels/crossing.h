@@ -36,20 +36,22 @@ template <size_t BYTES>
 
 // Codes of places that are not the border's own are as those of places that are not reached.
 template <size_t BYTES>
-[[gnu::always_inline]] inline void encode(const BorderFromSource& border, float nearest,
-                                          const int32_t* is_own, int16_t* code) {
+[[gnu::always_inline]] inline void encode(const BorderFromSource& border, float nearest, const int8_t* is_own,
+                                          int16_t* code) {
     using Numbers = typename Lanes<BYTES>::Keys;
     using Codes = typename VectorOf<int16_t, BYTES / 2>::Type;
+    using Flags = typename VectorOf<int8_t, BYTES / 4>::Type;
     static_assert(SourceCode::UNREACHED == 0);
     const float scale = steps_per_distance(border.quantum);
     const Floats<BYTES> nearest_lanes = Floats<BYTES>{} + nearest;
     for (size_t k = 0; k < border.places; k += Lanes<BYTES>::FLOATS) {
         Floats<BYTES> distance;
-        Numbers own, codes;
+        Numbers codes;
+        Flags own;
         load(border.distance + k, distance);
         load(is_own + k, own);
         round_to_codes<BYTES>(distance, nearest_lanes, scale, codes);
-        store(__builtin_convertvector(codes & own, Codes), code + k);
+        store(__builtin_convertvector(codes & __builtin_convertvector(own, Numbers), Codes), code + k);
     }
     std::fill(code + border.places, code + SourceCode::whole_blocks(border.places), SourceCode::UNREACHED);
 }
@@ -71,7 +73,7 @@ template <size_t BYTES>
 
 template <size_t BYTES>
 struct PrepareCrossing {
-    [[gnu::always_inline]] static NearRange run(const BorderFromSource& border, const int32_t* is_own,
+    [[gnu::always_inline]] static NearRange run(const BorderFromSource& border, const int8_t* is_own,
                                                 int16_t* code, float* foot, float* height) {
         NearRange range;
         find_near_range<BYTES>(border, range);

@@ -107,7 +107,7 @@ struct Kernels {
     // Fills code, foot and height, which must be the arrays that `border` points to, from the rest of the
     // border. Where is_own is 0 and not -1, the code is that of a place that is not reached. If the nearest
     // place is at infinity, it fills nothing.
-    NearRange (*prepare_crossing)(const BorderFromSource& border, const int32_t* is_own, int16_t* code,
+    NearRange (*prepare_crossing)(const BorderFromSource& border, const int8_t* is_own, int16_t* code,
                                   float* foot, float* height);
 
     // To columns of a table in which each place k of the border has a row, rows[k]. distances[i]: the least
