@@ -36,11 +36,8 @@ public:
     }
     void sweep(const Sources& sources, float radius, std::span<float> distances);
 
-    // Single steps of a sweep, for one field that is wanted in some patches only. A hop up leads to the
-    // overlay of the parent of a patch that contains the source, a hop down to the inner vertices of a patch
-    // that does not; the distances of the patch's border must be known, and those that a hop leads to
-    // infinite.
-    void hop_up(uint32_t child, std::span<float> distance) { hop_up(child, DistanceField{distance.data()}); }
+    // A single step of a sweep, for one field that is wanted in some patches only: from the border of a patch
+    // that does not contain the source, whose distances must be known, to its inner vertices.
     void hop_down(uint32_t patch, std::span<float> distance);
 
 private:

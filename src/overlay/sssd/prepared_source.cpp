@@ -17,44 +17,75 @@ void PreparedSource::prepare(const Sources& source) {
         distances->resize(SourceCode::whole_blocks(index_.rings.largest_size()) + SourceCode::BLOCK);
     source.for_each_way(index_, source.keys.front(),
                         [&](uint32_t number, float way) { known_[number] = way; });
-    is_known_.assign(numbering.patch_count(), 0);
-    innermost_ = top_ = source.innermost_patch(numbering, source.keys.front());
-    is_known_[innermost_] = 1;
+    for (auto* is_known : {&is_inner_known_, &is_border_known_}) is_known->assign(numbering.patch_count(), 0);
+    innermost_ = source.innermost_patch(numbering, source.keys.front());
+    is_border_known_[innermost_] = 1;
 }
 
-// A patch around the source has its inner vertices in its overlay, which a hop up from the patch below leads
-// to. To those of any other patch a hop down leads, from its border, which is in the overlay of its parent.
-void PreparedSource::require_inner(uint32_t patch, OverlaySsad& field) {
-    if (is_known_[patch]) return;
+// The one that the innermost patch is, or lies in; not of the innermost patch itself.
+uint32_t PreparedSource::child_around_source(uint32_t patch) const {
+    uint32_t child = innermost_;
+    while (index_.numbering.parent[child] != patch) child = index_.numbering.parent[child];
+    return child;
+}
+
+// The overlay of the innermost patch is known. Of any other patch around the source only the borders of those
+// children become known that targets need.
+void PreparedSource::require(uint32_t border_vertex, const PreparedHops& hops) {
     const Numbering& numbering = index_.numbering;
-    if (numbering.is_within(innermost_, patch)) {
-        while (top_ != patch) {
-            field.hop_up(top_, known_);
-            top_ = numbering.parent[top_];
-            is_known_[top_] = 1;
-        }
-        return;
-    }
-    require_inner(numbering.parent[patch], field);
-    field.hop_down(patch, known_);
-    is_known_[patch] = 1;
+    const uint32_t owner = numbering.owner[border_vertex];
+    if (owner == innermost_) return;
+    if (!is_around_source(owner)) return require_inner(owner, hops);
+    const auto borders = numbering.borders_of(border_vertex);
+    const auto is_of_child = [&](const PatchPosition& at) { return numbering.parent[at.patch] == owner; };
+    const auto is_known = [&](const PatchPosition& at) {
+        return is_of_child(at) && is_border_known_[at.patch];
+    };
+    if (std::ranges::any_of(borders, is_known)) return;
+    require_border(std::ranges::find_if(borders, is_of_child)->patch, hops);
 }
 
-float PreparedSource::distance(uint32_t target, OverlaySsad& field) {
-    const uint32_t patch = index_.numbering.innermost_patch(target);
-    const bool is_border = index_.numbering.is_border(target);
-    if (is_border || patch == innermost_) {
-        require_inner(patch, field);
+void PreparedSource::require_border(uint32_t patch, const PreparedHops& hops) {
+    if (is_border_known_[patch]) return;
+    const uint32_t parent = index_.numbering.parent[patch];
+    if (!is_around_source(parent)) {
+        require_inner(parent, hops);
+    } else if (is_around_source(patch)) {
+        const uint32_t child = child_around_source(patch);
+        require_border(child, hops);
+        hops.to_borders.hop_to_parent(child, known_);
+    } else if (parent != innermost_) {
+        const uint32_t child = child_around_source(parent);
+        require_border(child, hops);
+        hops.to_borders.hop_to_sibling(child, patch, known_);
+    }
+    is_border_known_[patch] = 1;
+}
+
+// Of a patch that is not around the source: down from its border.
+void PreparedSource::require_inner(uint32_t patch, const PreparedHops& hops) {
+    if (is_inner_known_[patch]) return;
+    require_border(patch, hops);
+    hops.down.hop_down(patch, known_);
+    is_inner_known_[patch] = 1;
+}
+
+// A border vertex that is known has its final distance, whichever border it became known with.
+float PreparedSource::distance(uint32_t target, const PreparedHops& hops) {
+    if (index_.numbering.is_border(target)) {
+        if (!(known_[target] < INFINITE)) require(target, hops);
         return known_[target];
     }
-    require_inner(index_.numbering.parent[patch], field);
-    return distance_over_border(target);
+    const uint32_t leaf = index_.numbering.leaf_of(target);
+    if (leaf == innermost_) return known_[target];
+    if (!is_border_known_[leaf]) require_border(leaf, hops);
+    return distance_over_border(leaf, target);
 }
 
 // The kernel reads past the ring up to whole blocks; infinity there gives no way.
-float PreparedSource::distance_over_border(uint32_t target) {
+float PreparedSource::distance_over_border(uint32_t leaf, uint32_t target) {
     const RingRow row = inner_row_of(index_, target);
-    const uint32_t places = index_.rings.size(index_.numbering.leaf_of(target));
+    const uint32_t places = index_.rings.size(leaf);
     const uint32_t* vertex = index_.rings.vertex.data() + row.first;
     for (uint32_t k = 0; k < places; ++k) {
         from_[k] = known_[vertex[k]];

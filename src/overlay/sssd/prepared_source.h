@@ -3,35 +3,47 @@
 #include <cstdint>
 #include <memory_resource>
 
+#include "src/overlay/border_hop.h"
 #include "src/overlay/ssad.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic {
 
+// What hops of prepared sources need, which many of them can share.
+struct PreparedHops {
+    BorderHop& to_borders;
+    OverlaySsad& down;
+};
+
 // A source with its distances to borders, so that a distance to any vertex is one minimum over the border
 // around that vertex. Borders become known when a target needs them, and stay so: up from the source to the
-// first patch around both, then down to the target. Vertices are given by their numbers. An object is the
-// scratch of one thread.
+// first patch around both, across to the next patch around the target, then down to it. Vertices are given by
+// their numbers. An object is the scratch of one thread.
 class PreparedSource {
 public:
     PreparedSource(const OverlayIndex& index, std::pmr::memory_resource* memory)
-        : index_(index), known_(memory), is_known_(memory), from_(memory), to_(memory) {}
+        : index_(index), known_(memory), is_inner_known_(memory), is_border_known_(memory), from_(memory),
+          to_(memory) {}
 
     void prepare(const Sources& source);
 
-    // prepare() comes before. `field` is scratch.
-    float distance(uint32_t target, OverlaySsad& field);
+    // prepare() comes before.
+    float distance(uint32_t target, const PreparedHops& hops);
 
 private:
-    void require_inner(uint32_t patch, OverlaySsad& field);
-    float distance_over_border(uint32_t target);
+    bool is_around_source(uint32_t patch) const { return index_.numbering.is_within(innermost_, patch); }
+    uint32_t child_around_source(uint32_t patch) const;
+    void require(uint32_t border_vertex, const PreparedHops& hops);
+    void require_border(uint32_t patch, const PreparedHops& hops);
+    void require_inner(uint32_t patch, const PreparedHops& hops);
+    float distance_over_border(uint32_t leaf, uint32_t target);
 
     const OverlayIndex& index_;
-    uint32_t innermost_ = 0;  // patch around the source
-    uint32_t top_ = 0;        // the outermost patch around it whose overlay is known
-    Array<float> known_;      // by number: to the inner vertices of the patches where they are known
-    Array<uint8_t> is_known_; // per patch: whether its inner vertices are
-    Array<float> from_, to_;  // scratch: from both ends to the places of a ring
+    uint32_t innermost_ = 0; // patch around the source
+    Array<float> known_;     // by number: of the inner vertices and of the borders that are known
+    // Per patch, the first ones but for those around the source.
+    Array<uint8_t> is_inner_known_, is_border_known_;
+    Array<float> from_, to_; // scratch: from both ends to the places of a ring
 };
 
 }
