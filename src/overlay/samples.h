@@ -11,8 +11,8 @@ namespace geodesic {
 // The number of codes in the tables of all samples. Needs the rings of the index.
 uint64_t count_sample_codes(const OverlayIndex& index);
 
-// Borders that have no more pairs of places than this are crossed as a whole: that takes less time than
-// finding the part of them that a path may cross.
+// A hop that looks at no more pairs of places than this leads from all of one border to all of another: that
+// takes less time than finding the part of them that a path may cross.
 constexpr size_t FEW_PAIRS = size_t{1} << 13;
 
 // The rows of a table across, which lead to all samples of one patch.
