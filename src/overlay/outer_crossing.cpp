@@ -12,20 +12,46 @@ OuterCrossing::OuterCrossing(const OverlayIndex& index, std::pmr::memory_resourc
 }
 
 bool OuterCrossing::begin(uint32_t child, DistanceField distance, const RingSegments& segments) {
-    const uint32_t parent = numbering_.parent[child];
+    read_border(child, distance, segments);
+    for (uint32_t i = 0; i < numbering_.overlay_size(parent_); ++i) add(i);
+    return crossing_.finish();
+}
+
+// Targets on the parent's border come first, also of a sibling's border, which has both kinds in any order.
+bool OuterCrossing::begin_to_border(uint32_t child, uint32_t patch, DistanceField distance,
+                                    const RingSegments& segments) {
+    read_border(child, distance, segments);
+    const uint32_t on_border = numbering_.border_size(parent_);
+    if (patch == parent_) {
+        for (uint32_t i = 0; i < on_border; ++i) add(i);
+        return crossing_.finish();
+    }
+    const auto positions = std::span(numbering_.overlay_position)
+                               .subspan(numbering_.border_begin[patch], numbering_.border_size(patch));
+    for (const uint32_t i : positions)
+        if (i < on_border) add(i);
+    for (const uint32_t i : positions)
+        if (i >= on_border) add(i);
+    return crossing_.finish();
+}
+
+void OuterCrossing::read_border(uint32_t child, DistanceField distance, const RingSegments& segments) {
+    child_ = child;
+    parent_ = numbering_.parent[child];
     const uint32_t first = rings_.begin[child];
     const auto border = crossing_.begin(child, segments);
     for (uint32_t k = 0; k < border.size(); ++k) border[k] = distance[rings_.vertex[first + k]];
     numbers_.clear();
     places_.clear();
     owned_.clear();
-    for (uint32_t i = 0; i < numbering_.overlay_size(parent); ++i) {
-        if (index_.is_on_border(child, i)) continue;
-        numbers_.push_back(numbering_.overlay_number(parent, i));
-        const OverlayColumn column = index_.overlay_column(parent, i);
-        (column.is_owned ? owned_ : places_).push_back(column.number);
-    }
-    return crossing_.finish();
+}
+
+// A position of the parent's overlay.
+void OuterCrossing::add(uint32_t position) {
+    if (index_.is_on_border(child_, position)) return;
+    numbers_.push_back(numbering_.overlay_number(parent_, position));
+    const OverlayColumn column = index_.overlay_column(parent_, position);
+    (column.is_owned ? owned_ : places_).push_back(column.number);
 }
 
 std::span<float> OuterCrossing::cross() {

@@ -16,7 +16,8 @@ struct DistanceField {
     float& operator[](size_t number) const { return first[number * stride]; }
 };
 
-// Hops up and across of a field: from the border of a patch to the whole overlay of its parent.
+// Hops up and across of a field: from the border of a patch to the whole overlay of its parent, or to one
+// border in it.
 class OuterCrossing {
 public:
     OuterCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory);
@@ -29,18 +30,26 @@ public:
     // Does the same with other segments, which must stay valid until the hop is done.
     bool begin(uint32_t child, DistanceField distance, const RingSegments& segments);
 
-    // Hops to each vertex of the parent's overlay that is not on the child's own border, whose distances are
-    // known; call it only if begin() returned true.
+    // The same, where only one border in that overlay is wanted: that of the parent or of another child.
+    bool begin_to_border(uint32_t child, uint32_t patch, DistanceField distance,
+                         const RingSegments& segments);
+
+    // Hops to each vertex of what is wanted that is not on the child's own border, whose distances are known;
+    // call it only if begin() or begin_to_border() returned true.
     std::span<float> cross();
 
     // The numbers of these vertices.
     std::span<const uint32_t> targets() const { return numbers_; }
 
 private:
+    void read_border(uint32_t child, DistanceField distance, const RingSegments& segments);
+    void add(uint32_t position);
+
     const OverlayIndex& index_;
     const Numbering& numbering_;
     const Rings& rings_;
     OverlayCrossing crossing_;
+    uint32_t child_ = 0, parent_ = 0;
     Array<uint32_t> numbers_;        // per target: first those on the parent's border
     Array<uint32_t> places_, owned_; // of the targets: places of the parent's ring, and owned vertices
     Array<float> outside_;           // per target: the distance

@@ -21,7 +21,7 @@ class OverlayQuery {
 public:
     OverlayQuery(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : index_(index), memory_(memory), field_(index, memory), nearest_(index, memory),
-          batch_(index, memory, FIELDS_AT_ONCE), border_hop_(index, memory),
+          batch_(index, memory, FIELDS_AT_ONCE),
           prepared_(index, memory), rows_{PointRow(memory), PointRow(memory)}, points_(memory), keys_(memory),
           position_of_key_(memory), ends_{PreparedSource(index, memory), PreparedSource(index, memory)} {}
 
@@ -30,7 +30,7 @@ public:
 
     // Prepares a source: prepared_sssd() then answers distances from it.
     void prepare(uint32_t source) { prepared_.prepare({{&source, 1}}); }
-    float prepared_sssd(uint32_t target) { return prepared_.distance(target, prepared_hops()); }
+    float prepared_sssd(uint32_t target) { return prepared_.distance(target, field_); }
 
     // Sets how many threads msad() uses.
     void set_threads(uint32_t count) {
@@ -85,7 +85,7 @@ public:
 
     // Prepares one of the two ends of a path, 0 or 1: end_distance() then answers distances from it.
     void prepare_end(size_t end, const FacePoint& point);
-    float end_distance(size_t end, uint32_t number) { return ends_[end].distance(number, prepared_hops()); }
+    float end_distance(size_t end, uint32_t number) { return ends_[end].distance(number, field_); }
 
     // Fills distances[number * FIELDS_AT_ONCE + i] with the distance from the i-th of FIELDS_AT_ONCE sources.
     // For fewer than FEWEST_AT_ONCE different ones it is faster to call msad() for each.
@@ -107,7 +107,6 @@ private:
         return pairs_.emplace(index_, memory_);
     }
 
-    PreparedHops prepared_hops() { return {border_hop_, field_}; }
     WithinSweep& within_sweep() { return within_ ? *within_ : within_.emplace(index_, memory_); }
 
     const OverlayIndex& index_;
@@ -117,7 +116,6 @@ private:
     OverlaySsad field_;
     OverlayMsad nearest_;
     OverlaySsad batch_;
-    BorderHop border_hop_;
     PreparedSource prepared_;
     std::array<PointRow, 2> rows_; // of the points of a pair
     Array<PointWays> points_;      // of a sweep, or of the end that is prepared

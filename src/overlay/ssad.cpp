@@ -50,7 +50,15 @@ void OverlaySsad::climb(const Sources& sources, std::span<float> distances) {
 
 // Hops to the overlay of the parent. The child's border keeps the distances it has.
 void OverlaySsad::hop_up(uint32_t child, DistanceField distance) {
-    if (!up_.begin(child, distance, segments_of(child))) return;
+    if (up_.begin(child, distance, segments_of(child))) cross_up(distance);
+}
+
+void OverlaySsad::hop_to_border(uint32_t child, uint32_t patch, std::span<float> distance) {
+    const DistanceField field{distance.data()};
+    if (up_.begin_to_border(child, patch, field, segments_of(child))) cross_up(field);
+}
+
+void OverlaySsad::cross_up(DistanceField distance) {
     const std::span<const float> ways = up_.cross();
     const std::span<const uint32_t> targets = up_.targets();
     for (size_t r = 0; r < ways.size(); ++r) {

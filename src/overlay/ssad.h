@@ -36,14 +36,18 @@ public:
     }
     void sweep(const Sources& sources, float radius, std::span<float> distances);
 
-    // A single step of a sweep, for one field that is wanted in some patches only: from the border of a patch
-    // that does not contain the source, whose distances must be known, to its inner vertices.
+    // Single steps of a sweep, for one field that is wanted in some patches only. A hop leads from the border
+    // of a patch that contains the source to the border of its parent or of another child of that, or from
+    // the border of a patch that does not to its inner vertices. The distances of the border that it starts
+    // at must be known, and those that it leads to known or infinite.
+    void hop_to_border(uint32_t child, uint32_t patch, std::span<float> distance);
     void hop_down(uint32_t patch, std::span<float> distance);
 
 private:
     RingSegments segments_of(uint32_t patch) const;
     void climb(const Sources& sources, std::span<float> distances);
     void hop_up(uint32_t child, DistanceField distance);
+    void cross_up(DistanceField distance);
     void hop_down(uint32_t patch, const Sources& sources, float radius, std::span<float> distances,
                   InnerSweep& sweep) const;
 

@@ -31,54 +31,45 @@ uint32_t PreparedSource::child_around_source(uint32_t patch) const {
 
 // The overlay of the innermost patch is known. Of any other patch around the source only the borders of those
 // children become known that targets need.
-void PreparedSource::require(uint32_t border_vertex, const PreparedHops& hops) {
+void PreparedSource::require(uint32_t border_vertex, OverlaySsad& field) {
     const Numbering& numbering = index_.numbering;
     const uint32_t owner = numbering.owner[border_vertex];
     if (owner == innermost_) return;
-    if (!is_around_source(owner)) return require_inner(owner, hops);
-    const auto borders = numbering.borders_of(border_vertex);
+    if (!is_around_source(owner)) return require_inner(owner, field);
     const auto is_of_child = [&](const PatchPosition& at) { return numbering.parent[at.patch] == owner; };
-    const auto is_known = [&](const PatchPosition& at) {
-        return is_of_child(at) && is_border_known_[at.patch];
-    };
-    if (std::ranges::any_of(borders, is_known)) return;
-    require_border(std::ranges::find_if(borders, is_of_child)->patch, hops);
+    require_border(std::ranges::find_if(numbering.borders_of(border_vertex), is_of_child)->patch, field);
 }
 
-void PreparedSource::require_border(uint32_t patch, const PreparedHops& hops) {
+void PreparedSource::require_border(uint32_t patch, OverlaySsad& field) {
     if (is_border_known_[patch]) return;
     const uint32_t parent = index_.numbering.parent[patch];
     if (!is_around_source(parent)) {
-        require_inner(parent, hops);
-    } else if (is_around_source(patch)) {
-        const uint32_t child = child_around_source(patch);
-        require_border(child, hops);
-        hops.to_borders.hop_to_parent(child, known_);
+        require_inner(parent, field);
     } else if (parent != innermost_) {
-        const uint32_t child = child_around_source(parent);
-        require_border(child, hops);
-        hops.to_borders.hop_to_sibling(child, patch, known_);
+        const uint32_t child = child_around_source(is_around_source(patch) ? patch : parent);
+        require_border(child, field);
+        field.hop_to_border(child, patch, known_);
     }
     is_border_known_[patch] = 1;
 }
 
 // Of a patch that is not around the source: down from its border.
-void PreparedSource::require_inner(uint32_t patch, const PreparedHops& hops) {
+void PreparedSource::require_inner(uint32_t patch, OverlaySsad& field) {
     if (is_inner_known_[patch]) return;
-    require_border(patch, hops);
-    hops.down.hop_down(patch, known_);
+    require_border(patch, field);
+    field.hop_down(patch, known_);
     is_inner_known_[patch] = 1;
 }
 
 // A border vertex that is known has its final distance, whichever border it became known with.
-float PreparedSource::distance(uint32_t target, const PreparedHops& hops) {
+float PreparedSource::distance(uint32_t target, OverlaySsad& field) {
     if (index_.numbering.is_border(target)) {
-        if (!(known_[target] < INFINITE)) require(target, hops);
+        if (!(known_[target] < INFINITE)) require(target, field);
         return known_[target];
     }
     const uint32_t leaf = index_.numbering.leaf_of(target);
     if (leaf == innermost_) return known_[target];
-    if (!is_border_known_[leaf]) require_border(leaf, hops);
+    if (!is_border_known_[leaf]) require_border(leaf, field);
     return distance_over_border(leaf, target);
 }
 

@@ -3,17 +3,10 @@
 #include <cstdint>
 #include <memory_resource>
 
-#include "src/overlay/border_hop.h"
 #include "src/overlay/ssad.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic {
-
-// What hops of prepared sources need, which many of them can share.
-struct PreparedHops {
-    BorderHop& to_borders;
-    OverlaySsad& down;
-};
 
 // A source with its distances to borders, so that a distance to any vertex is one minimum over the border
 // around that vertex. Borders become known when a target needs them, and stay so: up from the source to the
@@ -27,15 +20,15 @@ public:
 
     void prepare(const Sources& source);
 
-    // prepare() comes before.
-    float distance(uint32_t target, const PreparedHops& hops);
+    // prepare() comes before. `field` is scratch.
+    float distance(uint32_t target, OverlaySsad& field);
 
 private:
     bool is_around_source(uint32_t patch) const { return index_.numbering.is_within(innermost_, patch); }
     uint32_t child_around_source(uint32_t patch) const;
-    void require(uint32_t border_vertex, const PreparedHops& hops);
-    void require_border(uint32_t patch, const PreparedHops& hops);
-    void require_inner(uint32_t patch, const PreparedHops& hops);
+    void require(uint32_t border_vertex, OverlaySsad& field);
+    void require_border(uint32_t patch, OverlaySsad& field);
+    void require_inner(uint32_t patch, OverlaySsad& field);
     float distance_over_border(uint32_t leaf, uint32_t target);
 
     const OverlayIndex& index_;
