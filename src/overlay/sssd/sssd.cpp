@@ -250,8 +250,7 @@ bool OverlaySssd::take_parts_within(float length) {
         from_.take_parts_within(index_, length);
         pairs += from_.pairs_between_parts() + size_t{from_.parts.back().size()} * to_.parts.back().size();
     }
-    if (pairs > MOST_NEAR_PAIRS) return false;
-    return true;
+    return pairs <= MOST_NEAR_PAIRS;
 }
 
 // Whether all borders may be crossed as a whole.
