@@ -74,7 +74,7 @@ BorderPart part_beside(const OverlayIndex& index, uint32_t patch, const BorderPa
     const auto is_well_inside = [&](const BorderRange& range) {
         return place >= range.first + Rings::REACH && place + Rings::REACH <= range.last;
     };
-    if (std::ranges::any_of(part.ranges(), is_well_inside)) return part;
+    if (index.rings.is_own[place] && std::ranges::any_of(part.ranges(), is_well_inside)) return part;
     const uint32_t own = own_place(index.rings, index.numbering, patch, index.rings.position[place]);
     if (part.covers(part_about(index, patch, own, Rings::REACH))) return part;
     return part_about(index, patch, own, std::max(EACH_SIDE, part.size() / 2));
