@@ -7,7 +7,7 @@
 
 #include "src/partition/patch.h"
 #include "src/partition/poisson_disk.h"
-#include "src/partition/straighten.h"
+#include "src/partition/shorten_borders.h"
 #include "src/partition/voronoi.h"
 
 namespace geodesic {
@@ -26,7 +26,7 @@ std::vector<uint32_t> relaxed_cells(const Mesh& mesh, std::span<const uint32_t> 
         relax_seeds(solver, mesh, faces, cell, seeds);
         cell = voronoi_cells(solver, mesh, faces, seeds);
     }
-    straighten_borders(mesh, faces, cell);
+    shorten_borders(mesh, faces, cell);
     return cell;
 }
 

@@ -98,7 +98,7 @@ const Built& on_closed() {
     return built;
 }
 const Built& with_open_chains() {
-    static const Built built(with_holes(hills(26, 24)), options_of(GEOIDX_METRIC_EXACT, {3, 3}));
+    static const Built built(with_holes(hills(26, 24)), options_of(GEOIDX_METRIC_EXACT, {4, 4}));
     return built;
 }
 const Built& in_parts() {
@@ -437,7 +437,7 @@ TEST_CASE("hop: over segments of any length, every distance is written") {
 // Here a vertex may have a path to one end of a segment and none to the other, which are joined by an edge,
 // so that no mesh has that, but a file of another writer may.
 TEST_CASE("hop: as the text has it where tables lack paths to an end of a segment") {
-    const Built built = with_few_paths(with_open_chains(), options_of(GEOIDX_METRIC_EXACT, {3, 3}));
+    const Built built = with_few_paths(with_open_chains(), options_of(GEOIDX_METRIC_EXACT, {4, 4}));
     const Tallies tallies = check_hops(built);
     for (const Tally* tally : tallies.all()) {
         CHECK(tally->near > 50);

@@ -1,4 +1,4 @@
-#include "src/partition/straighten.h"
+#include "src/partition/shorten_borders.h"
 
 #include <algorithm>
 #include <numeric>
@@ -23,68 +23,107 @@ std::vector<uint32_t> faces_of(const Mesh& mesh) {
     return faces;
 }
 
-size_t edges_between_cells(const Mesh& mesh, const std::vector<uint32_t>& cell) {
-    size_t edges = 0;
+std::vector<uint32_t> edges_between_cells(const Mesh& mesh, const std::vector<uint32_t>& cell) {
+    std::vector<uint32_t> edges;
     for (uint32_t e = 0; e < mesh.edge_count(); ++e) {
         const auto faces = mesh.edge_faces[e];
-        edges += faces.size() == 2 && cell[faces[0]] != cell[faces[1]];
+        if (faces.size() == 2 && cell[faces[0]] != cell[faces[1]]) edges.push_back(e);
     }
     return edges;
 }
 
-}
-
-TEST_CASE("straightened borders: a sawtooth between two halves becomes a line") {
-    constexpr uint32_t COLUMNS = 20, ROWS = 10;
-    const Mesh mesh = mesh_of(grid(COLUMNS, ROWS, 1, 1));
-    const auto faces = faces_of(mesh);
-    // A square of the grid has two faces: of one row of squares, one belongs above and one below.
-    std::vector<uint32_t> cell(faces.size());
-    for (uint32_t f = 0; f < cell.size(); ++f) {
-        const uint32_t row = f / 2 / COLUMNS;
-        cell[f] = row < 5 ? 0 : row > 5 ? 1 : f % 2;
+// Each edge counts as one, and by the square of its length.
+double cost_of_borders(const Mesh& mesh, const std::vector<uint32_t>& cell) {
+    double lengths = 0;
+    for (const auto& face : mesh.face_edges)
+        for (const uint32_t e : face) lengths += mesh.edge_length(e);
+    const double average = lengths / (3 * mesh.face_count());
+    double cost = 0;
+    for (const uint32_t e : edges_between_cells(mesh, cell)) {
+        const double share = mesh.edge_length(e) / average;
+        cost += 1 + share * share;
     }
-    CHECK(edges_between_cells(mesh, cell) >= 2 * COLUMNS - 1);
-    straighten_borders(mesh, faces, cell);
-    CHECK(edges_between_cells(mesh, cell) == COLUMNS);
+    return cost;
 }
 
-TEST_CASE("straightened borders: fewer edges between Voronoi cells, which hang together as before") {
+// columns x rows cells of two triangles, whose diagonals alternate.
+Soup alternating_grid(uint32_t columns, uint32_t rows, double width, double height) {
+    Soup soup = grid(columns, rows, width, height);
+    for (uint32_t y = 0; y < rows; ++y)
+        for (uint32_t x = 0; x < columns; ++x) {
+            const uint32_t a = x + y * (columns + 1), b = a + 1, c = a + columns + 1, d = c + 1;
+            const bool rises = (x + y) % 2 == 0;
+            const size_t first = 2 * (x + size_t{y} * columns);
+            soup.triangles[first] = {a, b, rises ? d : c};
+            soup.triangles[first + 1] = {rises ? a : b, d, c};
+        }
+    return soup;
+}
+
+// Per face: 0 below a row of cells, 1 above it, and in the row by whether one side of the face is the
+// lower side of the row.
+std::vector<uint32_t> parted_by_teeth(const Mesh& mesh, uint32_t columns, uint32_t row) {
+    std::vector<uint32_t> cell(mesh.face_count());
+    for (uint32_t f = 0; f < cell.size(); ++f) {
+        const uint32_t row_of_face = f / 2 / columns;
+        cell[f] = row_of_face < row ? 0 : row_of_face > row ? 1 : f % 2;
+    }
+    return cell;
+}
+
+}
+
+TEST_CASE("shortened borders: teeth between two halves become a line") {
+    constexpr uint32_t COLUMNS = 20, ROWS = 10;
+    for (const Soup& soup : {grid(COLUMNS, ROWS, 1, 1), alternating_grid(COLUMNS, ROWS, 1, 1),
+                             alternating_grid(COLUMNS, ROWS, 1, 40)}) {
+        const Mesh mesh = mesh_of(soup);
+        auto cell = parted_by_teeth(mesh, COLUMNS, ROWS / 2);
+        CHECK(edges_between_cells(mesh, cell).size() >= COLUMNS);
+        CHECK(cost_of_borders(mesh, cell) > 1.5 * COLUMNS);
+        shorten_borders(mesh, faces_of(mesh), cell);
+        const auto edges = edges_between_cells(mesh, cell);
+        CHECK(edges.size() == COLUMNS);
+        for (const uint32_t e : edges) CHECK(mesh.edge_length(e) == doctest::Approx(1.0 / COLUMNS));
+    }
+}
+
+TEST_CASE("shortened borders: cheaper borders between Voronoi cells, which keep their inner faces") {
     for (const Soup& soup :
-         {bumpy_sphere(4, 1), torus(40, 20, 2, 0.7), jittered_grid(30, 3), annulus(40, 8)}) {
+         {bumpy_sphere(4, 1), torus(40, 20, 2, 0.7), jittered_grid(30, 3), annulus(40, 8), comb(5)}) {
         const Mesh mesh = mesh_of(soup);
         const auto faces = faces_of(mesh);
         const auto solver = ExactMetric(mesh).make_solver();
-        std::vector<uint32_t> vertices = vertices_of(mesh, faces);
         Random random(5);
-        const auto seeds = poisson_disk_samples(*solver, vertices, 12, random);
+        auto seeds = poisson_disk_samples(*solver, vertices_of(mesh, faces), 12, random);
         const auto before = voronoi_cells(*solver, mesh, faces, seeds);
         auto cell = before;
-        straighten_borders(mesh, faces, cell);
-        CHECK(edges_between_cells(mesh, cell) < edges_between_cells(mesh, before));
-        CHECK(connected_components(mesh, faces, cell).count <=
-              connected_components(mesh, faces, before).count);
-        CHECK(std::set(cell.begin(), cell.end()) == std::set(before.begin(), before.end()));
-        const auto straight = cell;
-        straighten_borders(mesh, faces, cell);
-        CHECK(cell == straight);
+        shorten_borders(mesh, faces, cell);
+        CHECK(cost_of_borders(mesh, cell) < 0.9 * cost_of_borders(mesh, before));
+        CHECK(edges_between_cells(mesh, cell).size() < edges_between_cells(mesh, before).size());
+        // The faces around the vertices that are farthest from all borders.
+        relax_seeds(*solver, mesh, faces, before, seeds);
+        for (const uint32_t seed : seeds)
+            for (const uint32_t f : mesh.vertex_faces[seed]) CHECK(cell[f] == before[f]);
     }
 }
 
-TEST_CASE("straightened borders: faces beyond the patch do not count, and a cell keeps its last face") {
+TEST_CASE("shortened borders: what has no cell, or lies beyond the patch, stays") {
     const Mesh mesh = mesh_of(grid(3, 3, 1, 1));
     const std::vector<uint32_t> one_square{8, 9}; // the one in the middle
     std::vector<uint32_t> cell{3, 4};
-    straighten_borders(mesh, one_square, cell);
+    shorten_borders(mesh, one_square, cell);
     CHECK(cell == std::vector<uint32_t>{3, 4});
 
     const auto faces = faces_of(mesh);
     std::vector<uint32_t> lone(faces.size(), 7);
     lone[9] = 2;
     auto kept = lone;
-    straighten_borders(mesh, faces, kept);
+    shorten_borders(mesh, faces, kept);
     CHECK(kept == lone);
-    lone[8] = 2; // of two faces one may go
-    straighten_borders(mesh, faces, lone);
-    CHECK(std::count(lone.begin(), lone.end(), 2u) == 1);
+
+    auto none = parted_by_teeth(mesh, 3, 1);
+    for (const uint32_t f : {0u, 9u, 17u}) none[f] = NONE;
+    shorten_borders(mesh, faces, none);
+    for (uint32_t f = 0; f < none.size(); ++f) CHECK((none[f] == NONE) == (f == 0 || f == 9 || f == 17));
 }

@@ -87,6 +87,36 @@ const geoidx* index_with_long_borders() {
     return index.get();
 }
 
+IndexHandle without_labels(const geoidx* index) {
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    options.flags = GEOIDX_OPEN_NO_LABELS;
+    const Bytes bytes = save(index);
+    geoidx* opened = nullptr;
+    require_success(geoidx_open_memory(bytes.data(), bytes.size(), &options, &opened));
+    return IndexHandle(opened);
+}
+
+// A rough grid of vertices, 0.05 apart along x and 2 along y, whose diagonals alternate.
+TestMesh narrow_triangles(uint32_t columns, uint32_t rows) {
+    TestMesh mesh = grid(columns, rows);
+    std::mt19937 random(5);
+    for (size_t i = 0; i < mesh.positions.size(); i += 3) {
+        mesh.positions[i] *= 0.05;
+        mesh.positions[i + 1] *= 2;
+        mesh.positions[i + 2] = 0.02 * static_cast<double>(random()) / 4294967296.0;
+    }
+    mesh.triangles.clear();
+    for (uint32_t y = 0; y + 1 < rows; ++y)
+        for (uint32_t x = 0; x + 1 < columns; ++x) {
+            const uint32_t a = y * columns + x, b = a + 1, c = a + columns, d = c + 1;
+            const bool rises = (x + y) % 2 == 0;
+            mesh.add_triangle(a, b, rises ? d : c);
+            mesh.add_triangle(rises ? a : b, d, c);
+        }
+    return mesh;
+}
+
 }
 
 // Along edges every path crosses borders at vertices, so that nothing but the codes is rounded: a hop adds at
@@ -148,20 +178,14 @@ TEST_CASE("overlay: near vertices find their way across a large border") {
 
 // Without labels a path climbs over the borders of all levels.
 TEST_CASE("overlay: far vertices find their way over borders that have pieces in common") {
-    geoidx_open_options options;
-    geoidx_open_options_init(&options);
-    options.flags = GEOIDX_OPEN_NO_LABELS;
-    const Bytes bytes = save(index_with_long_borders());
-    geoidx* opened = nullptr;
-    require_success(geoidx_open_memory(bytes.data(), bytes.size(), &options, &opened));
-    const IndexHandle without_labels(opened);
+    const IndexHandle opened = without_labels(index_with_long_borders());
     Differences errors;
     std::mt19937 random(7);
     const auto any_vertex = [&] { return static_cast<uint32_t>(random() % large_plane().vertex_count()); };
     for (uint32_t i = 0; i < 400000; i += sparse(1)) {
         const uint32_t source = any_vertex(), target = any_vertex();
         const double straight = large_plane().straight(source, target);
-        if (straight > 5) errors.add(double{sssd(opened, source, target)}, straight);
+        if (straight > 5) errors.add(double{sssd(opened.get(), source, target)}, straight);
     }
     CHECK(errors.reached_wrongly == 0);
     CHECK(errors.mean() < 2e-3);
@@ -184,6 +208,35 @@ TEST_CASE("overlay: pairs on a lattice of tubes are as far apart as in a field" 
     }
     CHECK(differences.reached_wrongly == 0);
     CHECK(differences.largest < 0.06);
+}
+
+// Borders that run in teeth from one side of such triangles to the other have samples far apart where the
+// surface is narrow, and fields that jump beside them.
+TEST_CASE("overlay: pairs and fields on triangles 40 times as long as wide" * doctest::skip(SANITIZED)) {
+    const TestMesh mesh = narrow_triangles(150, 18);
+    const uint32_t count = mesh.vertex_count();
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    const auto built = build(mesh, options);
+    const auto opened = without_labels(built.get());
+    const auto exact = solver(mesh, options);
+    Differences fields, pairs, pairs_without_labels;
+    for (uint32_t source = 0; source < count; source += 67) {
+        const auto expected = metric_distances(exact.get(), source, count);
+        const auto field = msad(built.get(), source, count);
+        for (uint32_t target = 0; target < count; ++target) {
+            fields.add(double{field[target]}, expected[target]);
+            pairs.add(double{sssd(built.get(), source, target)}, expected[target]);
+            pairs_without_labels.add(double{sssd(opened.get(), source, target)}, expected[target]);
+        }
+    }
+    for (const Differences& differences : {fields, pairs, pairs_without_labels}) {
+        CHECK(differences.reached_wrongly == 0);
+        CHECK(differences.mean() < 5e-4);
+    }
+    CHECK(fields.largest < 0.03);
+    CHECK(pairs.largest < 0.03);
+    CHECK(pairs_without_labels.largest < 0.08); // ways over samples lose more, as docs/limits.md says
 }
 
 // A path between near vertices may pass a jagged border far from the border vertex that is the least detour.

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "src/mesh/mesh.h"
+
+namespace geodesic {
+
+// Moves the borders between cells to where they have few and short edges. Voronoi cells of vertices meet in
+// zigzags, which have almost twice as many vertices as are needed, and each one is a row and a column of
+// tables. An edge counts as one, and besides by the square of its length: so grows the error of paths that
+// cross it between its ends.
+//
+// Between any two cells the border becomes the cheapest one in a band around it, beyond which each cell stays
+// as it is. So no cell loses its last face; but its faces need not be connected as they were.
+//
+// cell[i] is the cell of faces[i], or NONE: such faces stay as they are.
+void shorten_borders(const Mesh& mesh, std::span<const uint32_t> faces, std::span<uint32_t> cell);
+
+}
