@@ -14,6 +14,7 @@ void add_tails(CLI::App& app);
 void add_open(CLI::App& app);
 void add_pairs(CLI::App& app);
 void add_paths(CLI::App& app);
+void add_surface(CLI::App& app);
 void add_weighted(CLI::App& app);
 void add_files(CLI::App& app);
 void add_farthest(CLI::App& app);

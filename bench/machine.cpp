@@ -78,4 +78,13 @@ uint64_t peak_memory() {
     return std::strtoull(kibibytes.c_str(), nullptr, 10) * 1024;
 }
 
+uint64_t heap_memory() {
+#if defined(__GLIBC__)
+    const auto used = mallinfo2();
+    return used.uordblks + used.hblkhd;
+#else
+    return 0;
+#endif
+}
+
 }

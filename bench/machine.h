@@ -15,4 +15,7 @@ void forget_peak_memory();
 // The most memory that the process has held, in bytes; 0 where the system does not tell.
 uint64_t peak_memory();
 
+// What malloc has given and has not got back, in bytes; 0 where the system does not tell.
+uint64_t heap_memory();
+
 }

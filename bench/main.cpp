@@ -30,6 +30,7 @@ void add_commands(CLI::App& app) {
     add_open(app);
     add_pairs(app);
     add_paths(app);
+    add_surface(app);
     add_weighted(app);
     add_files(app);
 }

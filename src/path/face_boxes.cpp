@@ -8,8 +8,6 @@
 
 #include <Eigen/Geometry>
 
-#include "src/mesh/spatial_order.h"
-
 namespace geodesic {
 
 namespace {
@@ -28,23 +26,16 @@ std::array<Vector3d, 3> corners_of(const Surface& surface, uint32_t face) {
     return {surface.positions[a], surface.positions[b], surface.positions[c]};
 }
 
-std::vector<uint32_t> faces_in_order(const Surface& surface) {
-    std::vector<Vector3d> middles;
-    std::vector<uint32_t> faces(surface.face_count());
-    for (uint32_t f = 0; f < surface.face_count(); ++f) {
-        const auto [a, b, c] = corners_of(surface, f);
-        middles.emplace_back((a + b + c) / 3);
-        faces[f] = f;
-    }
-    return spatial_order(middles, std::move(faces));
+// From a position to the box around a face.
+double square_to_box_of(const Surface& surface, uint32_t face, const Vector3d& position) {
+    const auto [a, b, c] = corners_of(surface, face);
+    const Vector3d low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    return (low - position).cwiseMax(position - high).cwiseMax(0).squaredNorm();
 }
 
-float rounded_down(double value) {
-    return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity());
-}
-float rounded_up(double value) {
-    return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
-}
+constexpr uint32_t FACES_PER_LEAF = 8; // at least, unless the surface has fewer
+constexpr double MOST_CELLS = std::numeric_limits<uint16_t>::max();
+constexpr double MARGIN = 1; // in cells: far more than the rounding of positions in cells
 
 }
 
@@ -74,38 +65,58 @@ SurfacePoint closest_on_face(const Surface& surface, uint32_t face, const Vector
     return best;
 }
 
-FaceBoxes::FaceBoxes(const Surface& surface) : order_(faces_in_order(surface)) {
-    const uint32_t leaves = std::bit_ceil((surface.face_count() + FACES_PER_LEAF - 1) / FACES_PER_LEAF);
-    constexpr float FAR = std::numeric_limits<float>::infinity();
+FaceBoxes::FaceBoxes(const Surface& surface) {
+    Vector3d low = surface.positions[0], high = low;
+    for (const Vector3d& position : surface.positions) {
+        low = low.cwiseMin(position);
+        high = high.cwiseMax(position);
+    }
+    origin_ = low;
+    // A position in the last cell is rounded up, and so takes one more.
+    cells_per_length_ = (MOST_CELLS - 2 * MARGIN - 1) / (high - low).maxCoeff();
+    const uint32_t leaves = std::bit_floor(std::max(1u, surface.face_count() / FACES_PER_LEAF));
     first_leaf_ = leaves - 1;
-    boxes_.assign(size_t{2} * leaves - 1, {{FAR, FAR, FAR}, {-FAR, -FAR, -FAR}});
+    boxes_.resize(size_t{2} * leaves - 1);
     for (uint32_t leaf = 0; leaf < leaves; ++leaf) boxes_[first_leaf_ + leaf] = box_of_leaf(surface, leaf);
-    for (uint32_t i = first_leaf_; i-- > 0;)
-        for (const Box& child : {boxes_[2 * i + 1], boxes_[2 * i + 2]})
-            for (size_t k = 0; k < 3; ++k) {
-                boxes_[i].low[k] = std::min(boxes_[i].low[k], child.low[k]);
-                boxes_[i].high[k] = std::max(boxes_[i].high[k], child.high[k]);
-            }
+    for (uint32_t i = first_leaf_; i-- > 0;) {
+        const Box &first = boxes_[2 * i + 1], &second = boxes_[2 * i + 2];
+        for (size_t k = 0; k < 3; ++k) {
+            boxes_[i].low[k] = std::min(first.low[k], second.low[k]);
+            boxes_[i].high[k] = std::max(first.high[k], second.high[k]);
+        }
+    }
 }
 
-// A leaf without faces has a box that nothing is near to.
+Vector3d FaceBoxes::in_cells(const Vector3d& position) const {
+    return (position - origin_) * cells_per_length_ + Vector3d::Constant(MARGIN);
+}
+
+void FaceBoxes::add_to(Box& box, const Vector3d& position) const {
+    const Vector3d cells = in_cells(position);
+    for (size_t k = 0; k < 3; ++k) {
+        const double at = cells[static_cast<Eigen::Index>(k)];
+        box.low[k] = std::min(box.low[k], static_cast<uint16_t>(std::floor(at - MARGIN)));
+        box.high[k] = std::max(box.high[k], static_cast<uint16_t>(std::ceil(at + MARGIN)));
+    }
+}
+
+// Every leaf has as many faces as any other, or one more or less.
+uint32_t FaceBoxes::first_face_of(const Surface& surface, uint32_t leaf) const {
+    return static_cast<uint32_t>(uint64_t{leaf} * surface.face_count() / (first_leaf_ + 1));
+}
+
 FaceBoxes::Box FaceBoxes::box_of_leaf(const Surface& surface, uint32_t leaf) const {
-    Box box = boxes_[first_leaf_ + leaf];
-    const size_t end = std::min(order_.size(), size_t{FACES_PER_LEAF} * (leaf + 1));
-    for (size_t i = size_t{FACES_PER_LEAF} * leaf; i < end; ++i)
-        for (const Vector3d& corner : corners_of(surface, order_[i]))
-            for (size_t k = 0; k < 3; ++k) {
-                const double coordinate = corner[static_cast<Eigen::Index>(k)];
-                box.low[k] = std::min(box.low[k], rounded_down(coordinate));
-                box.high[k] = std::max(box.high[k], rounded_up(coordinate));
-            }
+    constexpr auto FAR = static_cast<uint16_t>(MOST_CELLS);
+    Box box{{FAR, FAR, FAR}, {0, 0, 0}};
+    for (uint32_t f = first_face_of(surface, leaf); f < first_face_of(surface, leaf + 1); ++f)
+        for (const uint32_t corner : surface.faces[f]) add_to(box, surface.positions[corner]);
     return box;
 }
 
-double FaceBoxes::square_to(uint32_t box, const Vector3d& position) const {
+double FaceBoxes::square_to(uint32_t box, const Vector3d& cells) const {
     double square = 0;
     for (size_t k = 0; k < 3; ++k) {
-        const double x = position[static_cast<Eigen::Index>(k)];
+        const double x = cells[static_cast<Eigen::Index>(k)];
         const double off = std::max({boxes_[box].low[k] - x, x - boxes_[box].high[k], 0.0});
         square += off * off;
     }
@@ -114,29 +125,32 @@ double FaceBoxes::square_to(uint32_t box, const Vector3d& position) const {
 
 void FaceBoxes::search_leaf(const Surface& surface, uint32_t leaf, const Vector3d& position,
                             ClosestPoint& best) const {
-    const size_t end = std::min(order_.size(), size_t{FACES_PER_LEAF} * (leaf + 1));
-    for (size_t i = size_t{FACES_PER_LEAF} * leaf; i < end; ++i) {
-        const SurfacePoint point = closest_on_face(surface, order_[i], position);
+    for (uint32_t f = first_face_of(surface, leaf); f < first_face_of(surface, leaf + 1); ++f) {
+        const bool is_first = best.point.face == NONE;
+        if (!is_first && square_to_box_of(surface, f, position) > best.distance * best.distance) continue;
+        const SurfacePoint point = closest_on_face(surface, f, position);
         const double distance = (position_of(surface, point) - position).stableNorm();
-        if (best.point.face == NONE || distance < best.distance) best = {point, distance};
+        if (is_first || distance < best.distance) best = {point, distance};
     }
 }
 
 // The nearer of two boxes first; a box farther than what has been found is passed over.
 ClosestPoint FaceBoxes::closest(const Surface& surface, const Vector3d& position) const {
+    const Vector3d cells = in_cells(position);
     ClosestPoint best{{NONE, {}}, std::numeric_limits<double>::infinity()};
     std::array<std::pair<double, uint32_t>, 64> waiting;
     size_t count = 0;
-    waiting[count++] = {square_to(0, position), 0};
+    waiting[count++] = {square_to(0, cells), 0};
     while (count > 0) {
         const auto [square, box] = waiting[--count];
-        if (best.point.face != NONE && square > best.distance * best.distance) continue;
+        const double farthest = best.distance * cells_per_length_;
+        if (best.point.face != NONE && square > farthest * farthest) continue;
         if (box >= first_leaf_) {
             search_leaf(surface, box - first_leaf_, position, best);
             continue;
         }
-        const std::pair<double, uint32_t> first{square_to(2 * box + 1, position), 2 * box + 1},
-            second{square_to(2 * box + 2, position), 2 * box + 2};
+        const std::pair<double, uint32_t> first{square_to(2 * box + 1, cells), 2 * box + 1},
+            second{square_to(2 * box + 2, cells), 2 * box + 2};
         waiting[count++] = std::max(first, second);
         waiting[count++] = std::min(first, second);
     }

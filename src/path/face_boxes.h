@@ -14,9 +14,9 @@ struct ClosestPoint {
     double distance;
 };
 
-// Boxes around groups of faces that lie near each other, and around pairs of boxes, up to one around all:
-// which faces may be the nearest is told by the boxes. The boxes are of floats, rounded outwards; faces are
-// measured in double precision.
+// Boxes around runs of faces, which lie near each other since faces are numbered in spatial order, and around
+// pairs of boxes, up to one around all: which faces may be the nearest is told by the boxes. Boxes are in
+// whole cells of a grid over the surface and rounded outwards; faces are measured in double precision.
 class FaceBoxes {
 public:
     explicit FaceBoxes(const Surface& surface);
@@ -25,17 +25,20 @@ public:
     ClosestPoint closest(const Surface& surface, const Eigen::Vector3d& position) const;
 
 private:
-    static constexpr uint32_t FACES_PER_LEAF = 8;
     struct Box {
-        std::array<float, 3> low, high;
+        std::array<uint16_t, 3> low, high;
     };
 
+    Eigen::Vector3d in_cells(const Eigen::Vector3d& position) const;
+    void add_to(Box& box, const Eigen::Vector3d& position) const;
+    uint32_t first_face_of(const Surface& surface, uint32_t leaf) const;
     Box box_of_leaf(const Surface& surface, uint32_t leaf) const;
-    double square_to(uint32_t box, const Eigen::Vector3d& position) const;
+    double square_to(uint32_t box, const Eigen::Vector3d& cells) const;
     void search_leaf(const Surface& surface, uint32_t leaf, const Eigen::Vector3d& position,
                      ClosestPoint& best) const;
 
-    std::vector<uint32_t> order_; // the faces, neighbours in space one after the other
+    Eigen::Vector3d origin_; // of the grid
+    double cells_per_length_ = 0;
     uint32_t first_leaf_ = 0;
     std::vector<Box> boxes_; // a heap: box i is around 2 i + 1 and 2 i + 2
 };

@@ -29,6 +29,7 @@ Surface::Surface(Intake&& intake, SurfaceCosts&& given)
             triangle_of_face[face_of_triangle[t]] = t;
     positions.shrink_to_fit();
     faces.shrink_to_fit();
+    id_of_vertex.shrink_to_fit();
     face_of_triangle.shrink_to_fit();
     average_edge = average_edge_of(*this);
 }
