@@ -556,7 +556,7 @@ static inline void geoidx_surface_options_init(geoidx_surface_options* options) 
     geoidx_surface_options_init_sized(options, sizeof(geoidx_surface_options));
 }
 
-/* Makes a surface of the caller's mesh, by the rules of geoidx_mesh; `options` may be NULL. It takes some 105
+/* Makes a surface of the caller's mesh, by the rules of geoidx_mesh; `options` may be NULL. It takes some 93
  * bytes a vertex of a closed mesh, from the global heap, and no more for any number of threads. A query takes
  * a surface of the mesh that its index was built from; GEOIDX_ERROR_MESH_MISMATCH for another one. To be
  * closed with geoidx_surface_close. */

@@ -10,6 +10,7 @@
 
 #include "src/mesh/intake.h"
 #include "src/metric/metric.h"
+#include "src/path/vertex_faces.h"
 
 namespace geodesic {
 
@@ -29,7 +30,7 @@ struct Surface {
 
     std::vector<Eigen::Vector3d> positions;
     std::vector<std::array<uint32_t, 3>> faces;
-    ListOfLists<uint32_t> vertex_faces;
+    VertexFaces vertex_faces;
     std::vector<uint32_t> vertex_of_id;     // per caller's id; NONE where no triangle uses it
     std::vector<uint32_t> id_of_vertex;     // the first of the caller's ids
     std::vector<uint32_t> face_of_triangle; // per caller's triangle; NONE where it is degenerate
@@ -52,6 +53,11 @@ inline uint32_t corner_of(const Surface& surface, uint32_t face, uint32_t vertex
     return NONE;
 }
 
+inline bool has_corner(const Surface& surface, uint32_t face, uint32_t vertex) {
+    const auto& [a, b, c] = surface.faces[face];
+    return (a == vertex) | (b == vertex) | (c == vertex); // without jumps, which processors would mispredict
+}
+
 // A vertex as a point of one of its faces.
 inline SurfacePoint corner_point(const Surface& surface, uint32_t face, uint32_t vertex) {
     SurfacePoint point{face, {}};
@@ -66,7 +72,7 @@ SurfacePoint point_at_vertex(const Surface& surface, uint32_t vertex);
 template <class Use>
 void for_each_face_beyond(const Surface& surface, uint32_t face, uint32_t a, uint32_t b, const Use& use) {
     for (const uint32_t other : surface.vertex_faces[a])
-        if (other != face && corner_of(surface, other, b) != NONE) use(other);
+        if (other != face && has_corner(surface, other, b)) use(other);
 }
 
 }

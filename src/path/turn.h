@@ -18,7 +18,7 @@ namespace geodesic {
 class Turn {
 public:
     Turn(const Surface& surface, uint32_t vertex) : surface_(surface), vertex_(vertex) {
-        const size_t faces = surface.vertex_faces[vertex].size();
+        const size_t faces = surface.vertex_faces.room_for(vertex);
         spokes_.reserve(faces + 1);
         sectors_.reserve(faces);
         for (const uint32_t face : surface.vertex_faces[vertex]) add_face(face);

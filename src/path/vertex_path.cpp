@@ -62,10 +62,11 @@ std::vector<SurfacePoint> VertexPathFinder::points_over(const SurfacePoint& sour
     std::vector<SurfacePoint> points{source};
     for (size_t i = 0; i < vertices.size(); ++i) {
         uint32_t face = target.face;
-        if (i + 1 < vertices.size())
-            face = *std::ranges::find_if(surface_.vertex_faces[vertices[i]], [&](uint32_t f) {
-                return corner_of(surface_, f, vertices[i + 1]) != NONE;
-            });
+        if (i + 1 < vertices.size()) {
+            const auto around = surface_.vertex_faces[vertices[i]];
+            face = *std::ranges::find_if(
+                around, [&](uint32_t f) { return has_corner(surface_, f, vertices[i + 1]); });
+        }
         add_point(surface_, point_at(surface_, face, {vertices[i], vertices[i]}, 0), points);
     }
     add_point(surface_, target, points);

@@ -27,7 +27,7 @@ Surface cone_surface(const std::vector<Eigen::Vector3d>& rays) {
 uint32_t vertex_of(uint32_t ray, uint32_t ring) { return 1 + ray + RAYS * (ring - 1); }
 
 SurfacePoint point_of(const Surface& surface, uint32_t vertex) {
-    SurfacePoint point{surface.vertex_faces[vertex][0], {}};
+    SurfacePoint point{*surface.vertex_faces[vertex].begin(), {}};
     point.weights[corner_of(surface, point.face, vertex)] = 1;
     return point;
 }
