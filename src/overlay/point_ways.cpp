@@ -82,6 +82,14 @@ float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, const FacePoint
     return PointInLeaf(index, leaf, point).distance_to(leaf_vertex(index.numbering, leaf, number));
 }
 
+void fill_border_ways(const OverlayIndex& index, uint32_t leaf, const FacePoint& point,
+                      Array<float>& distances) {
+    const PointInLeaf from(index, leaf, point);
+    distances.clear();
+    for (uint32_t i = 0; i < index.numbering.border_size(leaf); ++i)
+        distances.push_back(from.distance_to({i, NONE}));
+}
+
 void fill_ways(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, float offset,
                PointWays& ways) {
     const PointInLeaf from(index, leaf, point);
@@ -94,14 +102,11 @@ void fill_ways(const OverlayIndex& index, uint32_t leaf, const FacePoint& point,
 
 // The codes that fill up the last block are those of vertices that are not reached.
 void fill_row(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, PointRow& row) {
-    const PointInLeaf from(index, leaf, point);
     const uint32_t first = index.rings.begin[leaf], places = index.rings.size(leaf);
     float longest = 0;
-    row.distances.clear();
-    for (uint32_t i = 0; i < index.numbering.border_size(leaf); ++i) {
-        row.distances.push_back(from.distance_to({i, NONE}));
-        if (row.distances[i] < INFINITE) longest = std::max(longest, row.distances[i]);
-    }
+    fill_border_ways(index, leaf, point, row.distances);
+    for (const float distance : row.distances)
+        if (distance < INFINITE) longest = std::max(longest, distance);
     row.quantum = longest / float{TableCode::LARGEST};
     row.codes.assign(SourceCode::whole_blocks(places) + TableCode::PADDING, TableCode::UNREACHED);
     for (uint32_t k = 0; k < places; ++k)

@@ -30,6 +30,10 @@ float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, uint32_t a, uin
 // The distance of a point from such a vertex.
 float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, uint32_t number);
 
+// Fills the distances of a point from the border of its leaf, in the order of the border.
+void fill_border_ways(const OverlayIndex& index, uint32_t leaf, const FacePoint& point,
+                      Array<float>& distances);
+
 // Fills the ways of a point from the tables of its leaf, with `offset` added to each.
 void fill_ways(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, float offset,
                PointWays& ways);

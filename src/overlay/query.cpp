@@ -102,8 +102,10 @@ std::span<const WithinSweep::Found> OverlayQuery::point_within(const FacePoint& 
 }
 
 void OverlayQuery::prepare_end(size_t end, const FacePoint& point) {
-    take_points({&point, 1}, {});
-    ends_[end].prepare({keys_, points_});
+    if (point.vertex != NONE)
+        ends_[end].prepare(point.vertex);
+    else
+        ends_[end].prepare(point);
 }
 
 }

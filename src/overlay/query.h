@@ -29,7 +29,7 @@ public:
     float sssd(uint32_t low, uint32_t high) { return pairs().distance(low, high); }
 
     // Prepares a source: prepared_sssd() then answers distances from it.
-    void prepare(uint32_t source) { prepared_.prepare({{&source, 1}}); }
+    void prepare(uint32_t source) { prepared_.prepare(source); }
     float prepared_sssd(uint32_t target) { return prepared_.distance(target, field_); }
 
     // Sets how many threads msad() uses.
@@ -118,7 +118,7 @@ private:
     OverlaySsad batch_;
     PreparedSource prepared_;
     std::array<PointRow, 2> rows_; // of the points of a pair
-    Array<PointWays> points_;      // of a sweep, or of the end that is prepared
+    Array<PointWays> points_;      // of a sweep
     Array<uint32_t> keys_;
     Array<uint32_t> position_of_key_; // among the points; of keys of the sweep only
     std::array<PreparedSource, 2> ends_;

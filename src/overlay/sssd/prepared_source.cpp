@@ -8,17 +8,30 @@
 
 namespace geodesic {
 
+void PreparedSource::prepare(uint32_t vertex) {
+    begin(index_.numbering.innermost_patch(vertex));
+    point_.reset();
+    for_each_way_from(index_, vertex, [&](uint32_t number, float way) { known_[number] = way; });
+}
+
+// The distances of internal vertices of the leaf follow where they are asked for.
+void PreparedSource::prepare(const FacePoint& point) {
+    begin(leaf_of_face(index_.numbering, point.corners));
+    point_ = point;
+    fill_border_ways(index_, innermost_, point, to_border_);
+    const auto border = index_.numbering.border_of(innermost_);
+    for (size_t i = 0; i < border.size(); ++i) known_[border[i]] = to_border_[i];
+}
+
 // The distances of internal vertices are read in the source's own leaf only.
-void PreparedSource::prepare(const Sources& source) {
+void PreparedSource::begin(uint32_t innermost) {
     const Numbering& numbering = index_.numbering;
     known_.resize(numbering.vertex_count());
     std::fill_n(known_.begin(), numbering.border_vertex_count(), INFINITE);
     for (auto* distances : {&from_, &to_})
         distances->resize(SourceCode::whole_blocks(index_.rings.largest_size()) + SourceCode::BLOCK);
-    source.for_each_way(index_, source.keys.front(),
-                        [&](uint32_t number, float way) { known_[number] = way; });
     for (auto* is_known : {&is_inner_known_, &is_border_known_}) is_known->assign(numbering.patch_count(), 0);
-    innermost_ = source.innermost_patch(numbering, source.keys.front());
+    innermost_ = innermost;
     is_border_known_[innermost_] = 1;
 }
 
@@ -68,9 +81,13 @@ float PreparedSource::distance(uint32_t target, OverlaySsad& field) {
         return known_[target];
     }
     const uint32_t leaf = index_.numbering.leaf_of(target);
-    if (leaf == innermost_) return known_[target];
+    if (leaf == innermost_) return distance_in_own_leaf(target);
     if (!is_border_known_[leaf]) require_border(leaf, field);
     return distance_over_border(leaf, target);
+}
+
+float PreparedSource::distance_in_own_leaf(uint32_t target) const {
+    return point_ ? distance_in_leaf(index_, innermost_, *point_, target) : known_[target];
 }
 
 // The kernel reads past the ring up to whole blocks; infinity there gives no way.

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <memory_resource>
+#include <optional>
 
+#include "src/overlay/point_ways.h"
 #include "src/overlay/ssad.h"
 #include "src/overlay/tables.h"
 
@@ -16,27 +18,33 @@ class PreparedSource {
 public:
     PreparedSource(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : index_(index), known_(memory), is_inner_known_(memory), is_border_known_(memory), from_(memory),
-          to_(memory) {}
+          to_(memory), to_border_(memory) {}
 
-    void prepare(const Sources& source);
+    void prepare(uint32_t vertex);
+    // A point of a face that a leaf has.
+    void prepare(const FacePoint& point);
 
     // prepare() comes before. `field` is scratch.
     float distance(uint32_t target, OverlaySsad& field);
 
 private:
+    void begin(uint32_t innermost);
     bool is_around_source(uint32_t patch) const { return index_.numbering.is_within(innermost_, patch); }
     uint32_t child_around_source(uint32_t patch) const;
     void require(uint32_t border_vertex, OverlaySsad& field);
     void require_border(uint32_t patch, OverlaySsad& field);
     void require_inner(uint32_t patch, OverlaySsad& field);
+    float distance_in_own_leaf(uint32_t target) const;
     float distance_over_border(uint32_t leaf, uint32_t target);
 
     const OverlayIndex& index_;
-    uint32_t innermost_ = 0; // patch around the source
-    Array<float> known_;     // by number: of the inner vertices and of the borders that are known
+    uint32_t innermost_ = 0;         // patch around the source
+    std::optional<FacePoint> point_; // unless the source is a vertex
+    Array<float> known_;             // by number: of the inner vertices and of the borders that are known
     // Per patch, the first ones but for those around the source.
     Array<uint8_t> is_inner_known_, is_border_known_;
     Array<float> from_, to_; // scratch: from both ends to the places of a ring
+    Array<float> to_border_; // scratch: of a point, by position in the border of its leaf
 };
 
 }
