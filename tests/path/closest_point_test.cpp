@@ -96,6 +96,23 @@ TEST_CASE("closest point: a corner of the surface, and the surface's own points"
     CHECK(distance < 1e-15);
 }
 
+TEST_CASE("closest point: surfaces of any size, and positions far away") {
+    for (const double size : {1e-9, 1e-3, 1e9}) {
+        CAPTURE(size);
+        Soup soup = cube(3);
+        for (Vector3d& position : soup.positions) position *= size;
+        const SurfaceHandle surface = surface_of(soup);
+        for (const double away : {0.0, size, 1e8 * size}) {
+            const std::array<double, 3> position{size / 2, size / 4, size + away};
+            geoidx_surface_point point{};
+            double distance = 0;
+            REQUIRE(geoidx_closest_point(surface.get(), position.data(), &point, &distance) == GEOIDX_OK);
+            CHECK(distance <= away * (1 + 1e-12) + 1e-15 * size);
+            CHECK(distance >= away * (1 - 1e-12));
+        }
+    }
+}
+
 TEST_CASE("surface: bad input is refused by name") {
     const Soup soup = cube(1);
     const geoidx_mesh view = view_of(soup);
