@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/overlay/kernels/nearest_places.h"
+
 namespace geodesic {
 
 namespace {
@@ -14,7 +16,8 @@ constexpr size_t MANY_NEAR = 5;
 OverlayCrossing::OverlayCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), field_(index, memory), of_part_(index.rings, memory), rows_(memory),
       near_row_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK,
-                TableCode::UNREACHED, memory) {
+                TableCode::UNREACHED, memory),
+      from_(memory), from_ring_(memory), from_owned_(memory), columns_in_rows_(memory) {
     rows_.reserve(index.rings.largest_size());
 }
 
@@ -34,15 +37,18 @@ std::span<float> OverlayCrossing::begin(uint32_t patch, const BorderPart& part, 
     parent_ = index_.numbering.parent[patch];
     part_ = part;
     rows_.resize(part.size());
+    from_.clear();
     return field_.begin(part.size(), segments, is_own, index_.quantum[parent_]);
 }
 
 void OverlayCrossing::cross_to_ring(Columns places, float* distances, uint16_t* winners) {
+    if (index_.is_large[parent_]) return cross_large(false, places, distances, winners);
     cross([&](uint32_t position) { return index_.row_to_ring(parent_, position); }, places, distances,
           winners);
 }
 
 void OverlayCrossing::cross_to_owned(Columns owned, float* distances, uint16_t* winners) {
+    if (index_.is_large[parent_]) return cross_large(true, owned, distances, winners);
     cross([&](uint32_t position) { return index_.row_to_owned(parent_, position); }, owned, distances,
           winners);
 }
@@ -52,6 +58,66 @@ void OverlayCrossing::cross(const RowAt& row_at, Columns columns, float* distanc
     if (columns.empty()) return;
     const uint16_t** row = rows_.data();
     part_.for_each_place([&](uint32_t place) { *row++ = row_at(index_.position_in_parent(patch_, place)); });
+    cross_rows(columns, distances, winners);
+}
+
+// Run by run, so that rows are turned as far as a run, into memory that stays near to the processor.
+void OverlayCrossing::cross_large(bool to_owned, Columns columns, float* distances, uint16_t* winners) {
+    if (columns.empty()) return;
+    if (from_.empty()) find_places_in_parent();
+    for (size_t done = 0; done < columns.size();) {
+        const ColumnRun run = first_run(columns.subspan(done));
+        turn_rows(to_owned, run.first, run.last);
+        const uint32_t first = TurnedRows::first_entry(run.first);
+        columns_in_rows_.resize(run.columns.size());
+        std::ranges::transform(run.columns, columns_in_rows_.begin(), [&](uint32_t c) { return c - first; });
+        cross_rows(columns_in_rows_, distances + done, winners ? winners + done : nullptr);
+        done += run.columns.size();
+    }
+}
+
+void OverlayCrossing::find_places_in_parent() {
+    const Numbering& numbering = index_.numbering;
+    const uint32_t border = numbering.border_size(parent_);
+    const uint32_t* const in_parent = numbering.overlay_position.data() + numbering.border_begin[patch_];
+    const uint16_t* const place = index_.rings.place_of_slot.data() + numbering.border_begin[parent_];
+    const uint16_t* const position = index_.rings.position.data();
+    from_.resize(part_.size());
+    OverlayColumn* from = from_.data();
+    part_.for_each_place([&](uint32_t k) {
+        const uint32_t at_parent = in_parent[position[k]];
+        *from++ = at_parent < border ? OverlayColumn{false, place[at_parent]}
+                                     : OverlayColumn{true, at_parent - border};
+    });
+}
+
+// Finds the entries from `first` to `last` of the rows of all places.
+void OverlayCrossing::turn_rows(bool to_owned, uint32_t first, uint32_t last) {
+    const HopTables& hops = index_.hops;
+    const uint32_t places = index_.rings.size(parent_), owned = index_.numbering.inner_size(parent_);
+    const TurnableTable inner{hops.inner.data() + hops.inner_begin[parent_], owned, places};
+    if (to_owned) {
+        from_ring_.begin(inner, first, last);
+        from_owned_.begin({hops.owned.data() + hops.owned_begin[parent_], owned, 0, true}, first, last);
+    } else {
+        from_ring_.begin({hops.border.data() + hops.border_begin[parent_], places, 0, true}, first, last);
+    }
+    for (const auto [is_owned, number] : from_)
+        if (!is_owned)
+            from_ring_.announce(number);
+        else if (to_owned)
+            from_owned_.announce(number);
+    from_ring_.turn();
+    if (to_owned) from_owned_.turn();
+    const uint32_t first_entry = TurnedRows::first_entry(first);
+    const uint16_t** row = rows_.data();
+    for (const auto [is_owned, number] : from_)
+        *row++ = !is_owned  ? from_ring_.next_row(number)
+                 : to_owned ? from_owned_.next_row(number)
+                            : inner.row(number) + first_entry;
+}
+
+void OverlayCrossing::cross_rows(Columns columns, float* distances, uint16_t* winners) {
     field_.cross(rows_, columns, distances, winners);
     if (field_.is_near()) cross_near(columns, distances);
 }

@@ -7,6 +7,7 @@
 #include "src/overlay/border_part.h"
 #include "src/overlay/ring_segments.h"
 #include "src/overlay/tables.h"
+#include "src/overlay/turned_rows.h"
 
 namespace geodesic {
 
@@ -36,6 +37,10 @@ private:
     // row_at(position) is the row of the vertex at a position of the parent's overlay.
     template <class RowAt>
     void cross(const RowAt& row_at, Columns columns, float* distances, uint16_t* winners);
+    void cross_large(bool to_owned, Columns columns, float* distances, uint16_t* winners);
+    void find_places_in_parent();
+    void turn_rows(bool to_owned, uint32_t first, uint32_t last);
+    void cross_rows(Columns columns, float* distances, uint16_t* winners);
     void cross_near(Columns columns, float* distances);
     void cross_near_block(Columns columns, size_t first, float* distances) const;
     void cross_near_row(uint32_t column, float& distance);
@@ -47,6 +52,10 @@ private:
     PartOfRing of_part_;
     Array<const uint16_t*> rows_; // per place: to the ring, or to the owned vertices
     Array<uint16_t> near_row_;    // scratch: from one column to the places
+    // Of a large parent.
+    Array<OverlayColumn> from_; // per place: its vertex in the parent's overlay; found when it is needed
+    TurnedRows from_ring_, from_owned_;
+    Array<uint32_t> columns_in_rows_; // of a run, counted from the first entry of its rows
 };
 
 }

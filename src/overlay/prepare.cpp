@@ -10,7 +10,9 @@
 #include "geoidx.h"
 #include "src/index/section_tags.h"
 #include "src/overlay/bounds.h"
+#include "src/overlay/large_overlays.h"
 #include "src/overlay/middles.h"
+#include "src/overlay/overlay_tables.h"
 #include "src/overlay/proportion.h"
 
 namespace geodesic {
@@ -88,85 +90,30 @@ void lay_out_hop_tables(OverlayIndex& index) {
     const Numbering& numbering = index.numbering;
     HopTables& hops = index.hops;
     for (auto* begin : {&hops.border_begin, &hops.owned_begin, &hops.inner_begin}) begin->assign(1, 0);
-    const auto add_table = [](Array<uint64_t>& begin, uint64_t rows, uint64_t columns) {
-        begin.push_back(begin.back() + rows * columns);
+    const auto add_table = [](Array<uint64_t>& begin, uint64_t size) {
+        begin.push_back(begin.back() + size);
         require_room_for(begin.back());
     };
     for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
-        add_table(hops.inner_begin, numbering.inner_size(p), index.rings.size(p));
+        add_table(hops.inner_begin, uint64_t{numbering.inner_size(p)} * index.rings.size(p));
         if (p >= numbering.first_leaf()) continue;
-        add_table(hops.border_begin, numbering.border_size(p), index.rings.size(p));
-        add_table(hops.owned_begin, numbering.overlay_size(p), numbering.inner_size(p));
+        add_table(hops.border_begin, index.border_table_size(p));
+        add_table(hops.owned_begin, index.owned_table_size(p));
     }
     mark_borders(numbering, hops);
 }
 
 // ---- From the stored tables to rows
 
-// Writes the tables of one inner patch, in which each distance has two entries.
-class OverlayTableWriter {
-public:
-    OverlayTableWriter(const OverlayIndex& index, const HopParts<uint16_t>& parts, uint32_t patch)
-        : index_(index), numbering_(index.numbering), patch_(patch), places_(index.rings.size(patch)),
-          border_(numbering_.border_size(patch)), owned_(numbering_.inner_size(patch)),
-          place_(index.rings.place_of_slot.data() + numbering_.border_begin[patch]),
-          border_rows_(parts.border.data() + index.hops.border_begin[patch]),
-          inner_rows_(parts.inner.data() + index.hops.inner_begin[patch]),
-          owned_rows_(parts.owned.data() + index.hops.owned_begin[patch]) {}
-
-    void write(const uint16_t* stored) const {
-        take_border_from_parent();
-        for (size_t i = 0; i < owned_; ++i)
-            for (size_t j = 0; j < border_; ++j)
-                inner_rows_[i * places_ + place_[j]] = owned_rows_[j * owned_ + i] = *stored++;
-        uint16_t* const among_owned = owned_rows_ + border_ * owned_;
-        for (size_t i = 0; i < owned_; ++i) {
-            among_owned[i * owned_ + i] = 0;
-            for (size_t j = 0; j < i; ++j)
-                among_owned[i * owned_ + j] = among_owned[j * owned_ + i] = *stored++;
-        }
-        repeat_places(border_rows_, border_);
-        repeat_places(inner_rows_, owned_);
-    }
-
-private:
-    // The distances of vertices on the patch's border are stored in the table of its parent only.
-    void take_border_from_parent() const {
-        if (border_ == 0) return;
-        const uint32_t parent = numbering_.parent[patch_];
-        const float from = index_.quantum[parent], to = index_.quantum[patch_];
-        const uint32_t* position = numbering_.overlay_position.data() + numbering_.border_begin[patch_];
-        for (size_t i = 0; i < border_; ++i)
-            for (size_t j = 0; j <= i; ++j)
-                border_rows_[i * places_ + place_[j]] = border_rows_[j * places_ + place_[i]] =
-                    TableCode::converted(index_.overlay_code(parent, position[i], position[j]), from, to);
-    }
-
-    // Places that repeat a vertex have its codes.
-    void repeat_places(uint16_t* rows, size_t count) const {
-        const Rings& rings = index_.rings;
-        const uint32_t first = rings.begin[patch_];
-        for (size_t k = 0; k < places_; ++k)
-            if (!rings.is_own[first + k]) {
-                const uint32_t own = place_[rings.position[first + k]];
-                for (size_t i = 0; i < count; ++i) rows[i * places_ + k] = rows[i * places_ + own];
-            }
-    }
-
-    const OverlayIndex& index_;
-    const Numbering& numbering_;
-    uint32_t patch_;
-    size_t places_, border_, owned_;
-    const uint16_t* place_; // per position of the border: its own place
-    uint16_t *border_rows_, *inner_rows_, *owned_rows_;
-};
-
 // Those of parents before those of their children, which have larger numbers.
 void write_overlay_tables(const StoredIndex& stored, const OverlayIndex& index,
                           const HopParts<uint16_t>& parts) {
     const uint16_t* codes = stored.overlay_codes.data();
     for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) {
-        OverlayTableWriter(index, parts, p).write(codes);
+        write_overlay_table(index, p, codes,
+                            {parts.border.data() + index.hops.border_begin[p],
+                             parts.owned.data() + index.hops.owned_begin[p],
+                             parts.inner.data() + index.hops.inner_begin[p]});
         codes += index.numbering.overlay_entries(p);
     }
 }
@@ -215,6 +162,7 @@ void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
     index.quantum.assign(stored.quantum.begin(), stored.quantum.end());
     index.shift.assign(stored.shift.begin(), stored.shift.end());
     lay_out_rings(stored.segment_end, stored.segment_length, index.numbering, index.rings);
+    choose_large_overlays(index);
     require_proportion(index);
     measure_segments(index);
     lay_out_hop_tables(index);

@@ -16,7 +16,7 @@ uint64_t own_tables(const OverlayIndex& index, uint32_t patch) {
     const Numbering& numbering = index.numbering;
     const uint64_t places = index.rings.size(patch), inner = numbering.inner_size(patch);
     if (patch >= numbering.first_leaf()) return 2 * places * inner;
-    return 2 * places * inner + places * numbering.border_size(patch) + inner * numbering.overlay_size(patch);
+    return 2 * places * inner + index.border_table_size(patch) + index.owned_table_size(patch);
 }
 
 }

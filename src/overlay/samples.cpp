@@ -197,12 +197,12 @@ private:
         const auto from = samples_.of(patch), to = samples_.of(parent);
         uint16_t* entry = add_table(from.size(), to.size());
         for (const uint16_t k : from) {
-            const uint16_t* const row = index_.row_to_ring(parent, position_in_parent(index_, patch, k));
+            const uint32_t from_position = position_in_parent(index_, patch, k);
             for (const uint16_t place : to) {
                 const uint32_t position = index_.rings.position[index_.rings.begin[parent] + place];
                 *entry++ = index_.is_on_border(patch, position)
                                ? code_on_border(vertex_at(index_, parent, place), vertex_at(index_, patch, k))
-                               : row[place];
+                               : index_.overlay_code(parent, from_position, OverlayColumn{false, place});
             }
         }
     }
@@ -259,10 +259,7 @@ void RowsAcross::fill(uint32_t sibling, uint16_t from, uint16_t* row) const {
             *row++ = code_on_border(vertex_at(*index_, sibling, from), to.vertex);
         return;
     }
-    const uint16_t* const to_ring = index_->row_to_ring(parent, position);
-    const uint16_t* const to_owned = index_->row_to_owned(parent, position);
-    for (const auto& [vertex, column] : targets_)
-        *row++ = (column.is_owned ? to_owned : to_ring)[column.number];
+    for (const Target& to : targets_) *row++ = index_->overlay_code(parent, position, to.column);
 }
 
 NeighbouringSamples neighbouring_samples(const OverlayIndex& index, uint32_t patch, uint32_t sample) {

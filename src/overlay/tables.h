@@ -13,6 +13,7 @@
 #include "src/base/room.h"
 #include "src/index/numbering.h"
 #include "src/overlay/codes.h"
+#include "src/overlay/half_table.h"
 #include "src/overlay/rings.h"
 
 namespace geodesic {
@@ -26,6 +27,10 @@ namespace geodesic {
 // inner table, for the vertices that it owns. Rows to owned vertices are those of the owned table, for all
 // vertices of the overlay. So a hop up or across reads the rows of a child's border, in which all that it
 // leads to lies side by side.
+//
+// The tables of large overlays have each distance once. The border table is a HalfTable among the places of
+// the ring, the owned table one among the owned vertices, and rows from the border to these are the columns
+// of the inner table. Hops turn what is missing into rows (see TurnedRows).
 //
 // A leaf has an inner table only, with a row for each of its internal vertices. Hops down read inner tables.
 // Beside each row of one lies a row of inner_middles, which has, for each place, the distance to the middle
@@ -155,26 +160,37 @@ struct PairTables {
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
         : numbering(memory), quantum(memory), shift(memory), rings(memory), longest_segment(memory),
-          hops(memory), bounds(memory), pairs(memory) {}
+          is_large(memory), hops(memory), bounds(memory), pairs(memory) {}
 
     Numbering numbering;
     Array<float> quantum; // per patch: the distance of one step of its codes
     Array<uint8_t> shift; // per patch: its stored codes are multiples of 2^shift; only files need it
     Rings rings;
     Array<float> longest_segment; // per patch: length of the longest segment of its border, or 0
+    Array<uint8_t> is_large;      // per inner patch: whether its overlay has each distance once
     HopTables hops;
     InnerBounds bounds;
     mutable PairTables pairs;
 
     float distance(uint16_t code, uint32_t patch) const { return TableCode::distance(code, quantum[patch]); }
 
+    // The codes in the border table and in the owned table of an inner patch.
+    uint64_t border_table_size(uint32_t patch) const {
+        const uint32_t places = rings.size(patch);
+        return is_large[patch] ? HalfTable::size(places) : uint64_t{places} * numbering.border_size(patch);
+    }
+    uint64_t owned_table_size(uint32_t patch) const {
+        const uint32_t owned = numbering.inner_size(patch);
+        return is_large[patch] ? HalfTable::size(owned) : uint64_t{owned} * numbering.overlay_size(patch);
+    }
+
     // Where a row begins in the inner table of a patch, which has one for each of its inner vertices.
     uint64_t inner_row(uint32_t patch, uint32_t inner) const {
         return hops.inner_begin[patch] + uint64_t{inner} * rings.size(patch);
     }
 
-    // The rows of the vertex at a position of an inner patch's overlay: to the places of the patch's ring,
-    // and to the vertices that it owns.
+    // The rows of the vertex at a position of an inner patch's overlay, which must not be large: to the
+    // places of the patch's ring, and to the vertices that it owns.
     const uint16_t* row_to_ring(uint32_t patch, uint32_t position) const {
         const uint32_t border = numbering.border_size(patch);
         if (position >= border) return hops.inner.data() + inner_row(patch, position - border);
@@ -190,8 +206,18 @@ struct OverlayIndex {
     }
     // The entry for the overlay positions i and j.
     uint16_t overlay_code(uint32_t patch, uint32_t i, uint32_t j) const {
-        const OverlayColumn column = overlay_column(patch, j);
+        return overlay_code(patch, i, overlay_column(patch, j));
+    }
+    uint16_t overlay_code(uint32_t patch, uint32_t i, const OverlayColumn& column) const {
+        if (is_large[patch]) return code_of_large(patch, overlay_column(patch, i), column);
         return (column.is_owned ? row_to_owned(patch, i) : row_to_ring(patch, i))[column.number];
+    }
+    // The entry for two vertices of a large overlay.
+    uint16_t code_of_large(uint32_t patch, const OverlayColumn& a, const OverlayColumn& b) const {
+        if (a.is_owned < b.is_owned) return code_of_large(patch, b, a);
+        if (b.is_owned) return hops.owned[hops.owned_begin[patch] + HalfTable::entry(a.number, b.number)];
+        if (a.is_owned) return hops.inner[inner_row(patch, a.number) + b.number];
+        return hops.border[hops.border_begin[patch] + HalfTable::entry(a.number, b.number)];
     }
 
     // Whether the vertex at a position of the overlay of a patch's parent is on the patch's own border.

@@ -13,12 +13,6 @@ using namespace geodesic::test;
 
 namespace {
 
-// Borders of 300 vertices and more, with short ones beside them.
-const TestMesh& mesh_of_long_borders() {
-    static const TestMesh mesh = pressed(grid(330, 14), 0.05);
-    return mesh;
-}
-
 uint64_t wrong_bounds(const OverlayIndex& index, uint32_t patch) {
     const size_t places = index.rings.size(patch), blocks = InnerBounds::blocks(places);
     uint64_t wrong = 0;

@@ -366,6 +366,13 @@ TestMesh rough(uint32_t columns, uint32_t rows) {
     return mesh;
 }
 
+TEST_CASE("hop: as the text has it over large overlays") {
+    const Built built(mesh_of_long_borders(), options_of_plane(mesh_of_long_borders(), {2, 2, 3}));
+    const auto& is_large = built.overlay().is_large;
+    CHECK(std::ranges::count(is_large, 1) > 1);
+    check_answers(hop_up(built));
+}
+
 TEST_CASE("hop: as the text has it where middles are raised") {
     const Built built(rough(24, 22), options_of(GEOIDX_METRIC_EXACT, {3, 3}));
     CHECK(count_raised(built) > 20);

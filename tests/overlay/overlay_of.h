@@ -44,6 +44,12 @@ inline geoidx_build_options options_of_plane(const TestMesh& mesh, std::initiali
     return options;
 }
 
+// Borders of 300 vertices and more, with short ones beside them, for patches of {2, 2, 3}.
+inline const TestMesh& mesh_of_long_borders() {
+    static const TestMesh mesh = pressed(grid(330, 14), 0.05);
+    return mesh;
+}
+
 // An id of each number, NONE of added vertices.
 inline std::vector<uint32_t> ids_by_number(const Index& index) {
     std::vector<uint32_t> ids(index.numbering().vertex_count(), NONE);

@@ -381,17 +381,22 @@ class Index:
         places = [self.places(patch) for patch in range(self.patch_count)]
         insides, rings = [len(inside) for inside in self.inside], [len(on) for on, _ in places]
         inners = range(self.inner_count)
-        overlays = [len(self.overlay(p)) for p in inners]
-        borders = self._part(codes, [(len(self.border[p]), rings[p]) for p in inners])
-        owned = self._part(codes, [(overlays[p], insides[p]) for p in inners])
+        self.large = self._large_overlays(rings, insides)
+        each_twice = [((len(self.border[p]), rings[p]), (len(self.overlay(p)), insides[p])) for p in inners]
+        shapes = [((rings[p],), (insides[p],)) if p in self.large else each_twice[p] for p in inners]
+        borders = self._part(codes, [shape for shape, _ in shapes])
+        owned = self._part(codes, [shape for _, shape in shapes])
         inner = self._part(codes, [(insides[p], rings[p]) for p in range(self.patch_count)])
         middles = self._part(codes, [(insides[p], rings[p]) for p in range(self.patch_count)])
         triangles = self._part(codes, [(1, n * (n - 1) // 2) for n in (insides[p] for p in self.leaves)])
         require(codes.at == len(codes.content), "HOPS is longer than its tables")
         self.overlay_table = []
         for patch in inners:
-            to_ring = numpy.concatenate([borders[patch], inner[patch]])
-            self.overlay_table.append(self._joined_rows(patch, places[patch], to_ring, owned[patch]))
+            tables = borders[patch], owned[patch]
+            if patch in self.large:
+                tables = self._with_each_twice(places[patch], *tables, inner[patch])
+            to_ring = numpy.concatenate([tables[0], inner[patch]])
+            self.overlay_table.append(self._joined_rows(patch, places[patch], to_ring, tables[1]))
         self.border_internal = {p: inner[p][:, places[p][1]].T for p in self.leaves}
         self.internal = {p: self._triangle(entries[0], insides[p]) for p, entries in zip(self.leaves, triangles)}
         for patch in range(self.patch_count):
@@ -412,14 +417,57 @@ class Index:
             first = last + 1
         return numpy.array(places, int), numpy.array(own, int)
 
+    def _large_overlays(self, rings, insides):
+        """The inner patches whose overlays have each distance once."""
+        inners, borders = range(self.inner_count), [len(border) for border in self.border]
+        once = [self._half_size(rings[p]) + self._half_size(insides[p]) for p in inners]
+        twice = [borders[p] * rings[p] + (borders[p] + insides[p]) * insides[p] for p in inners]
+        others = sum(2 * inside * ring for inside, ring in zip(insides, rings))
+        others += sum(insides[p] * (insides[p] - 1) // 2 for p in self.leaves)
+        able = [p for p in inners if once[p] < twice[p]]
+        large = set()
+        for size in sorted({rings[p] + insides[p] for p in able}, reverse=True):
+            codes = others + sum(once[p] if p in large else twice[p] for p in inners)
+            if codes <= 310 * self.vertex_count:
+                break
+            large |= {p for p in able if rings[p] + insides[p] == size}
+        return large
+
+    @staticmethod
+    def _half_size(rows):
+        return sum(row // 8 * 8 + 8 for row in range(rows))
+
     def _part(self, codes, shapes):
-        count = sum(rows * columns for rows, columns in shapes)
+        """Matrices of these rows and columns, and half tables of these rows, as whole ones."""
+        count = sum(self._half_size(*shape) if len(shape) == 1 else shape[0] * shape[1] for shape in shapes)
         entries = codes.take("<u2", (count + 32 + 31) // 32 * 32)
-        entries, at, tables = numpy.where(entries == 32767, numpy.inf, entries).astype("f4"), 0, []
-        for rows, columns in shapes:
-            tables.append(entries[at : at + rows * columns].reshape(rows, columns))
-            at += rows * columns
-        return tables
+        entries = Fields(numpy.where(entries == 32767, numpy.inf, entries).astype("f4").tobytes())
+        return [
+            self._half_table(entries, *shape)
+            if len(shape) == 1
+            else entries.take("<f4", shape[0] * shape[1]).reshape(shape)
+            for shape in shapes
+        ]
+
+    @staticmethod
+    def _half_table(entries, size):
+        table = numpy.zeros((size, size), "f4")
+        for row in range(size):
+            columns = entries.take("<f4", row // 8 * 8 + 8)
+            require(numpy.isinf(columns[size:]).all(), "a half table has entries of no vertex")
+            table[row, : len(columns)] = columns[:size]
+        lower = numpy.tril(table)
+        whole = lower + numpy.tril(table, -1).T
+        beside = numpy.add.outer(numpy.arange(size) // 8, -(numpy.arange(size) // 8)) == 0
+        numpy.testing.assert_array_equal(numpy.where(beside, table, 0), numpy.where(beside, whole, 0))
+        return whole
+
+    @staticmethod
+    def _with_each_twice(places, border, owned, inner):
+        """The tables of a large overlay, as others have them: from the border to places, and to owned vertices."""
+        on, own = places
+        numpy.testing.assert_array_equal(border, border[own][:, own][on][:, on])
+        return border[own], numpy.concatenate([inner[:, own].T, owned])
 
     def _joined_rows(self, patch, places, to_ring, owned):
         """The overlay table of a patch, in which each distance is there twice, from its two parts."""

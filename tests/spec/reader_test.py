@@ -186,6 +186,17 @@ class ReaderTest(unittest.TestCase):
     def test_graph_engine(self):
         self.procedural("graph", "--engine", "graph")
 
+    def test_large_overlays(self):
+        """Of these, a mapped file has each distance once."""
+        x, y = numpy.meshgrid(numpy.arange(330) / 20, numpy.arange(14))
+        points = numpy.stack([x, y, numpy.sin(x * y)], axis=-1).reshape(-1, 3)
+        at = numpy.arange(330 * 14).reshape(14, 330)
+        corners = (at[:-1, :-1], at[:-1, 1:], at[1:, 1:]), (at[:-1, :-1], at[1:, 1:], at[1:, :-1])
+        mesh = FOLDER / "large.off"
+        write_off(mesh, points, numpy.concatenate([numpy.stack(c, axis=-1).reshape(-1, 3) for c in corners]))
+        Subject(mesh, "large", "--patches", "2,2,3", "--target-error", "0")
+        self.assertGreater(len(Index(FOLDER / "mapped.geoidx").large), 1)
+
     def test_positions_that_are_left_out(self):
         mesh = FOLDER / "far_off.off"
         points, triangles = write_procedural(mesh)

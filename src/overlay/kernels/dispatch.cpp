@@ -3,6 +3,7 @@
 #include "src/overlay/kernels/bounded_sweep.h"
 #include "src/overlay/kernels/crossing.h"
 #include "src/overlay/kernels/sweep.h"
+#include "src/overlay/kernels/turning.h"
 
 namespace geodesic {
 
@@ -65,7 +66,8 @@ constexpr Kernels kernels_of() {
             Set::template run<PrepareSweepOfEach>,
             Set::template run<Sweep>,
             Set::template run<SweepEach>,
-            Set::template run<SweepBounded>};
+            Set::template run<SweepBounded>,
+            Set::template run<Turn>};
 }
 
 // A processor that runs one of them runs all before it.

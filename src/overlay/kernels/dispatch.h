@@ -94,6 +94,16 @@ struct SweepRows {
     const uint16_t *codes, *middles, *bounds;
 };
 
+// ---- Tables that are turned
+
+// Codes of ROWS rows, in SIDE columns side by side, and where the first of these is written.
+struct TurnedSquares {
+    static constexpr size_t SIDE = HalfTable::SIDE, ROWS = 32;
+
+    size_t first_column;
+    uint16_t* out;
+};
+
 // ---- The table
 
 // All kernels, compiled for one instruction set.
@@ -158,6 +168,9 @@ struct Kernels {
     // may hold the least way.
     void (*sweep_bounded)(const BorderDistances& border, const BorderCodes& codes, const SweepRows& rows,
                           float* distances);
+
+    // Writes columns as rows, `row_size` codes apart. All squares are from the same TurnedSquares::ROWS rows.
+    void (*turn)(const uint16_t* const* rows, std::span<const TurnedSquares> squares, size_t row_size);
 };
 
 // Those that this processor can run, the fastest last. All give the same bits.

@@ -1,0 +1,63 @@
+#include "src/overlay/large_overlays.h"
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+namespace geodesic {
+
+namespace {
+
+struct Overlay {
+    uint32_t patch;
+    uint32_t size;  // places of the ring, and owned vertices
+    uint64_t saved; // codes, if it is large
+};
+
+uint64_t table_codes(const OverlayIndex& index, uint32_t patch) {
+    return index.border_table_size(patch) + index.owned_table_size(patch);
+}
+
+// In all hop tables.
+uint64_t hop_codes(const OverlayIndex& index) {
+    const Numbering& numbering = index.numbering;
+    uint64_t codes = numbering.internal_table_begin.back();
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) codes += table_codes(index, p);
+    for (uint32_t p = 0; p < numbering.patch_count(); ++p)
+        codes += 2 * uint64_t{numbering.inner_size(p)} * index.rings.size(p);
+    return codes;
+}
+
+// Those whose tables are smaller if they are large. On a border of many short chains, where most places
+// repeat vertices, half of a table among places can be more than a table from vertices to places.
+std::vector<Overlay> overlays_that_shrink(OverlayIndex& index) {
+    std::vector<Overlay> overlays;
+    for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) {
+        const uint64_t each_twice = table_codes(index, p);
+        index.is_large[p] = true;
+        const uint64_t each_once = table_codes(index, p);
+        index.is_large[p] = false;
+        if (each_once < each_twice)
+            overlays.push_back(
+                {p, index.rings.size(p) + index.numbering.inner_size(p), each_twice - each_once});
+    }
+    return overlays;
+}
+
+}
+
+void choose_large_overlays(OverlayIndex& index) {
+    const Numbering& numbering = index.numbering;
+    index.is_large.assign(numbering.first_leaf(), 0);
+    uint64_t codes = hop_codes(index);
+    const uint64_t most = MOST_HOP_CODES_EACH * numbering.vertex_count();
+    auto overlays = overlays_that_shrink(index);
+    std::ranges::sort(overlays, std::greater{}, &Overlay::size);
+    for (size_t i = 0; i < overlays.size() && codes > most;)
+        for (const uint32_t size = overlays[i].size; i < overlays.size() && overlays[i].size == size; ++i) {
+            index.is_large[overlays[i].patch] = true;
+            codes -= overlays[i].saved;
+        }
+}
+
+}
