@@ -4,7 +4,7 @@
 
 namespace geodesic {
 
-// A table of the distances among some vertices, or places, that keeps nearly each of them once: a row has the
+// A table of the distances among some vertices that keeps nearly each of them once: a row has the
 // entries up to its own, and is filled up to a multiple of SIDE. So the table consists of squares of SIDE
 // rows and columns, and the entries that a row lacks are those of its column in squares farther down.
 struct HalfTable {

@@ -14,28 +14,25 @@ struct Overlay {
     uint64_t saved; // codes, if it is large
 };
 
-uint64_t table_codes(const OverlayIndex& index, uint32_t patch) {
-    return index.border_table_size(patch) + index.owned_table_size(patch);
-}
-
 // In all hop tables.
 uint64_t hop_codes(const OverlayIndex& index) {
     const Numbering& numbering = index.numbering;
     uint64_t codes = numbering.internal_table_begin.back();
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) codes += table_codes(index, p);
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
+        codes += index.border_table_size(p) + index.owned_table_size(p);
     for (uint32_t p = 0; p < numbering.patch_count(); ++p)
         codes += 2 * uint64_t{numbering.inner_size(p)} * index.rings.size(p);
     return codes;
 }
 
-// Those whose tables are smaller if they are large. On a border of many short chains, where most places
-// repeat vertices, half of a table among places can be more than a table from vertices to places.
+// Those whose tables are smaller if they are large: half of a table of a few vertices, filled up to whole
+// squares, can be more than the whole.
 std::vector<Overlay> overlays_that_shrink(OverlayIndex& index) {
     std::vector<Overlay> overlays;
     for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) {
-        const uint64_t each_twice = table_codes(index, p);
+        const uint64_t each_twice = index.owned_table_size(p);
         index.is_large[p] = true;
-        const uint64_t each_once = table_codes(index, p);
+        const uint64_t each_once = index.owned_table_size(p);
         index.is_large[p] = false;
         if (each_once < each_twice)
             overlays.push_back(

@@ -42,13 +42,12 @@ std::span<float> OverlayCrossing::begin(uint32_t patch, const BorderPart& part, 
 }
 
 void OverlayCrossing::cross_to_ring(Columns places, float* distances, uint16_t* winners) {
-    if (index_.is_large[parent_]) return cross_large(false, places, distances, winners);
     cross([&](uint32_t position) { return index_.row_to_ring(parent_, position); }, places, distances,
           winners);
 }
 
 void OverlayCrossing::cross_to_owned(Columns owned, float* distances, uint16_t* winners) {
-    if (index_.is_large[parent_]) return cross_large(true, owned, distances, winners);
+    if (index_.is_large[parent_]) return cross_to_owned_of_large(owned, distances, winners);
     cross([&](uint32_t position) { return index_.row_to_owned(parent_, position); }, owned, distances,
           winners);
 }
@@ -62,12 +61,12 @@ void OverlayCrossing::cross(const RowAt& row_at, Columns columns, float* distanc
 }
 
 // Run by run, so that rows are turned as far as a run, into memory that stays near to the processor.
-void OverlayCrossing::cross_large(bool to_owned, Columns columns, float* distances, uint16_t* winners) {
-    if (columns.empty()) return;
+void OverlayCrossing::cross_to_owned_of_large(Columns owned, float* distances, uint16_t* winners) {
+    if (owned.empty()) return;
     if (from_.empty()) find_places_in_parent();
-    for (size_t done = 0; done < columns.size();) {
-        const ColumnRun run = first_run(columns.subspan(done));
-        turn_rows(to_owned, run.first, run.last);
+    for (size_t done = 0; done < owned.size();) {
+        const ColumnRun run = first_run(owned.subspan(done));
+        turn_rows(run.first, run.last);
         const uint32_t first = TurnedRows::first_entry(run.first);
         columns_in_rows_.resize(run.columns.size());
         std::ranges::transform(run.columns, columns_in_rows_.begin(), [&](uint32_t c) { return c - first; });
@@ -91,30 +90,19 @@ void OverlayCrossing::find_places_in_parent() {
     });
 }
 
-// Finds the entries from `first` to `last` of the rows of all places.
-void OverlayCrossing::turn_rows(bool to_owned, uint32_t first, uint32_t last) {
+// Finds the entries from `first` to `last` of the rows of all places to owned vertices.
+void OverlayCrossing::turn_rows(uint32_t first, uint32_t last) {
     const HopTables& hops = index_.hops;
-    const uint32_t places = index_.rings.size(parent_), owned = index_.numbering.inner_size(parent_);
-    const TurnableTable inner{hops.inner.data() + hops.inner_begin[parent_], owned, places};
-    if (to_owned) {
-        from_ring_.begin(inner, first, last);
-        from_owned_.begin({hops.owned.data() + hops.owned_begin[parent_], owned, 0, true}, first, last);
-    } else {
-        from_ring_.begin({hops.border.data() + hops.border_begin[parent_], places, 0, true}, first, last);
-    }
-    for (const auto [is_owned, number] : from_)
-        if (!is_owned)
-            from_ring_.announce(number);
-        else if (to_owned)
-            from_owned_.announce(number);
+    const uint32_t owned = index_.numbering.inner_size(parent_);
+    from_ring_.begin({hops.inner.data() + hops.inner_begin[parent_], owned, index_.rings.size(parent_)},
+                     first, last);
+    from_owned_.begin({hops.owned.data() + hops.owned_begin[parent_], owned, 0, true}, first, last);
+    for (const auto [is_owned, number] : from_) (is_owned ? from_owned_ : from_ring_).announce(number);
     from_ring_.turn();
-    if (to_owned) from_owned_.turn();
-    const uint32_t first_entry = TurnedRows::first_entry(first);
+    from_owned_.turn();
     const uint16_t** row = rows_.data();
     for (const auto [is_owned, number] : from_)
-        *row++ = !is_owned  ? from_ring_.next_row(number)
-                 : to_owned ? from_owned_.next_row(number)
-                            : inner.row(number) + first_entry;
+        *row++ = (is_owned ? from_owned_ : from_ring_).next_row(number);
 }
 
 void OverlayCrossing::cross_rows(Columns columns, float* distances, uint16_t* winners) {

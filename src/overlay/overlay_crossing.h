@@ -37,9 +37,9 @@ private:
     // row_at(position) is the row of the vertex at a position of the parent's overlay.
     template <class RowAt>
     void cross(const RowAt& row_at, Columns columns, float* distances, uint16_t* winners);
-    void cross_large(bool to_owned, Columns columns, float* distances, uint16_t* winners);
+    void cross_to_owned_of_large(Columns owned, float* distances, uint16_t* winners);
     void find_places_in_parent();
-    void turn_rows(bool to_owned, uint32_t first, uint32_t last);
+    void turn_rows(uint32_t first, uint32_t last);
     void cross_rows(Columns columns, float* distances, uint16_t* winners);
     void cross_near(Columns columns, float* distances);
     void cross_near_block(Columns columns, size_t first, float* distances) const;

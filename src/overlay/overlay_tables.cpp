@@ -20,13 +20,11 @@ public:
 
     void write(const uint16_t* stored) const {
         const uint16_t* const among_owned = write_inner(stored);
-        if (index_.is_large[patch_]) {
-            write_half_border();
+        write_border();
+        if (index_.is_large[patch_])
             write_half_owned(among_owned);
-        } else {
-            write_border();
+        else
             write_owned(among_owned);
-        }
     }
 
 private:
@@ -43,8 +41,6 @@ private:
             index_.overlay_code(parent_, position_in_parent_[i], position_in_parent_[j]), parent_quantum_,
             quantum_);
     }
-
-    // ---- Tables in which each distance has two entries
 
     void write_border() const {
         for (uint32_t i = 0; i < border_; ++i)
@@ -68,25 +64,14 @@ private:
         }
     }
 
-    // ---- Tables in which it has one
-
-    void write_half_border() const {
-        write_half(tables_.border, places_, [&](uint32_t k, uint32_t l) {
-            return code_on_border(place_position_[k], place_position_[l]);
-        });
-    }
     void write_half_owned(const uint16_t* among_owned) const {
-        write_half(tables_.owned, owned_, [&](uint32_t i, uint32_t j) {
-            return i == j ? uint16_t{0} : among_owned[triangle_size(i) + j];
-        });
-    }
-
-    // code(i, j) is that of i and an earlier j, or of i and itself.
-    template <class Code>
-    static void write_half(uint16_t* table, uint32_t count, const Code& code) {
-        for (uint32_t i = 0; i < count; ++i)
+        const auto code = [&](uint32_t i, uint32_t j) {
+            return i == j ? uint16_t{0} : among_owned[triangle_size(std::max(i, j)) + std::min(i, j)];
+        };
+        uint16_t* entry = tables_.owned;
+        for (uint32_t i = 0; i < owned_; ++i)
             for (uint32_t j = 0; j < HalfTable::columns(i); ++j)
-                *table++ = j >= count ? TableCode::UNREACHED : code(std::max(i, j), std::min(i, j));
+                *entry++ = j < owned_ ? code(i, j) : TableCode::UNREACHED;
     }
 
     const OverlayIndex& index_;

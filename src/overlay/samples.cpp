@@ -197,12 +197,12 @@ private:
         const auto from = samples_.of(patch), to = samples_.of(parent);
         uint16_t* entry = add_table(from.size(), to.size());
         for (const uint16_t k : from) {
-            const uint32_t from_position = position_in_parent(index_, patch, k);
+            const uint16_t* const row = index_.row_to_ring(parent, position_in_parent(index_, patch, k));
             for (const uint16_t place : to) {
                 const uint32_t position = index_.rings.position[index_.rings.begin[parent] + place];
                 *entry++ = index_.is_on_border(patch, position)
                                ? code_on_border(vertex_at(index_, parent, place), vertex_at(index_, patch, k))
-                               : index_.overlay_code(parent, from_position, OverlayColumn{false, place});
+                               : row[place];
             }
         }
     }

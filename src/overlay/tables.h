@@ -28,9 +28,9 @@ namespace geodesic {
 // vertices of the overlay. So a hop up or across reads the rows of a child's border, in which all that it
 // leads to lies side by side.
 //
-// The tables of large overlays have each distance once. The border table is a HalfTable among the places of
-// the ring, the owned table one among the owned vertices, and rows from the border to these are the columns
-// of the inner table. Hops turn what is missing into rows (see TurnedRows).
+// The owned table of a large overlay has each distance once. It is a HalfTable among the owned vertices, and
+// rows from the border to these are the columns of the inner table. Hops turn what is missing into rows (see
+// TurnedRows).
 //
 // A leaf has an inner table only, with a row for each of its internal vertices. Hops down read inner tables.
 // Beside each row of one lies a row of inner_middles, which has, for each place, the distance to the middle
@@ -167,7 +167,7 @@ struct OverlayIndex {
     Array<uint8_t> shift; // per patch: its stored codes are multiples of 2^shift; only files need it
     Rings rings;
     Array<float> longest_segment; // per patch: length of the longest segment of its border, or 0
-    Array<uint8_t> is_large;      // per inner patch: whether its overlay has each distance once
+    Array<uint8_t> is_large;      // per inner patch: whether its owned table has each distance once
     HopTables hops;
     InnerBounds bounds;
     mutable PairTables pairs;
@@ -176,8 +176,7 @@ struct OverlayIndex {
 
     // The codes in the border table and in the owned table of an inner patch.
     uint64_t border_table_size(uint32_t patch) const {
-        const uint32_t places = rings.size(patch);
-        return is_large[patch] ? HalfTable::size(places) : uint64_t{places} * numbering.border_size(patch);
+        return uint64_t{rings.size(patch)} * numbering.border_size(patch);
     }
     uint64_t owned_table_size(uint32_t patch) const {
         const uint32_t owned = numbering.inner_size(patch);
@@ -189,8 +188,8 @@ struct OverlayIndex {
         return hops.inner_begin[patch] + uint64_t{inner} * rings.size(patch);
     }
 
-    // The rows of the vertex at a position of an inner patch's overlay, which must not be large: to the
-    // places of the patch's ring, and to the vertices that it owns.
+    // The rows of the vertex at a position of an inner patch's overlay: to the places of the patch's ring,
+    // and to the vertices that it owns, unless the overlay is large.
     const uint16_t* row_to_ring(uint32_t patch, uint32_t position) const {
         const uint32_t border = numbering.border_size(patch);
         if (position >= border) return hops.inner.data() + inner_row(patch, position - border);
@@ -209,15 +208,11 @@ struct OverlayIndex {
         return overlay_code(patch, i, overlay_column(patch, j));
     }
     uint16_t overlay_code(uint32_t patch, uint32_t i, const OverlayColumn& column) const {
-        if (is_large[patch]) return code_of_large(patch, overlay_column(patch, i), column);
-        return (column.is_owned ? row_to_owned(patch, i) : row_to_ring(patch, i))[column.number];
-    }
-    // The entry for two vertices of a large overlay.
-    uint16_t code_of_large(uint32_t patch, const OverlayColumn& a, const OverlayColumn& b) const {
-        if (a.is_owned < b.is_owned) return code_of_large(patch, b, a);
-        if (b.is_owned) return hops.owned[hops.owned_begin[patch] + HalfTable::entry(a.number, b.number)];
-        if (a.is_owned) return hops.inner[inner_row(patch, a.number) + b.number];
-        return hops.border[hops.border_begin[patch] + HalfTable::entry(a.number, b.number)];
+        if (!column.is_owned) return row_to_ring(patch, i)[column.number];
+        if (!is_large[patch]) return row_to_owned(patch, i)[column.number];
+        const OverlayColumn from = overlay_column(patch, i);
+        if (!from.is_owned) return hops.inner[inner_row(patch, column.number) + from.number];
+        return hops.owned[hops.owned_begin[patch] + HalfTable::entry(from.number, column.number)];
     }
 
     // Whether the vertex at a position of the overlay of a patch's parent is on the patch's own border.

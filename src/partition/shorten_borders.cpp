@@ -86,7 +86,7 @@ public:
             for (const auto& [j, cost] : neighbours_.of(i))
                 if (cell_[i] < cell_[j] && cell_[j] != NONE) found.emplace_back(cell_[i], cell_[j]);
         std::ranges::sort(found);
-        found.erase(std::ranges::unique(found).begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
         return found;
     }
 

@@ -382,21 +382,19 @@ class Index:
         insides, rings = [len(inside) for inside in self.inside], [len(on) for on, _ in places]
         inners = range(self.inner_count)
         self.large = self._large_overlays(rings, insides)
-        each_twice = [((len(self.border[p]), rings[p]), (len(self.overlay(p)), insides[p])) for p in inners]
-        shapes = [((rings[p],), (insides[p],)) if p in self.large else each_twice[p] for p in inners]
-        borders = self._part(codes, [shape for shape, _ in shapes])
-        owned = self._part(codes, [shape for _, shape in shapes])
+        borders = self._part(codes, [(len(self.border[p]), rings[p]) for p in inners])
+        shapes = [(insides[p],) if p in self.large else (len(self.overlay(p)), insides[p]) for p in inners]
+        owned = self._part(codes, shapes)
         inner = self._part(codes, [(insides[p], rings[p]) for p in range(self.patch_count)])
         middles = self._part(codes, [(insides[p], rings[p]) for p in range(self.patch_count)])
         triangles = self._part(codes, [(1, n * (n - 1) // 2) for n in (insides[p] for p in self.leaves)])
         require(codes.at == len(codes.content), "HOPS is longer than its tables")
         self.overlay_table = []
         for patch in inners:
-            tables = borders[patch], owned[patch]
+            to_ring, to_owned = numpy.concatenate([borders[patch], inner[patch]]), owned[patch]
             if patch in self.large:
-                tables = self._with_each_twice(places[patch], *tables, inner[patch])
-            to_ring = numpy.concatenate([tables[0], inner[patch]])
-            self.overlay_table.append(self._joined_rows(patch, places[patch], to_ring, tables[1]))
+                to_owned = numpy.concatenate([inner[patch][:, places[patch][1]].T, to_owned])
+            self.overlay_table.append(self._joined_rows(patch, places[patch], to_ring, to_owned))
         self.border_internal = {p: inner[p][:, places[p][1]].T for p in self.leaves}
         self.internal = {p: self._triangle(entries[0], insides[p]) for p, entries in zip(self.leaves, triangles)}
         for patch in range(self.patch_count):
@@ -418,11 +416,12 @@ class Index:
         return numpy.array(places, int), numpy.array(own, int)
 
     def _large_overlays(self, rings, insides):
-        """The inner patches whose overlays have each distance once."""
+        """The inner patches whose tables among owned vertices have each distance once."""
         inners, borders = range(self.inner_count), [len(border) for border in self.border]
-        once = [self._half_size(rings[p]) + self._half_size(insides[p]) for p in inners]
-        twice = [borders[p] * rings[p] + (borders[p] + insides[p]) * insides[p] for p in inners]
-        others = sum(2 * inside * ring for inside, ring in zip(insides, rings))
+        once = [self._half_size(insides[p]) for p in inners]
+        twice = [(borders[p] + insides[p]) * insides[p] for p in inners]
+        others = sum(borders[p] * rings[p] for p in inners)
+        others += sum(2 * inside * ring for inside, ring in zip(insides, rings))
         others += sum(insides[p] * (insides[p] - 1) // 2 for p in self.leaves)
         able = [p for p in inners if once[p] < twice[p]]
         large = set()
@@ -461,13 +460,6 @@ class Index:
         beside = numpy.add.outer(numpy.arange(size) // 8, -(numpy.arange(size) // 8)) == 0
         numpy.testing.assert_array_equal(numpy.where(beside, table, 0), numpy.where(beside, whole, 0))
         return whole
-
-    @staticmethod
-    def _with_each_twice(places, border, owned, inner):
-        """The tables of a large overlay, as others have them: from the border to places, and to owned vertices."""
-        on, own = places
-        numpy.testing.assert_array_equal(border, border[own][:, own][on][:, on])
-        return border[own], numpy.concatenate([inner[:, own].T, owned])
 
     def _joined_rows(self, patch, places, to_ring, owned):
         """The overlay table of a patch, in which each distance is there twice, from its two parts."""

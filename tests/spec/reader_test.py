@@ -187,7 +187,7 @@ class ReaderTest(unittest.TestCase):
         self.procedural("graph", "--engine", "graph")
 
     def test_large_overlays(self):
-        """Of these, a mapped file has each distance once."""
+        """Of these, a mapped file has distances among owned vertices once."""
         x, y = numpy.meshgrid(numpy.arange(330) / 20, numpy.arange(14))
         points = numpy.stack([x, y, numpy.sin(x * y)], axis=-1).reshape(-1, 3)
         at = numpy.arange(330 * 14).reshape(14, 330)
