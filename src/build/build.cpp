@@ -41,7 +41,8 @@ void check_options(const geoidx_build_options& options) {
                         ", which has unknown flags");
 }
 
-HierarchyOptions hierarchy_options(const Intake& intake, const geoidx_build_options& options) {
+HierarchyOptions hierarchy_options(const geoidx_mesh& mesh, const Intake& intake,
+                                   const geoidx_build_options& options) {
     HierarchyOptions result;
     const uint32_t vertices = intake.mesh.vertex_count();
     result.split = automatic_split(vertices, options.level_count, options.patches,
@@ -50,6 +51,7 @@ HierarchyOptions hierarchy_options(const Intake& intake, const geoidx_build_opti
         result.in_proportion.push_back(options.patches[level] == 0);
     result.lloyd_iterations = options.lloyd_iterations;
     result.seed = options.seed;
+    result.edge_lengths = given_lengths(mesh, intake, options);
     return result;
 }
 
@@ -96,7 +98,8 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     Workers workers(*metric, options.threads, part_of_progress(filling_progress, 0, first_end));
 
     workers.begin_stage("patches", 0.1);
-    const Hierarchy hierarchy = build_hierarchy(intake.mesh, hierarchy_options(intake, options), workers);
+    const Hierarchy hierarchy =
+        build_hierarchy(intake.mesh, hierarchy_options(mesh, intake, options), workers);
     Filling filling(intake, options, about, index);
     StoredIndex stored = filling.fill({intake.mesh, hierarchy}, workers);
     if (may_add_vertices(options))

@@ -23,6 +23,11 @@ namespace {
 
 [[noreturn]] void bad_mesh(const std::string& detail) { throw Error(GEOIDX_ERROR_BAD_MESH, detail); }
 
+// Whether the metric is one of ways over faces, whose shape lengths of edges can give.
+bool is_by_surface(const geoidx_build_options& options) {
+    return options.metric == GEOIDX_METRIC_EXACT || options.metric == GEOIDX_METRIC_WEIGHTED;
+}
+
 // The length of each edge or, where the caller gives a cost for it, that cost.
 std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options& options) {
     std::vector<double> costs = edge_lengths(intake.mesh);
@@ -48,10 +53,15 @@ void check_sides(uint64_t triangle, std::span<const double, 3> sides) {
     }
 }
 
-// The lengths that the caller gives for the edges of the mesh, or nothing if it gives none.
-std::vector<double> own_lengths(const geoidx_mesh& mesh, const Intake& intake,
-                                const geoidx_build_options& options) {
-    if (options.edge_length_count == 0) return {};
+}
+
+IntakeOptions intake_options(const geoidx_build_options& options) {
+    return {options.weld_tolerance, options.refuse_edges_of_many != 0};
+}
+
+std::vector<double> given_lengths(const geoidx_mesh& mesh, const Intake& intake,
+                                  const geoidx_build_options& options) {
+    if (!is_by_surface(options) || options.edge_length_count == 0) return {};
     if (!options.edge_lengths) refuse_argument("edge_length_count is set, but edge_lengths is NULL");
     if (options.edge_length_count != 3 * mesh.triangle_count)
         refuse_argument("edge_length_count is " + std::to_string(options.edge_length_count) +
@@ -81,17 +91,11 @@ std::vector<double> own_lengths(const geoidx_mesh& mesh, const Intake& intake,
     return lengths;
 }
 
-}
-
-IntakeOptions intake_options(const geoidx_build_options& options) {
-    return {options.weld_tolerance, options.refuse_edges_of_many != 0};
-}
-
 std::unique_ptr<Metric> make_metric(const geoidx_mesh& mesh, const Intake& intake,
                                     const geoidx_build_options& options) {
     switch (options.metric) {
     case GEOIDX_METRIC_EXACT:
-        return std::make_unique<ExactMetric>(intake.mesh, own_lengths(mesh, intake, options));
+        return std::make_unique<ExactMetric>(intake.mesh, given_lengths(mesh, intake, options));
     case GEOIDX_METRIC_EDGES:
         return std::make_unique<EdgeGraphMetric>(intake.mesh, edge_costs(intake, options));
     case GEOIDX_METRIC_CALLBACK:
@@ -102,7 +106,8 @@ std::unique_ptr<Metric> make_metric(const geoidx_mesh& mesh, const Intake& intak
     case GEOIDX_METRIC_WEIGHTED:
         check_points_per_edge(options.points_per_edge);
         return std::make_unique<WeightedMetric>(intake.mesh, face_costs(intake, options),
-                                                options.points_per_edge, own_lengths(mesh, intake, options));
+                                                options.points_per_edge,
+                                                given_lengths(mesh, intake, options));
     default:
         refuse_argument("metric " + std::to_string(options.metric) + " is not a GEOIDX_METRIC_*");
     }
@@ -114,12 +119,11 @@ uint32_t metric_flags(const geoidx_build_options& options) {
 }
 
 uint64_t metric_fingerprint(const geoidx_build_options& options) {
-    const bool by_surface = options.metric == GEOIDX_METRIC_EXACT || options.metric == GEOIDX_METRIC_WEIGHTED;
     uint64_t hash = 0;
     if (options.metric == GEOIDX_METRIC_EDGES) hash = fingerprint(edge_costs_of(options));
     if (options.metric == GEOIDX_METRIC_WEIGHTED)
         hash = fingerprint(face_costs_of(options), options.points_per_edge);
-    if (by_surface && options.edge_length_count > 0)
+    if (is_by_surface(options) && options.edge_length_count > 0)
         hash = XXH3_64bits_withSeed(options.edge_lengths, options.edge_length_count * sizeof(double), hash);
     return hash;
 }

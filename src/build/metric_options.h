@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "geoidx.h"
 #include "src/mesh/intake.h"
@@ -16,6 +17,11 @@ IntakeOptions intake_options(const geoidx_build_options& options);
 // Makes the metric that the options ask for. Throws an Error that names what is wrong with its parameters.
 std::unique_ptr<Metric> make_metric(const geoidx_mesh& mesh, const Intake& intake,
                                     const geoidx_build_options& options);
+
+// The lengths that the caller gives for the edges of the mesh, or nothing if it gives none that count. Throws
+// as make_metric() does.
+std::vector<double> given_lengths(const geoidx_mesh& mesh, const Intake& intake,
+                                  const geoidx_build_options& options);
 
 // Returns GEOIDX_METRIC_UNFOLDABLE or 0.
 uint32_t metric_flags(const geoidx_build_options& options);

@@ -5,6 +5,7 @@
 
 #include "geoidx.h"
 
+#include "src/metric/edge_graph.h"
 #include "src/partition/split.h"
 
 namespace geodesic {
@@ -66,6 +67,8 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
     Hierarchy hierarchy;
     hierarchy.parent = {NONE};
     hierarchy.level_begin = {0, 1};
+    const std::vector<double> lengths =
+        options.edge_lengths.empty() ? edge_lengths(mesh) : options.edge_lengths;
     std::vector<std::vector<uint32_t>> patches(1); // faces of the patches of the latest level
     for (uint32_t f = 0; f < mesh.face_count(); ++f) patches[0].push_back(f);
 
@@ -76,7 +79,8 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
             Random random(seed_of_patch(options.seed, first + static_cast<uint32_t>(i)));
             const double share = static_cast<double>(patches[i].size()) / mesh.face_count();
             const uint32_t count = child_count(options, level, share);
-            children[i] = split_patch(mesh, patches[i], count, options.lloyd_iterations, solver, random);
+            children[i] =
+                split_patch(mesh, lengths, patches[i], count, options.lloyd_iterations, solver, random);
         });
         std::vector<std::vector<uint32_t>> next;
         for (uint32_t i = 0; i < children.size(); ++i) {

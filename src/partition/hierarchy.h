@@ -37,6 +37,8 @@ struct HierarchyOptions {
     // Per level, as `split` has them; empty means false for all. Where it is true, split[l] is meant for a
     // patch of average size, and each patch is split into a number in proportion to its own size.
     std::vector<uint8_t> in_proportion = {};
+    // Of each edge of the mesh; empty means those that follow from the positions.
+    std::vector<double> edge_lengths = {};
 };
 
 // The sizes that a hierarchy is given where the caller does not choose them.

@@ -30,16 +30,16 @@ public:
         uint32_t cost;
     };
 
-    Neighbours(const Mesh& mesh, std::span<const uint32_t> faces) {
+    Neighbours(const Mesh& mesh, std::span<const double> edge_lengths, std::span<const uint32_t> faces) {
         std::unordered_map<uint32_t, uint32_t> position;
         for (uint32_t i = 0; i < faces.size(); ++i) position.emplace(faces[i], i);
-        const double average = average_length(mesh, faces);
+        const double average = average_length(mesh, edge_lengths, faces);
         for (const uint32_t f : faces) {
             for (const uint32_t e : mesh.face_edges[f]) {
                 if (mesh.edge_faces[e].size() != 2) continue;
                 const uint32_t other = mesh.edge_faces[e][mesh.edge_faces[e][0] == f ? 1 : 0];
                 if (const auto found = position.find(other); found != position.end())
-                    neighbours_.push_back({found->second, cost(mesh.edge_length(e), average)});
+                    neighbours_.push_back({found->second, cost(edge_lengths[e], average)});
             }
             begin_.push_back(static_cast<uint32_t>(neighbours_.size()));
         }
@@ -50,10 +50,11 @@ public:
     }
 
 private:
-    static double average_length(const Mesh& mesh, std::span<const uint32_t> faces) {
+    static double average_length(const Mesh& mesh, std::span<const double> edge_lengths,
+                                 std::span<const uint32_t> faces) {
         double sum = 0;
         for (const uint32_t f : faces)
-            for (const uint32_t e : mesh.face_edges[f]) sum += mesh.edge_length(e);
+            for (const uint32_t e : mesh.face_edges[f]) sum += edge_lengths[e];
         return sum / (3 * static_cast<double>(faces.size()));
     }
 
@@ -175,8 +176,9 @@ private:
 
 }
 
-void shorten_borders(const Mesh& mesh, std::span<const uint32_t> faces, std::span<uint32_t> cell) {
-    const Neighbours neighbours(mesh, faces);
+void shorten_borders(const Mesh& mesh, std::span<const double> edge_lengths, std::span<const uint32_t> faces,
+                     std::span<uint32_t> cell) {
+    const Neighbours neighbours(mesh, edge_lengths, faces);
     Borders borders(neighbours, cell);
     for (const Cells& cells : borders.touching()) borders.shorten(cells);
 }

@@ -15,7 +15,9 @@ namespace geodesic {
 // Between any two cells the border becomes the cheapest one in a band around it, beyond which each cell stays
 // as it is. So no cell loses its last face; but its faces need not be connected as they were.
 //
-// cell[i] is the cell of faces[i], or NONE: such faces stay as they are.
-void shorten_borders(const Mesh& mesh, std::span<const uint32_t> faces, std::span<uint32_t> cell);
+// edge_lengths are those of all edges of the mesh. cell[i] is the cell of faces[i], or NONE: such faces stay
+// as they are.
+void shorten_borders(const Mesh& mesh, std::span<const double> edge_lengths, std::span<const uint32_t> faces,
+                     std::span<uint32_t> cell);
 
 }

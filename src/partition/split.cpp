@@ -16,7 +16,8 @@ namespace {
 
 using Faces = std::vector<uint32_t>;
 
-std::vector<uint32_t> relaxed_cells(const Mesh& mesh, std::span<const uint32_t> faces, uint32_t count,
+std::vector<uint32_t> relaxed_cells(const Mesh& mesh, std::span<const double> edge_lengths,
+                                    std::span<const uint32_t> faces, uint32_t count,
                                     uint32_t lloyd_iterations, FieldSolver& solver, Random& random) {
     if (count == 1) return std::vector<uint32_t>(faces.size(), 0);
     const auto vertices = vertices_of(mesh, faces);
@@ -26,7 +27,7 @@ std::vector<uint32_t> relaxed_cells(const Mesh& mesh, std::span<const uint32_t> 
         relax_seeds(solver, mesh, faces, cell, seeds);
         cell = voronoi_cells(solver, mesh, faces, seeds);
     }
-    shorten_borders(mesh, faces, cell);
+    shorten_borders(mesh, edge_lengths, faces, cell);
     return cell;
 }
 
@@ -91,11 +92,12 @@ std::vector<Faces> connected_patches(const Mesh& mesh, std::span<const uint32_t>
 
 }
 
-std::vector<std::vector<uint32_t>> split_patch(const Mesh& mesh, std::span<const uint32_t> faces,
-                                               uint32_t count, uint32_t lloyd_iterations, FieldSolver& solver,
+std::vector<std::vector<uint32_t>> split_patch(const Mesh& mesh, std::span<const double> edge_lengths,
+                                               std::span<const uint32_t> faces, uint32_t count,
+                                               uint32_t lloyd_iterations, FieldSolver& solver,
                                                Random& random) {
-    return connected_patches(mesh, faces,
-                             relaxed_cells(mesh, faces, count, lloyd_iterations, solver, random));
+    return connected_patches(
+        mesh, faces, relaxed_cells(mesh, edge_lengths, faces, count, lloyd_iterations, solver, random));
 }
 
 }

@@ -214,7 +214,8 @@ TEST_CASE("split_patch: a part of the mesh, into a partition of just its faces")
         for (uint32_t count : {1u, 3u, 10u, 500u}) {
             Random random(count);
             Faces together;
-            for (const Faces& patch : split_patch(mesh, faces, count, 2, *solver, random)) {
+            for (const Faces& patch :
+                 split_patch(mesh, edge_lengths(mesh), faces, count, 2, *solver, random)) {
                 CHECK(edge_connected(mesh, patch));
                 together.insert(together.end(), patch.begin(), patch.end());
             }

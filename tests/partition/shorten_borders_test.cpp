@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "src/metric/edge_graph.h"
 #include "src/metric/window_propagation.h"
 #include "src/partition/patch.h"
 #include "src/partition/poisson_disk.h"
@@ -81,7 +82,7 @@ TEST_CASE("shortened borders: teeth between two halves become a line") {
         auto cell = parted_by_teeth(mesh, COLUMNS, ROWS / 2);
         CHECK(edges_between_cells(mesh, cell).size() >= COLUMNS);
         CHECK(cost_of_borders(mesh, cell) > 1.5 * COLUMNS);
-        shorten_borders(mesh, faces_of(mesh), cell);
+        shorten_borders(mesh, edge_lengths(mesh), faces_of(mesh), cell);
         const auto edges = edges_between_cells(mesh, cell);
         CHECK(edges.size() == COLUMNS);
         for (const uint32_t e : edges) CHECK(mesh.edge_length(e) == doctest::Approx(1.0 / COLUMNS));
@@ -98,7 +99,7 @@ TEST_CASE("shortened borders: cheaper borders between Voronoi cells, which keep 
         auto seeds = poisson_disk_samples(*solver, vertices_of(mesh, faces), 12, random);
         const auto before = voronoi_cells(*solver, mesh, faces, seeds);
         auto cell = before;
-        shorten_borders(mesh, faces, cell);
+        shorten_borders(mesh, edge_lengths(mesh), faces, cell);
         CHECK(cost_of_borders(mesh, cell) < 0.9 * cost_of_borders(mesh, before));
         CHECK(edges_between_cells(mesh, cell).size() < edges_between_cells(mesh, before).size());
         // The faces around the vertices that are farthest from all borders.
@@ -112,18 +113,33 @@ TEST_CASE("shortened borders: what has no cell, or lies beyond the patch, stays"
     const Mesh mesh = mesh_of(grid(3, 3, 1, 1));
     const std::vector<uint32_t> one_square{8, 9}; // the one in the middle
     std::vector<uint32_t> cell{3, 4};
-    shorten_borders(mesh, one_square, cell);
+    shorten_borders(mesh, edge_lengths(mesh), one_square, cell);
     CHECK(cell == std::vector<uint32_t>{3, 4});
 
     const auto faces = faces_of(mesh);
     std::vector<uint32_t> lone(faces.size(), 7);
     lone[9] = 2;
     auto kept = lone;
-    shorten_borders(mesh, faces, kept);
+    shorten_borders(mesh, edge_lengths(mesh), faces, kept);
     CHECK(kept == lone);
 
     auto none = parted_by_teeth(mesh, 3, 1);
     for (const uint32_t f : {0u, 9u, 17u}) none[f] = NONE;
-    shorten_borders(mesh, faces, none);
+    shorten_borders(mesh, edge_lengths(mesh), faces, none);
     for (uint32_t f = 0; f < none.size(); ++f) CHECK((none[f] == NONE) == (f == 0 || f == 9 || f == 17));
+}
+
+TEST_CASE("shortened borders: lengths that are given count, whatever the positions") {
+    constexpr uint32_t COLUMNS = 20, ROWS = 10;
+    const Mesh narrow = mesh_of(alternating_grid(COLUMNS, ROWS, 1, 40)),
+               wide = mesh_of(alternating_grid(COLUMNS, ROWS, 40, 1));
+    std::vector<uint32_t> by_own; // parted by a diagonal of the grid
+    for (uint32_t f = 0; f < narrow.face_count(); ++f)
+        by_own.push_back(f / 2 % COLUMNS * ROWS + f / 2 / COLUMNS * COLUMNS < ROWS * COLUMNS);
+    auto by_given = by_own, by_positions = by_own;
+    shorten_borders(narrow, edge_lengths(narrow), faces_of(narrow), by_own);
+    shorten_borders(wide, edge_lengths(narrow), faces_of(wide), by_given);
+    CHECK(by_given == by_own);
+    shorten_borders(wide, edge_lengths(wide), faces_of(wide), by_positions);
+    CHECK(by_positions != by_own);
 }
