@@ -21,22 +21,37 @@ void MinimumCut::cut(uint32_t source, uint32_t sink) {
         arc_to_try_ = first_arc_;
         while (find_path(source, sink)) fill_path();
     }
+    find_side_of(source);
 }
 
-// Returns whether the sink is reached.
+// Counts back from the sink, so that paths from the source run into no dead ends but those that are filled.
+// Returns whether the source is reached: nodes that are farther do not matter.
 bool MinimumCut::count_steps(uint32_t source, uint32_t sink) {
     steps_.assign(first_arc_.size(), NONE);
-    steps_[source] = 0;
-    queue_.assign(1, source);
+    steps_[sink] = 0;
+    queue_.assign(1, sink);
     for (size_t done = 0; done < queue_.size(); ++done) {
         const uint32_t node = queue_[done];
         for (uint32_t a = first_arc_[node]; a != NONE; a = arcs_[a].next) {
-            if (arcs_[a].room == 0 || steps_[arcs_[a].to] != NONE) continue;
+            if (arcs_[a ^ 1].room == 0 || steps_[arcs_[a].to] != NONE) continue;
             steps_[arcs_[a].to] = steps_[node] + 1;
+            if (arcs_[a].to == source) return true;
             queue_.push_back(arcs_[a].to);
         }
     }
-    return steps_[sink] != NONE;
+    return false;
+}
+
+void MinimumCut::find_side_of(uint32_t source) {
+    is_with_source_.assign(first_arc_.size(), 0);
+    is_with_source_[source] = 1;
+    queue_.assign(1, source);
+    for (size_t done = 0; done < queue_.size(); ++done)
+        for (uint32_t a = first_arc_[queue_[done]]; a != NONE; a = arcs_[a].next) {
+            if (arcs_[a].room == 0 || is_with_source_[arcs_[a].to]) continue;
+            is_with_source_[arcs_[a].to] = 1;
+            queue_.push_back(arcs_[a].to);
+        }
 }
 
 // Looks for a shortest path over arcs with room. Where a node leads no farther, the path goes back to the
@@ -50,7 +65,7 @@ bool MinimumCut::find_path(uint32_t source, uint32_t sink) {
             node = arcs_[path_.back() ^ 1].to;
             path_.pop_back();
             arc_to_try_[node] = arcs_[arc_to_try_[node]].next;
-        } else if (arcs_[a].room > 0 && steps_[arcs_[a].to] == steps_[node] + 1) {
+        } else if (arcs_[a].room > 0 && steps_[arcs_[a].to] + 1 == steps_[node]) {
             path_.push_back(a);
             node = arcs_[a].to;
         } else {

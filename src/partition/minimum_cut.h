@@ -20,7 +20,7 @@ public:
     void cut(uint32_t source, uint32_t sink);
     // Whether a node is still linked to the source, by links that are not cut. Of several cheapest cuts it
     // is the one nearest to the source.
-    bool is_with_source(uint32_t node) const { return steps_[node] != NONE; }
+    bool is_with_source(uint32_t node) const { return is_with_source_[node] != 0; }
 
 private:
     // One direction of a link. The other direction is the arc whose number differs in the last bit.
@@ -31,15 +31,17 @@ private:
     };
 
     bool count_steps(uint32_t source, uint32_t sink);
+    void find_side_of(uint32_t source);
     bool find_path(uint32_t source, uint32_t sink);
     void fill_path();
 
     std::vector<Arc> arcs_;
     std::vector<uint32_t> first_arc_;  // per node
-    std::vector<uint32_t> steps_;      // per node: from the source, over arcs with room, or NONE
+    std::vector<uint32_t> steps_;      // per node: to the sink, over arcs with room, or NONE
     std::vector<uint32_t> arc_to_try_; // per node: arcs before this one lead no farther
     std::vector<uint32_t> queue_;
-    std::vector<uint32_t> path_; // arcs from the source
+    std::vector<uint32_t> path_;          // arcs from the source
+    std::vector<uint8_t> is_with_source_; // per node
 };
 
 }
