@@ -27,16 +27,13 @@ uint64_t hop_codes(const OverlayIndex& index) {
 
 // Those whose tables are smaller if they are large: half of a table of a few vertices, filled up to whole
 // squares, can be more than the whole.
-std::vector<Overlay> overlays_that_shrink(OverlayIndex& index) {
+std::vector<Overlay> overlays_that_shrink(const OverlayIndex& index) {
     std::vector<Overlay> overlays;
     for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) {
-        const uint64_t each_twice = index.owned_table_size(p);
-        index.is_large[p] = true;
-        const uint64_t each_once = index.owned_table_size(p);
-        index.is_large[p] = false;
+        const uint32_t owned = index.numbering.inner_size(p);
+        const uint64_t each_twice = index.owned_table_size(p), each_once = HalfTable::size(owned);
         if (each_once < each_twice)
-            overlays.push_back(
-                {p, index.rings.size(p) + index.numbering.inner_size(p), each_twice - each_once});
+            overlays.push_back({p, index.rings.size(p) + owned, each_twice - each_once});
     }
     return overlays;
 }

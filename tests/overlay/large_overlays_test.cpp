@@ -45,12 +45,17 @@ TEST_CASE("large overlays: the largest ones, as few as are needed") {
         if (index.is_large[p]) smallest = std::min(smallest, overlay_size(index, p));
     REQUIRE(smallest != NONE);
     uint64_t without_smallest = codes_of_hops(index);
-    uint32_t others_as_large = 0;
+    uint32_t others_as_large = 0, others_that_would_shrink = 0;
     for (uint32_t p = 0; p < index.numbering.first_leaf(); ++p) {
-        if (!index.is_large[p]) others_as_large += overlay_size(index, p) >= smallest;
+        if (!index.is_large[p]) {
+            others_as_large += overlay_size(index, p) >= smallest;
+            others_that_would_shrink +=
+                HalfTable::size(index.numbering.inner_size(p)) < index.owned_table_size(p);
+        }
         if (index.is_large[p] && overlay_size(index, p) == smallest)
             without_smallest += whole_owned_table(index, p) - index.owned_table_size(p);
     }
+    CHECK((codes_of_hops(index) <= most || others_that_would_shrink == 0));
     CHECK(others_as_large == 0);
     CHECK(without_smallest > most);
 }
