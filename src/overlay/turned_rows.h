@@ -32,7 +32,8 @@ public:
     // The first entry of rows that are wanted from `first` on.
     static uint32_t first_entry(uint32_t first) { return first / SIDE * SIDE; }
 
-    // Begins with the entries that are wanted. Every row that is wanted is then announced, in any order.
+    // Begins with the entries that are wanted. Every row that is wanted is then announced, in any order. Rows
+    // of one square are turned together where they follow each other, as they do along a border.
     void begin(const TurnableTable& table, uint32_t first, uint32_t last);
     void announce(uint32_t row) {
         if (lies_there(row) || row / SIDE == latest_block_) return;

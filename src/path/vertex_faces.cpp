@@ -8,8 +8,8 @@ namespace geodesic {
 
 namespace {
 
-// Half of the numbers that 16 bits hold are below the last face of the vertex, which in spatial order is one
-// of those that no vertex before has.
+// Faces are numbered in the order of their least vertices, so that those around the next vertices have
+// numbers a little above that of the last face here, or below it: 16 bits hold 2^15 on either side.
 uint32_t base_at(std::span<const uint32_t> faces) {
     const uint32_t last = std::ranges::max(faces);
     return last - std::min(last, uint32_t{1} << 15);

@@ -40,7 +40,7 @@ private:
         for (size_t i = 0; i < SIDE; ++i) store(other[i], out + i * row_size);
     }
 
-    // The rows of the first and the second half, by turns, lane by lane: three times turns a square.
+    // Interleaves the lanes of row i with those of row i + 4. Done three times, this turns a square.
     template <size_t... I>
     [[gnu::always_inline]] static void riffle(const Codes* from, Codes* to, std::index_sequence<I...>) {
         for (size_t i = 0; i < SIDE / 2; ++i) {
