@@ -41,8 +41,10 @@ class Options(unittest.TestCase):
         plain = geoidx.Index.build(*mesh, threads=1).to_bytes()
         self.assertEqual(geoidx.Index.build(*mesh, threads=3).to_bytes(), plain)
         self.assertNotEqual(geoidx.Index.build(*mesh, seed=1).to_bytes(), plain)
-        # Added vertices count as well, so that there are none here.
-        exact, closed = (geoidx.Index.build(*mesh, exact_vertices=n, target_error=0).to_bytes() for n in (400, 40))
+        # Two levels, so that the table of the whole mesh is measured or put together. Added vertices count as well,
+        # so that there are none here.
+        mesh = hills(40, 40)
+        exact, closed = (geoidx.Index.build(*mesh, exact_vertices=n, target_error=0).to_bytes() for n in (2000, 400))
         self.assertNotEqual(closed, exact)
 
     def test_weld_tolerance(self):
