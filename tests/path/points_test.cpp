@@ -69,7 +69,7 @@ TEST_CASE("points: pairs are about as accurate as those of vertices, and symmetr
             const PathCase on(soup, path_options(engine));
             std::mt19937_64 random(1);
             MeanError points, vertices;
-            for (size_t i = 0; i < 400; ++i) {
+            for (size_t i = 0; i < 1000; ++i) {
                 const auto a = random_point(on.soup, random, 0), b = random_point(on.soup, random, 0);
                 points.add(on.sssd(a, b), on.exact(a, b));
                 CHECK(on.sssd(a, b) == on.sssd(b, a));
