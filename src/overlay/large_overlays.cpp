@@ -16,12 +16,8 @@ struct Overlay {
 
 // In all hop tables.
 uint64_t hop_codes(const OverlayIndex& index) {
-    const Numbering& numbering = index.numbering;
-    uint64_t codes = numbering.internal_table_begin.back();
-    for (uint32_t p = 0; p < numbering.first_leaf(); ++p)
-        codes += index.border_table_size(p) + index.owned_table_size(p);
-    for (uint32_t p = 0; p < numbering.patch_count(); ++p)
-        codes += 2 * uint64_t{numbering.inner_size(p)} * index.rings.size(p);
+    uint64_t codes = index.numbering.internal_table_begin.back();
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) codes += index.hop_table_size(p);
     return codes;
 }
 

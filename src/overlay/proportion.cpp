@@ -9,22 +9,10 @@
 
 namespace geodesic {
 
-namespace {
-
-// The size of a patch's tables: the inner one and that of its middles, and those of an inner patch.
-uint64_t own_tables(const OverlayIndex& index, uint32_t patch) {
-    const Numbering& numbering = index.numbering;
-    const uint64_t places = index.rings.size(patch), inner = numbering.inner_size(patch);
-    if (patch >= numbering.first_leaf()) return 2 * places * inner;
-    return 2 * places * inner + index.border_table_size(patch) + index.owned_table_size(patch);
-}
-
-}
-
 // No sum wraps around, since a ring has fewer than 2^15 places and there are fewer than 2^32 vertices.
 uint64_t derived_codes(const OverlayIndex& index) {
     uint64_t codes = count_bound_codes(index) + count_sample_codes(index) + count_label_codes(index);
-    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) codes += own_tables(index, p);
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) codes += index.hop_table_size(p);
     return codes;
 }
 

@@ -183,6 +183,13 @@ struct OverlayIndex {
         return is_large[patch] ? HalfTable::size(owned) : uint64_t{owned} * numbering.overlay_size(patch);
     }
 
+    // The codes of a patch in all hop tables but the internal one.
+    uint64_t hop_table_size(uint32_t patch) const {
+        const uint64_t inner_and_middles = 2 * uint64_t{numbering.inner_size(patch)} * rings.size(patch);
+        if (patch >= numbering.first_leaf()) return inner_and_middles;
+        return inner_and_middles + border_table_size(patch) + owned_table_size(patch);
+    }
+
     // Where a row begins in the inner table of a patch, which has one for each of its inner vertices.
     uint64_t inner_row(uint32_t patch, uint32_t inner) const {
         return hops.inner_begin[patch] + uint64_t{inner} * rings.size(patch);
