@@ -76,17 +76,10 @@ void OverlayCrossing::cross_to_owned_of_large(Columns owned, float* distances, u
 }
 
 void OverlayCrossing::find_places_in_parent() {
-    const Numbering& numbering = index_.numbering;
-    const uint32_t border = numbering.border_size(parent_);
-    const uint32_t* const in_parent = numbering.overlay_position.data() + numbering.border_begin[patch_];
-    const uint16_t* const place = index_.rings.place_of_slot.data() + numbering.border_begin[parent_];
-    const uint16_t* const position = index_.rings.position.data();
     from_.resize(part_.size());
     OverlayColumn* from = from_.data();
-    part_.for_each_place([&](uint32_t k) {
-        const uint32_t at_parent = in_parent[position[k]];
-        *from++ = at_parent < border ? OverlayColumn{false, place[at_parent]}
-                                     : OverlayColumn{true, at_parent - border};
+    part_.for_each_place([&](uint32_t place) {
+        *from++ = index_.overlay_column(parent_, index_.position_in_parent(patch_, place));
     });
 }
 
