@@ -24,6 +24,8 @@ struct FieldRequest {
     std::span<const uint32_t> sources, targets;
     std::span<const SurfacePoint> source_points, target_points;
     double radius = UNREACHABLE; // targets farther than this need not be final
+    // All vertices up to this distance are final, too. Only the exact metric heeds it.
+    double final_radius = 0;
 };
 
 // Throws Error CANCELLED.
@@ -47,6 +49,8 @@ public:
 
     // Of the latest solve. Final for targets up to `radius`; for other vertices an upper bound.
     double distance(uint32_t vertex) const { return distance_[vertex]; }
+    // The vertices for which it found any distance, final or not.
+    std::span<const uint32_t> reached() const { return touched_; }
     // Position in `sources` of the source that distance(vertex) was measured from, or past them in
     // `source_points`; NONE if there is none.
     uint32_t nearest(uint32_t vertex) const { return nearest_[vertex]; }

@@ -113,21 +113,23 @@ void WindowPropagation::run(const FieldRequest& request) {
     clear();
     start(request);
     const uint32_t first_edge = vertex_count(), first_point = first_edge + edge_count();
+    double radius = request.radius;
+    const auto finish = [&] { radius = std::min(radius, request.final_radius); };
     while (!queue_.empty()) {
         const auto event = queue_.pop();
-        if (event.distance > request.radius) break;
+        if (event.distance > radius) break;
         front_ = event.distance;
         if (!queue_.empty()) prefetch(queue_.top().item);
         if (event.item < first_edge) {
             if (event.distance != distance(event.item)) continue;
             settle(event.item);
-            if (pending_.settle(event.item)) break;
+            if (pending_.settle(event.item)) finish();
         } else if (event.item < first_point) {
             const uint32_t edge = event.item - first_edge;
             if (event.distance == queued_distance_[edge]) propagate_edge(edge);
             if (lists_.crowded()) sweep();
         } else if (pending_.settle_point(event.item - first_point)) {
-            break;
+            finish();
         }
     }
 }
