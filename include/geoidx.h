@@ -495,6 +495,7 @@ enum {
     GEOIDX_ISSUE_OVOV = 111,
     GEOIDX_ISSUE_HOPS = 112,
     GEOIDX_ISSUE_MESH = 113,
+    GEOIDX_ISSUE_PAIR = 114,
 
     /* No single section is at fault: the index as a whole is over a limit, takes memory out of proportion to
      * its file, or cannot be read on this machine. */

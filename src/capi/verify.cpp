@@ -28,6 +28,7 @@ constexpr std::pair<uint32_t, uint32_t> NUMBER_OF_TAG[]{
     {TAG_OVERLAY_TABLES, GEOIDX_ISSUE_OVOV},
     {TAG_HOP_CODES, GEOIDX_ISSUE_HOPS},
     {TAG_MESH, GEOIDX_ISSUE_MESH},
+    {TAG_MEASURED_PAIRS, GEOIDX_ISSUE_PAIR},
 };
 
 uint32_t number_of(const Error& error) {

@@ -1,6 +1,8 @@
 // Sections of the overlay engine, but for its tables.
+#include <bit>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "format/bytes.h"
 #include "src/base/numbers.h"
@@ -62,11 +64,67 @@ void read_segments(const format::Container& container, StoredIndex& stored) {
                               std::to_string(stored.segment_length[i]));
 }
 
+// ---- PAIR
+
+template <class Value>
+std::vector<uint32_t> of_pairs(const StoredIndex& stored, const Value& value) {
+    std::vector<uint32_t> values;
+    for (const MeasuredPair& pair : stored.measured_pairs) values.push_back(value(pair));
+    return values;
+}
+
+std::vector<std::byte> pair_bytes(const StoredIndex& stored) {
+    format::ByteWriter writer;
+    writer.u64(stored.measured_pairs.size());
+    uint32_t before = 0;
+    writer.u32_planes(of_pairs(
+        stored, [&](const MeasuredPair& pair) { return pair.first - std::exchange(before, pair.first); }));
+    writer.u32_planes(of_pairs(stored, [](const MeasuredPair& pair) { return pair.second - pair.first; }));
+    writer.u32_planes(
+        of_pairs(stored, [](const MeasuredPair& pair) { return std::bit_cast<uint32_t>(pair.distance); }));
+    return writer.take();
+}
+
+void check_pairs(const StoredIndex& stored) {
+    const auto corrupt = [](const MeasuredPair& pair, const char* what) {
+        refuse_as_corrupt("section PAIR: the vertices " + std::to_string(pair.first) + " and " +
+                          std::to_string(pair.second) + what);
+    };
+    const MeasuredPair* before = nullptr;
+    for (const MeasuredPair& pair : stored.measured_pairs) {
+        if (pair.first >= pair.second || pair.second >= stored.positions.size())
+            corrupt(pair, " are no pair");
+        if (before && std::pair(before->first, before->second) >= std::pair(pair.first, pair.second))
+            corrupt(pair, " do not follow the pair before");
+        if (!(pair.distance > 0) || !std::isfinite(pair.distance)) corrupt(pair, " have no distance");
+        before = &pair;
+    }
+}
+
+// The numbers are added up modulo 2^32, so that what a file with other numbers makes is refused afterwards.
+void read_pairs(const format::Container& container, StoredIndex& stored) {
+    constexpr uint64_t NUMBERS = 3, MOST_PAIRS = (uint64_t{1} << 31) - 1;
+    constexpr uint64_t MOST_BYTES = sizeof(uint64_t) + MOST_PAIRS * NUMBERS * sizeof(uint32_t);
+    const auto bytes = container.read_bytes(TAG_MEASURED_PAIRS, MOST_BYTES);
+    format::ByteReader reader(bytes, "section PAIR");
+    const uint64_t count = reader.count(MOST_PAIRS, NUMBERS * sizeof(uint32_t));
+    std::vector<uint32_t> steps(count), apart(count), distances(count);
+    for (auto* const numbers : {&steps, &apart, &distances}) reader.u32_planes(*numbers);
+    reader.expect_end();
+    uint32_t first = 0;
+    for (uint64_t i = 0; i < count; ++i) {
+        first += steps[i];
+        stored.measured_pairs.push_back({first, first + apart[i], std::bit_cast<float>(distances[i])});
+    }
+    check_pairs(stored);
+}
+
 }
 
 void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer) {
     writer.add_bytes(TAG_QUANTA, quantum_bytes(stored));
     writer.add_bytes(TAG_SEGMENTS, segment_bytes(stored));
+    if (!stored.measured_pairs.empty()) writer.add_bytes(TAG_MEASURED_PAIRS, pair_bytes(stored));
     switch (stored.description.codec) {
     case GEOIDX_CODEC_PACKED:
         return write_packed_tables(stored, writer);
@@ -80,6 +138,8 @@ void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer) {
 void read_overlay(const format::Container& container, const ReadOptions& options, StoredIndex& stored) {
     about_section(TAG_QUANTA, [&] { read_quanta(container, stored); });
     about_section(TAG_SEGMENTS, [&] { read_segments(container, stored); });
+    if (container.has(TAG_MEASURED_PAIRS))
+        about_section(TAG_MEASURED_PAIRS, [&] { read_pairs(container, stored); });
     switch (stored.description.codec) {
     case GEOIDX_CODEC_PACKED:
         return read_packed_tables(container, options, stored);

@@ -14,6 +14,14 @@ namespace geodesic {
 // precision.
 constexpr int32_t MOST_STEPS = (1 << 23) - 1;
 
+// Two vertices, by their numbers, for which the metric's own distance is stored.
+struct MeasuredPair {
+    uint32_t first, second; // first < second
+    float distance;
+
+    bool operator==(const MeasuredPair&) const = default;
+};
+
 // What a file holds: one field for each field of format/SPEC.md, in the same order. The builder and the
 // reader fill it, prepare() makes from it what queries read, restore() does the opposite, and the writer
 // writes it. No field can be derived from the others.
@@ -59,6 +67,7 @@ struct StoredIndex {
     // HOPS: in a mapped file, in place of the three above: the codes of HopTables, which is what queries
     // read. They lie in the file, or in the index that is going to be saved.
     std::span<const uint16_t> hop_codes;
+    std::vector<MeasuredPair> measured_pairs; // PAIR: in ascending order, each once
 
     // MESH, still packed: it lies in the file, or in the index that is going to be saved. No bytes if the
     // mesh is not kept.

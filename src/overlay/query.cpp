@@ -34,6 +34,26 @@ float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, const FacePoint
 
 }
 
+// A source alone has its own measured distances, whatever tables say.
+void OverlayQuery::msad(const Sources& sources, float radius, const OverlayMsad::Field& field) {
+    const bool is_alone = sources.keys.size() == 1;
+    if (is_alone) {
+        field_.sweep(sources, radius, field.distance);
+        for (size_t v = 0; v < field.source.size(); ++v)
+            field.source[v] = field.distance[v] < INFINITE ? sources.keys.front() : NONE;
+    } else {
+        nearest_.sweep(sources, radius, field);
+    }
+    for (const uint32_t source : sources.keys) {
+        if (source >= index_.numbering.vertex_count()) continue; // a point
+        for (const auto& [number, measured] : index_.measured.of(source)) {
+            if (!is_alone && !(measured < field.distance[number])) continue;
+            field.distance[number] = measured;
+            if (!field.source.empty()) field.source[number] = source;
+        }
+    }
+}
+
 PathEnd OverlayQuery::end_of(const FacePoint& point, PointRow& row) const {
     if (point.vertex != NONE) return {point.vertex};
     const uint32_t leaf = leaf_of_face(index_.numbering, point.corners);
@@ -73,22 +93,14 @@ void OverlayQuery::take_points(std::span<const FacePoint> points, std::span<cons
 void OverlayQuery::point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
                               std::span<float> distance) {
     take_points(points, offsets);
-    if (keys_.size() == 1)
-        field_.sweep(Sources{keys_, points_}, INFINITE, distance);
-    else
-        nearest_.sweep({keys_, points_}, INFINITE, {distance});
+    msad({keys_, points_}, INFINITE, {distance});
 }
 
 // Of points at one vertex the first is written last, and stays.
 void OverlayQuery::point_nearest_sources(std::span<const FacePoint> points, std::span<const float> offsets,
                                          std::span<float> distance, std::span<uint32_t> position) {
-    if (points.size() == 1) {
-        point_msad(points, offsets, distance);
-        for (size_t v = 0; v < distance.size(); ++v) position[v] = distance[v] < INFINITE ? 0 : NONE;
-        return;
-    }
     take_points(points, offsets);
-    nearest_.sweep({keys_, points_}, INFINITE, {distance, position});
+    msad({keys_, points_}, INFINITE, {distance, position});
     position_of_key_.resize(index_.numbering.vertex_count() + points_.size());
     for (size_t i = keys_.size(); i-- > 0;) position_of_key_[keys_[i]] = static_cast<uint32_t>(i);
     for (uint32_t& source : position)

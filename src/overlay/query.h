@@ -26,11 +26,20 @@ public:
           position_of_key_(memory), ends_{PreparedSource(index, memory), PreparedSource(index, memory)} {}
 
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
-    float sssd(uint32_t low, uint32_t high) { return pairs().distance(low, high); }
+    float sssd(uint32_t low, uint32_t high) {
+        const float* const measured = index_.measured.distance(low, high);
+        return measured ? *measured : pairs().distance(low, high);
+    }
 
     // Prepares a source: prepared_sssd() then answers distances from it.
-    void prepare(uint32_t source) { prepared_.prepare(source); }
-    float prepared_sssd(uint32_t target) { return prepared_.distance(target, field_); }
+    void prepare(uint32_t source) {
+        prepared_.prepare(source);
+        prepared_source_ = source;
+    }
+    float prepared_sssd(uint32_t target) {
+        const float* const measured = index_.measured.distance(prepared_source_, target);
+        return measured ? *measured : prepared_.distance(target, field_);
+    }
 
     // Sets how many threads msad() uses.
     void set_threads(uint32_t count) {
@@ -40,19 +49,13 @@ public:
 
     // Fills distance[number] of every vertex. Vertices of patches beyond the radius may be infinite.
     void msad(std::span<const uint32_t> sources, float radius, std::span<float> distance) {
-        if (sources.size() == 1)
-            field_.sweep(sources, radius, distance);
-        else
-            nearest_.sweep({sources}, radius, {distance});
+        msad(Sources{sources}, radius, {distance});
     }
 
     // The same, without a radius, and fills source[number] with the source that is nearest, NONE for none.
     void nearest_sources(std::span<const uint32_t> sources, std::span<float> distance,
                          std::span<uint32_t> source) {
-        if (sources.size() != 1) return nearest_.sweep({sources}, INFINITE, {distance, source});
-        field_.sweep(sources, INFINITE, distance);
-        for (size_t v = 0; v < distance.size(); ++v)
-            source[v] = distance[v] < INFINITE ? sources.front() : NONE;
+        msad(Sources{sources}, INFINITE, {distance, source});
     }
 
     // The vertices that are no farther than `radius` from a source.
@@ -92,9 +95,13 @@ public:
     static constexpr size_t FIELDS_AT_ONCE = OverlaySsad::MOST_FIELDS, FEWEST_AT_ONCE = 8;
     void ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
         batch_.sweep(sources, INFINITE, distances);
+        for (size_t i = 0; i < sources.size(); ++i)
+            for (const auto& [number, measured] : index_.measured.of(sources[i]))
+                distances[number * FIELDS_AT_ONCE + i] = measured;
     }
 
 private:
+    void msad(const Sources& sources, float radius, const OverlayMsad::Field& field);
     PathEnd end_of(const FacePoint& point, PointRow& row) const;
     void take_points(std::span<const FacePoint> points, std::span<const float> offsets);
     void add_point(const FacePoint& point, float offset);
@@ -117,6 +124,7 @@ private:
     OverlayMsad nearest_;
     OverlaySsad batch_;
     PreparedSource prepared_;
+    uint32_t prepared_source_ = NONE;
     std::array<PointRow, 2> rows_; // of the points of a pair
     Array<PointWays> points_;      // of a sweep
     Array<uint32_t> keys_;

@@ -14,6 +14,7 @@
 #include "src/index/numbering.h"
 #include "src/overlay/codes.h"
 #include "src/overlay/half_table.h"
+#include "src/overlay/measured_pairs.h"
 #include "src/overlay/rings.h"
 
 namespace geodesic {
@@ -160,7 +161,7 @@ struct PairTables {
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
         : numbering(memory), quantum(memory), shift(memory), rings(memory), longest_segment(memory),
-          is_large(memory), hops(memory), bounds(memory), pairs(memory) {}
+          is_large(memory), hops(memory), bounds(memory), measured(memory), pairs(memory) {}
 
     Numbering numbering;
     Array<float> quantum; // per patch: the distance of one step of its codes
@@ -170,6 +171,7 @@ struct OverlayIndex {
     Array<uint8_t> is_large;      // per inner patch: whether its owned table has each distance once
     HopTables hops;
     InnerBounds bounds;
+    MeasuredPairs measured; // answers of all queries from vertices
     mutable PairTables pairs;
 
     float distance(uint16_t code, uint32_t patch) const { return TableCode::distance(code, quantum[patch]); }

@@ -24,8 +24,18 @@ std::span<const WithinSweep::Found> WithinSweep::sweep(const Sources& source, fl
         hop_down_to_children(numbering_.parent[patch], patch);
         patch = numbering_.parent[patch];
     }
+    take_measured(key);
     collect();
     return found_;
+}
+
+// Of a source that is a vertex.
+void WithinSweep::take_measured(uint32_t source) {
+    if (source >= numbering_.vertex_count()) return;
+    for (const auto& [number, measured] : index_.measured.of(source)) {
+        if (distance_[number] == INFINITE) seen_.push_back(number);
+        distance_[number] = measured;
+    }
 }
 
 // Also clears what an earlier sweep left when memory ran out.

@@ -42,6 +42,7 @@ private:
     void hop_up(uint32_t child);
     void hop_down_to_children(uint32_t patch, uint32_t left_out);
     void hop_down(uint32_t patch);
+    void take_measured(uint32_t source);
     void collect();
 
     const OverlayIndex& index_;

@@ -214,7 +214,15 @@ class OverlayEngine:
         return distance
 
     def msad(self, sources):
-        return self.ssad(sources[0]) if len(sources) == 1 else SeveralSources(self, sources).msad()
+        if len(sources) == 1:
+            distance = self.ssad(sources[0])
+        else:
+            distance = SeveralSources(self, sources).msad()
+        for source in sources:
+            for other, measured in self.index.measured.get(source, {}).items():
+                if len(sources) == 1 or measured < distance[other]:
+                    distance[other] = measured
+        return distance
 
     # ---- SSSD
 
@@ -284,6 +292,8 @@ class OverlayEngine:
         if a == b:
             return f(0)
         index = self.index
+        if b in index.measured.get(a, {}):
+            return index.measured[a][b]
         low, high = sorted((a, b))
         around = [list(index.ways_up(int(index.entry[number]))) for number in (low, high)]
         top = max(set(around[0]) & set(around[1]))

@@ -354,6 +354,21 @@ class Index:
         begin = self.border_begin
         self.segment_end = [ends[a:b] for a, b in zip(begin, begin[1:])]
         self.segment_length = [lengths[a:b] for a, b in zip(begin, begin[1:])]
+        self._read_pairs()
+
+    def _read_pairs(self):
+        self.measured = {}  # per vertex number: the distances of others
+        if "PAIR" not in self.sections:
+            return
+        fields = Fields(self.sections["PAIR"].bytes())
+        count = int(fields.take("<u8", 1)[0])
+        first = fields.planes(count).cumsum(dtype="u4")
+        second, distance = first + fields.planes(count), fields.planes(count).view("<f4")
+        require(fields.at == len(fields.content), "PAIR is longer than its pairs")
+        for a, b, d in zip(first.tolist(), second.tolist(), distance):
+            require(a < b < self.vertex_count and 0 < d < numpy.inf, "no pair")
+            self.measured.setdefault(a, {})[b] = d
+            self.measured.setdefault(b, {})[a] = d
 
     def _read_packed(self):
         """The tables of a packed index; of triangles, both halves."""

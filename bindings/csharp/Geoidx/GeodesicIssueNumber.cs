@@ -104,6 +104,9 @@ namespace Geoidx
         /// <summary>The content of section MESH: the mesh that the index keeps.</summary>
         Mesh = 113,
 
+        /// <summary>The content of section PAIR: measured pairs.</summary>
+        Pair = 114,
+
         /// <summary>No single section is at fault: the index is over a limit, or out of proportion to its file.</summary>
         WholeIndex = 200,
     }

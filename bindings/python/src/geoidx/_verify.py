@@ -52,6 +52,7 @@ class IssueNumber(IntEnum):
     OVOV = 111
     HOPS = 112
     MESH = 113
+    PAIR = 114
     WHOLE_INDEX = 200
 
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "src/base/array.h"
+#include "src/index/stored.h"
+
+namespace geodesic {
+
+// The pairs of vertices whose distance an index holds besides its tables, because what the tables say of them
+// was seen to be wrong. Each pair is there twice, once for each of its vertices.
+struct MeasuredPairs {
+    explicit MeasuredPairs(std::pmr::memory_resource* memory) : begin(memory), others(memory) {}
+
+    struct Other {
+        uint32_t number;
+        float distance;
+    };
+
+    Array<uint32_t>
+        begin;           // per vertex number: where its pairs begin in `others`; empty if there are no pairs
+    Array<Other> others; // of each vertex in ascending order
+
+    std::span<const Other> of(uint32_t number) const {
+        if (begin.empty()) return {};
+        return {others.data() + begin[number], others.data() + begin[number + 1]};
+    }
+
+    // The distance of a pair, NULL if it is not one of these.
+    const float* distance(uint32_t first, uint32_t second) const;
+};
+
+// Replaces all pairs by these, which are in ascending order.
+void take_measured_pairs(std::span<const MeasuredPair> pairs, uint32_t vertex_count, MeasuredPairs& measured);
+
+// The pairs that were taken.
+std::vector<MeasuredPair> restore_measured_pairs(const MeasuredPairs& measured);
+
+}

@@ -1,0 +1,237 @@
+// Pairs that an index holds besides its tables: every query from a vertex answers them.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+
+#include "format/bytes.h"
+#include "tests/capi/calls.h"
+#include "tests/index/changed_section.h"
+
+using namespace geodesic::test;
+namespace format = geodesic::format;
+
+namespace {
+
+constexpr float FAR = std::numeric_limits<float>::infinity();
+constexpr uint32_t SIDE = 40;
+
+// Vertices of the caller's and a distance that no table gives.
+struct Planted {
+    uint32_t a, b;
+    float distance;
+};
+
+uint32_t at(uint32_t x, uint32_t y) { return x + y * SIDE; }
+
+const TestMesh& mesh() {
+    static const TestMesh made = hills(SIDE, SIDE);
+    return made;
+}
+
+const Bytes& plain_file() {
+    static const Bytes file = [] {
+        auto options = build_options();
+        options.engine = GEOIDX_ENGINE_OVERLAY;
+        return save(build(mesh(), options).get());
+    }();
+    return file;
+}
+
+// Pairs of neighbouring patches, of one patch and of opposite corners: shorter and longer than tables say.
+const std::vector<Planted>& planted() {
+    static const std::vector<Planted> pairs = [] {
+        const auto index = open(plain_file());
+        std::vector<Planted> made;
+        for (const auto& [a, b, share] : {std::tuple{at(3, 4), at(5, 4), 0.5f},
+                                          {at(3, 4), at(20, 30), 2.0f},
+                                          {at(0, 0), at(SIDE - 1, SIDE - 1), 0.75f},
+                                          {at(12, 12), at(13, 12), 3.0f}})
+            made.push_back({a, b, share * sssd(index.get(), a, b)});
+        return made;
+    }();
+    return pairs;
+}
+
+std::vector<uint32_t> numbers_of_ids(const format::Container& container) {
+    const auto bytes = container.read_bytes(geodesic::TAG_VERTICES, UINT64_MAX);
+    format::ByteReader reader(bytes, "VERT");
+    reader.u64();
+    std::vector<uint32_t> numbers(mesh().vertex_count());
+    reader.u32_planes(numbers);
+    return numbers;
+}
+
+// The section as format/SPEC.md has it.
+Bytes section_of(std::span<const Planted> pairs, std::span<const uint32_t> number_of_id) {
+    std::map<std::pair<uint32_t, uint32_t>, float> distance_of;
+    for (const auto& [a, b, distance] : pairs)
+        distance_of[std::minmax(number_of_id[a], number_of_id[b])] = distance;
+    std::vector<uint32_t> steps, apart, distances;
+    uint32_t before = 0;
+    for (const auto& [numbers, distance] : distance_of) {
+        steps.push_back(numbers.first - before);
+        apart.push_back(numbers.second - numbers.first);
+        distances.push_back(std::bit_cast<uint32_t>(distance));
+        before = numbers.first;
+    }
+    format::ByteWriter writer;
+    writer.u64(pairs.size());
+    for (const auto* planes : {&steps, &apart, &distances}) writer.u32_planes(*planes);
+    return writer.take();
+}
+
+// The file with these pairs instead of those that it has.
+Bytes with_section(const Bytes& section) {
+    const auto container = format::Container::parse(plain_file(), geodesic::INDEX_TAGS);
+    format::ContainerWriter writer(container.mesh_fingerprint());
+    for (const format::Section& s : container.sections())
+        if (s.tag != geodesic::TAG_MEASURED_PAIRS)
+            writer.add_bytes(s.tag, container.read_bytes(s.tag, UINT64_MAX));
+    writer.add_bytes(geodesic::TAG_MEASURED_PAIRS, section);
+    return writer.finish();
+}
+
+const Bytes& file_with_pairs() {
+    static const Bytes file = [] {
+        const auto container = format::Container::parse(plain_file(), geodesic::INDEX_TAGS);
+        return with_section(section_of(planted(), numbers_of_ids(container)));
+    }();
+    return file;
+}
+
+void check_pair_queries(const geoidx* index) {
+    const auto query = query_of(index);
+    for (const auto& [a, b, distance] : planted())
+        for (const auto& [from, to] : {std::pair{a, b}, {b, a}}) {
+            CHECK(sssd(index, from, to) == distance);
+            require_success(geoidx_query_prepare(query.get(), from));
+            const uint32_t targets[] = {to, from};
+            float answers[2];
+            require_success(geoidx_query_prepared(query.get(), targets, 2, answers));
+            CHECK(answers[0] == distance);
+            CHECK(answers[1] == 0);
+        }
+}
+
+void check_fields(const geoidx* index) {
+    const auto query = query_of(index);
+    const uint32_t count = mesh().vertex_count();
+    std::vector<uint32_t> sources;
+    for (const Planted& pair : planted()) sources.push_back(pair.a);
+    while (sources.size() < 20) sources.push_back(static_cast<uint32_t>(sources.size()) * 7);
+    std::vector<float> batch(size_t{20} * count), matrix(20 * 20);
+    require_success(geoidx_query_ssad_batch(query.get(), sources.data(), 20, batch.data(), batch.size()));
+    for (size_t i = 0; i < planted().size(); ++i) {
+        const auto& [a, b, distance] = planted()[i];
+        CHECK(msad(index, a, count)[b] == distance);
+        CHECK(msad(index, b, count)[a] == distance);
+        CHECK(batch[i * count + b] == distance);
+    }
+    for (size_t i = 0; i < planted().size(); ++i) sources[10 + i] = planted()[i].b;
+    require_success(geoidx_query_matrix(query.get(), sources.data(), 20, sources.data(), 20, matrix.data(),
+                                        matrix.size()));
+    for (size_t i = 0; i < planted().size(); ++i) {
+        CHECK(matrix[i * 20 + 10 + i] == planted()[i].distance);
+        CHECK(matrix[(10 + i) * 20 + i] == planted()[i].distance);
+    }
+}
+
+// Whether the vertex is found, and where it is.
+float distance_within(geoidx_query* query, uint32_t source, float radius, uint32_t vertex) {
+    std::vector<uint32_t> vertices(mesh().vertex_count());
+    std::vector<float> distances(vertices.size());
+    uint32_t count = 0;
+    require_success(geoidx_query_within(query, &source, 1, radius, vertices.data(), distances.data(),
+                                        static_cast<uint32_t>(vertices.size()), &count));
+    CHECK(std::is_sorted(distances.begin(), distances.begin() + count));
+    const auto end = vertices.begin() + count, found = std::find(vertices.begin(), end, vertex);
+    return found == end ? FAR : distances[static_cast<size_t>(found - vertices.begin())];
+}
+
+}
+
+TEST_CASE("measured pairs: every query from one vertex answers them, from every form of file") {
+    const auto index = open(file_with_pairs());
+    REQUIRE(sssd(open(plain_file()).get(), planted()[0].a, planted()[0].b) != planted()[0].distance);
+    Bytes file = file_with_pairs();
+    for (const uint32_t codec :
+         {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_MAPPED, GEOIDX_CODEC_LOSSLESS, GEOIDX_CODEC_PACKED}) {
+        CAPTURE(codec);
+        file = save(open(file).get(), codec);
+        const auto opened = open(file);
+        check_pair_queries(opened.get());
+        check_fields(opened.get());
+    }
+    CHECK(file == save(index.get()));
+}
+
+TEST_CASE("measured pairs: they are within a radius by what was measured") {
+    const auto index = open(file_with_pairs());
+    const auto query = query_of(index.get());
+    const uint32_t count = mesh().vertex_count();
+    for (const auto& [a, b, distance] : planted())
+        for (const float share : {0.999f, 1.0f, 1.001f, 4.0f}) {
+            const float radius = share * distance, expected = share < 1 ? FAR : distance;
+            CHECK(distance_within(query.get(), a, radius, b) == expected);
+            std::vector<float> field(count);
+            require_success(geoidx_query_msad_within(query.get(), &a, 1, radius, field.data(), count));
+            CHECK(field[b] == expected);
+        }
+}
+
+// Of several sources, a distance may only become less: which source the answer of the tables came from is not
+// kept.
+TEST_CASE("measured pairs: several sources have those that are shorter than what tables say") {
+    const auto index = open(file_with_pairs()), plain = open(plain_file());
+    const auto query = query_of(index.get());
+    const uint32_t count = mesh().vertex_count();
+    for (const auto& [a, b, distance] : planted()) {
+        const uint32_t sources[] = {at(SIDE - 1, 0), a};
+        const float before = msad(plain.get(), sources, count)[b];
+        CHECK(msad(index.get(), sources, count)[b] == std::min(before, distance));
+        std::vector<uint32_t> nearest(count);
+        std::vector<float> field(count);
+        require_success(
+            geoidx_query_nearest_sources(query.get(), sources, 2, nearest.data(), field.data(), count));
+        CHECK(field[b] == std::min(before, distance));
+        if (distance < before) CHECK(nearest[b] == 1);
+    }
+}
+
+TEST_CASE("measured pairs: a section that breaks a rule is refused") {
+    const auto container = format::Container::parse(plain_file(), geodesic::INDEX_TAGS);
+    const auto good = section_of(planted(), numbers_of_ids(container));
+    REQUIRE(open_status(with_section(good)) == GEOIDX_OK);
+    REQUIRE(open_status(with_section(Bytes(8))) == GEOIDX_OK); // no pair at all
+    const size_t pairs = planted().size();
+    const auto refused = [&](const char* what, size_t plane, size_t pair, uint32_t value) {
+        CAPTURE(what);
+        Bytes section = good; // u32 in planes: the lowest byte of each, then the second one
+        for (size_t byte = 0; byte < 4; ++byte)
+            section[8 + plane * 4 * pairs + byte * pairs + pair] =
+                static_cast<std::byte>(value >> 8 * byte & 0xff);
+        const Bytes file = with_section(section);
+        CHECK(open_status(file) == GEOIDX_ERROR_CORRUPT);
+        uint32_t number = 0;
+        const auto note = [](void* user, const geoidx_issue* issue) {
+            *static_cast<uint32_t*>(user) = issue->number;
+            return 1;
+        };
+        CHECK(geoidx_verify(file.data(), file.size(), note, &number) == GEOIDX_ERROR_CORRUPT);
+        CHECK(number == 114);
+    };
+    refused("a vertex and itself", 1, 0, 0);
+    refused("a second vertex that is not there", 1, 0, 1 << 20);
+    refused("a first vertex that is not there", 0, 1, UINT32_MAX - 5);
+    refused("descending order", 0, 1, UINT32_MAX);
+    for (const float distance : {0.0f, -1.0f, FAR, std::numeric_limits<float>::quiet_NaN()})
+        refused("distance", 2, 2, std::bit_cast<uint32_t>(distance));
+    Bytes longer = good, shorter = good;
+    longer.push_back(std::byte{0});
+    shorter.pop_back();
+    for (const Bytes& section : {longer, shorter, Bytes(7)})
+        CHECK(open_status(with_section(section)) == GEOIDX_ERROR_CORRUPT);
+}
