@@ -8,6 +8,7 @@
 #include "src/build/metric_options.h"
 #include "src/build/rounds.h"
 #include "src/build/stated_errors.h"
+#include "src/build/wrong_pairs.h"
 #include "src/file/kept_mesh.h"
 #include "src/index/stored.h"
 #include "src/partition/hierarchy.h"
@@ -84,6 +85,14 @@ ProgressFunction progress_function(const geoidx_build_options& options) {
     };
 }
 
+// Where the answers for near vertices are wrong, the index holds what is right.
+void hold_wrong_pairs(const Intake& intake, const Filling& filling, Workers& workers, Index& index) {
+    if (!filling.near_distances()) return;
+    const auto pairs = find_wrong_pairs(index, intake, *filling.near_distances(), workers);
+    take_measured_pairs(pairs, index.numbering().vertex_count(),
+                        std::get<OverlayIndex>(index.engine).measured);
+}
+
 }
 
 void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, Index& index) {
@@ -107,6 +116,7 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
             .run({intake.mesh, hierarchy}, *metric, std::move(stored));
     Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
     stating.begin_stage("accuracy", 1);
+    hold_wrong_pairs(intake, filling, stating, index);
     state_errors(intake, filling.solved_fields(), stating, index);
     if (options.store_mesh) keep_mesh(pack_mesh(mesh).view(), index);
 }

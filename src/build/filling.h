@@ -7,6 +7,7 @@
 #include "src/index/stored.h"
 #include "src/mesh/intake.h"
 #include "src/partition/hierarchy.h"
+#include "src/tables/near_distances.h"
 
 namespace geodesic {
 
@@ -22,8 +23,8 @@ class Filling {
 public:
     // The options are complete and checked. `about` has all but the errors, and what is filled becomes
     // `index`.
-    Filling(const Intake& intake, const geoidx_build_options& options, const Description& about, Index& index)
-        : intake_(intake), options_(options), about_(about), index_(index) {}
+    Filling(const Intake& intake, const geoidx_build_options& options, const Description& about,
+            Index& index);
 
     // From the borders to the measured index, which is prepared, too. The workers' metric is of this mesh.
     StoredIndex fill(const SplitSurface& surface, Workers& workers);
@@ -32,6 +33,9 @@ public:
     // was calibrated by, if it was.
     std::vector<const ExactFields*> solved_fields() const;
 
+    // Those of the latest fill(), if the metric is one for which they are measured.
+    const std::optional<NearDistances>& near_distances() const { return near_; }
+
     // The number of table entries that fill() would make.
     uint64_t count_entries(const SplitSurface& surface, Workers& workers) const;
 
@@ -39,7 +43,7 @@ private:
     std::vector<uint32_t> lay_out_vertices(const SplitSurface& surface, Workers& workers,
                                            StoredIndex& stored) const;
     void fill_tables(const SplitSurface& surface, std::span<const uint32_t> vertex_of_number,
-                     Workers& workers, StoredIndex& stored) const;
+                     Workers& workers, StoredIndex& stored);
     const ExactFields& fields(std::optional<ExactFields>& fields, uint64_t seed, Workers& workers) const;
 
     const Intake& intake_;
@@ -48,6 +52,7 @@ private:
     Index& index_;
     // Solved once, since distances between vertices of the caller's are the same on all meshes.
     std::optional<ExactFields> calibration_, measuring_;
+    std::optional<NearDistances> near_;
 };
 
 }

@@ -79,4 +79,8 @@ bool crosses_between_vertices(const Description& about) {
     return about.engine == GEOIDX_ENGINE_OVERLAY && (about.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
 }
 
+bool follows_positions(const Description& about) {
+    return about.metric != GEOIDX_METRIC_CALLBACK && about.metric_fingerprint == 0;
+}
+
 }

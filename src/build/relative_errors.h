@@ -29,4 +29,7 @@ MeasuredError summary(std::vector<double> errors);
 // Whether the answers of MSAD depend on where paths cross borders.
 bool crosses_between_vertices(const Description& about);
 
+// Whether the metric follows from the mesh alone, positions of vertices included.
+bool follows_positions(const Description& about);
+
 }

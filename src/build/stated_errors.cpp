@@ -51,12 +51,6 @@ Effort effort_for(const Description& about, uint32_t vertex_count) {
     return {near_effort(sources, screened), pairs, 1};
 }
 
-double mean_edge_of_mesh(const Mesh& mesh) {
-    double sum = 0;
-    for (uint32_t e = 0; e < mesh.edge_count(); ++e) sum += mesh.edge_length(e);
-    return sum / mesh.edge_count();
-}
-
 double mean_edge_at_sources(const Mesh& mesh, const ExactFields& exact) {
     double sum = 0;
     uint64_t count = 0;
@@ -71,8 +65,7 @@ double mean_edge_at_sources(const Mesh& mesh, const ExactFields& exact) {
 
 // The unit of classes of distances.
 double average_edge(const Description& about, const Mesh& mesh, const ExactFields& exact) {
-    const bool follows_positions = about.metric != GEOIDX_METRIC_CALLBACK && about.metric_fingerprint == 0;
-    return follows_positions ? mean_edge_of_mesh(mesh) : mean_edge_at_sources(mesh, exact);
+    return follows_positions(about) ? mean_edge(mesh) : mean_edge_at_sources(mesh, exact);
 }
 
 // The errors of MSAD and of some SSSD from the i-th source.
@@ -108,6 +101,25 @@ void add_errors_of_fields(const Index& index, const Intake& intake, const ExactF
     for (const ErrorsByDistance& of_one : of_source) errors.add(of_one);
 }
 
+// The errors of MSAD from these sources, now that the index may hold measured pairs.
+MeasuredError error_of_answers(const Index& index, const Intake& intake, const ExactFields& exact,
+                               Workers& workers) {
+    std::vector<std::vector<double>> of_source(exact.sources.size());
+    workers.run(of_source.size(), [&](FieldSolver&, size_t i) {
+        Query query(index, std::pmr::get_default_resource());
+        std::vector<float> answers(index.description.id_count);
+        query.msad({&intake.id_of_vertex[exact.sources[i]], 1}, INFINITE, answers);
+        for (uint32_t v = 0; v < exact.distances[i].size(); ++v)
+            if (const double distance = exact.distances[i][v]; has_relative_error(distance))
+                of_source[i].push_back((double{answers[intake.id_of_vertex[v]]} - distance) / distance);
+    });
+    std::vector<double> all;
+    for (const auto& errors : of_source) all.insert(all.end(), errors.begin(), errors.end());
+    MeasuredError error = summary(std::move(all));
+    error.mean_at_vertices = index.description.error.mean_at_vertices;
+    return error;
+}
+
 MeanAndMax error_of_several(const Index& index, const Intake& intake, const ExactFields& exact,
                             uint32_t rounds, Workers& workers) {
     if (rounds == 0) return errors_of_known_groups(index, intake, exact, workers).result();
@@ -130,10 +142,12 @@ void state_errors(const Intake& intake, std::span<const ExactFields* const> fiel
     NearSearch search(index, intake, edge);
     search.run(effort.near, about.seed ^ NEAR_SEED, workers);
     errors.add(search.errors());
-    MeasuredError& stated = index.description.error;
+    MeasuredError stated = about.error;
+    if (crosses_between_vertices(about)) stated = error_of_answers(index, intake, measuring, workers);
     stated.by_distance = errors.result();
     for (const MeanAndMax& of_class : stated.by_distance) stated.max = std::max(stated.max, of_class.max);
     stated.several = error_of_several(index, intake, measuring, effort.rounds, workers);
+    index.description.error = stated;
     release_pairs(index);
 }
 

@@ -72,4 +72,10 @@ uint32_t find_edge(const Mesh& mesh, uint32_t a, uint32_t b) {
     return static_cast<uint32_t>(found - mesh.edges.begin());
 }
 
+double mean_edge(const Mesh& mesh) {
+    double sum = 0;
+    for (uint32_t e = 0; e < mesh.edge_count(); ++e) sum += mesh.edge_length(e);
+    return sum / mesh.edge_count();
+}
+
 }

@@ -49,6 +49,9 @@ void connect(Mesh& mesh);
 // Per vertex the ends of edges there: 2 edge + 0 or 1, as in `edges`.
 ListOfLists<uint32_t> edge_ends_at_vertices(const Mesh& mesh);
 
+// The mean length of all edges.
+double mean_edge(const Mesh& mesh);
+
 // The edge between two vertices, or NONE.
 uint32_t find_edge(const Mesh& mesh, uint32_t a, uint32_t b);
 

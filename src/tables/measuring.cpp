@@ -15,8 +15,8 @@ float measured_distance(const FieldSolver& solver, uint32_t vertex) {
     return static_cast<float>(distance);
 }
 
-void measure_internal(const Numbering& numbering, std::span<const uint32_t> vertex_of_number, uint32_t number,
-                      FieldSolver& solver, std::span<float> border_internal_tables,
+bool measure_internal(const Numbering& numbering, std::span<const uint32_t> vertex_of_number, uint32_t number,
+                      double final_radius, FieldSolver& solver, std::span<float> border_internal_tables,
                       std::span<float> internal_tables) {
     const uint32_t leaf = numbering.leaf_of(number), first = numbering.first_internal(leaf);
     const uint32_t own = number - first, size = numbering.internal_size(leaf);
@@ -24,14 +24,15 @@ void measure_internal(const Numbering& numbering, std::span<const uint32_t> vert
     std::vector<uint32_t> targets;
     for (uint32_t other : border) targets.push_back(vertex_of_number[other]);
     for (uint32_t i = own + 1; i < size; ++i) targets.push_back(vertex_of_number[first + i]);
-    if (targets.empty()) return;
-    solver.solve({&vertex_of_number[number], 1}, targets);
+    if (targets.empty()) return false;
+    solver.solve({{&vertex_of_number[number], 1}, targets, {}, {}, UNREACHABLE, final_radius});
     for (uint32_t i = 0; i < border.size(); ++i)
         border_internal_tables[numbering.border_internal_entry(leaf, i, own)] =
             measured_distance(solver, vertex_of_number[border[i]]);
     for (uint32_t i = own + 1; i < size; ++i)
         internal_tables[numbering.internal_entry(leaf, i, own)] =
             measured_distance(solver, vertex_of_number[first + i]);
+    return true;
 }
 
 }

@@ -13,9 +13,10 @@ float measured_distance(const FieldSolver& solver, uint32_t vertex);
 
 // Measures the distances of an internal vertex to the border of its leaf and to the leaf's internal vertices
 // with larger numbers, and writes them into tables that are laid out as in StoredIndex. vertex_of_number
-// gives the mesh vertex of each number.
-void measure_internal(const Numbering& numbering, std::span<const uint32_t> vertex_of_number, uint32_t number,
-                      FieldSolver& solver, std::span<float> border_internal_tables,
+// gives the mesh vertex of each number. Distances up to `final_radius` are final, too. Returns whether there
+// was anything to measure; if not, nothing has been solved.
+bool measure_internal(const Numbering& numbering, std::span<const uint32_t> vertex_of_number, uint32_t number,
+                      double final_radius, FieldSolver& solver, std::span<float> border_internal_tables,
                       std::span<float> internal_tables);
 
 }

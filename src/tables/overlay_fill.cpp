@@ -44,13 +44,21 @@ size_t closure_rows(const Numbering& numbering, const std::vector<uint8_t>& exac
 class ExactTables {
 public:
     ExactTables(const Numbering& numbering, std::span<const uint32_t> vertex_of_number,
-                const std::vector<uint8_t>& exact, DistanceTables& tables)
-        : numbering_(numbering), vertex_of_number_(vertex_of_number), exact_(exact), tables_(tables) {}
+                const std::vector<uint8_t>& exact, DistanceTables& tables, NearDistances* near)
+        : numbering_(numbering), vertex_of_number_(vertex_of_number), exact_(exact), tables_(tables),
+          near_(near) {}
 
     void fill(FieldSolver& solver, uint32_t number) {
-        if (numbering_.is_border(number)) return fill_border(solver, number);
-        measure_internal(numbering_, vertex_of_number_, number, solver, tables_.border_internal,
-                         tables_.internal);
+        const uint32_t& vertex = vertex_of_number_[number];
+        const bool takes_near = near_ && vertex < near_->vertex_count();
+        const double radius = takes_near ? near_->radius() : 0;
+        const bool is_solved = numbering_.is_border(number)
+                                   ? fill_border(solver, number, radius)
+                                   : measure_internal(numbering_, vertex_of_number_, number, radius, solver,
+                                                      tables_.border_internal, tables_.internal);
+        if (!takes_near) return;
+        if (!is_solved) solver.solve({&vertex, 1}, {}, radius);
+        near_->take(vertex, solver);
     }
 
 private:
@@ -64,14 +72,16 @@ private:
         return positions;
     }
 
-    void fill_border(FieldSolver& solver, uint32_t number) {
+    // As measure_internal() does it.
+    bool fill_border(FieldSolver& solver, uint32_t number, double final_radius) {
         const auto overlays = overlays_of(number);
         std::vector<uint32_t> targets;
         for (const auto& [patch, own] : overlays)
             for (uint32_t i = 0; i < numbering_.overlay_size(patch); ++i)
                 if (const uint32_t other = numbering_.overlay_number(patch, i); other > number)
                     targets.push_back(vertex_of_number_[other]);
-        if (!targets.empty()) solver.solve({&vertex_of_number_[number], 1}, targets);
+        if (!targets.empty())
+            solver.solve({{&vertex_of_number_[number], 1}, targets, {}, {}, UNREACHABLE, final_radius});
         for (const auto& [patch, own] : overlays) {
             const size_t size = numbering_.overlay_size(patch);
             std::vector<float>& table = tables_.overlay[patch];
@@ -81,12 +91,14 @@ private:
                     table[own * size + i] = table[i * size + own] =
                         measured_distance(solver, vertex_of_number_[other]);
         }
+        return !targets.empty();
     }
 
     const Numbering& numbering_;
     std::span<const uint32_t> vertex_of_number_;
     const std::vector<uint8_t>& exact_;
     DistanceTables& tables_;
+    NearDistances* const near_; // NULL if nobody wants them
 };
 
 // Lowers the tables by those of their parents. The table of a patch is handed over once its children's are
@@ -115,12 +127,12 @@ bool can_be_squared(const BorderSegments& segments) {
 
 void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
                          std::span<const uint32_t> vertex_of_number, const OverlayOptions& options,
-                         Workers& workers, StoredIndex& stored) {
+                         Workers& workers, StoredIndex& stored, NearDistances* near) {
     Numbering numbering(std::pmr::get_default_resource());
     number_vertices(stored, numbering);
     DistanceTables tables(numbering);
     const auto exact = exact_patches(numbering, options.exact_vertices);
-    ExactTables filler(numbering, vertex_of_number, exact, tables);
+    ExactTables filler(numbering, vertex_of_number, exact, tables, near);
     workers.run(numbering.vertex_count(), [&](FieldSolver& solver, size_t number) {
         filler.fill(solver, static_cast<uint32_t>(number));
     });

@@ -5,6 +5,7 @@
 #include "src/index/stored.h"
 #include "src/mesh/mesh.h"
 #include "src/metric/workers.h"
+#include "src/tables/near_distances.h"
 
 namespace geodesic {
 
@@ -19,9 +20,10 @@ struct OverlayOptions {
 // must be stored already. The tables of leaves and of small patches hold the metric's own distances. Those of
 // larger patches are put together from their children's tables, and then lowered by paths that leave the
 // patch. Filling takes 4 bytes of memory for each table entry, and 4 more for each entry of one table at a
-// time. vertex_of_number gives the mesh vertex of each number.
+// time. vertex_of_number gives the mesh vertex of each number. Unless `near` is NULL, it takes all distances
+// that it has room for.
 void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
                          std::span<const uint32_t> vertex_of_number, const OverlayOptions& options,
-                         Workers& workers, StoredIndex& stored);
+                         Workers& workers, StoredIndex& stored, NearDistances* near);
 
 }

@@ -1,0 +1,167 @@
+#include "src/build/wrong_pairs.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "src/build/errors_by_distance.h"
+#include "src/query/query.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr double LARGEST_ERROR = 0.01;
+// Where MSAD is off by more, SSSD is asked, too: what makes one of them wrong makes both.
+constexpr double SUSPICIOUS = LARGEST_ERROR / 2;
+// Along an edge, distances change by no more than its length. Answers may by this much more.
+constexpr double STEEPEST = 1.05;
+constexpr size_t MOST_PAIRS = 4;  // for each vertex, on average
+constexpr double LOOKED_AT = 1.1; // near radii: answers beyond are off by more than any that is let pass
+constexpr size_t FEWEST_AT_ONCE = 64, MOST_TASKS = 256; // sources of a task share a query
+
+struct WrongPair {
+    MeasuredPair pair;
+    double error;
+};
+
+// Rounded to 13 bits, which is far below what is let pass, so that files have fewer of them.
+float rounded(float distance) {
+    constexpr uint32_t DROPPED = (1 << 11) - 1;
+    const auto bits = std::bit_cast<uint32_t>(distance);
+    return std::bit_cast<float>((bits + DROPPED / 2 + 1) & ~DROPPED);
+}
+
+// One thread's answers compared with the metric, from one source at a time.
+class Comparison {
+public:
+    Comparison(const Index& index, const Intake& intake, const NearDistances& near,
+               const ListOfLists<uint32_t>& edge_ends)
+        : index_(index), intake_(intake), near_(near), edge_ends_(edge_ends),
+          query_(index, std::pmr::get_default_resource()), answer_(index.description.id_count, INFINITE),
+          field_(near.vertex_count(), {0, 0}) {}
+
+    // Adds the wrong pairs of this source.
+    void compare(uint32_t source, std::vector<WrongPair>& wrong) {
+        source_ = source;
+        wrong_ = &wrong;
+        fill_field();
+        for (const auto& near : near_.of(source))
+            if (const double error = largest_error(near.vertex); error > LARGEST_ERROR)
+                correct(near.vertex, error);
+        open_.clear();
+        for (const auto& near : near_.of(source)) open_.push_back(near.vertex);
+        while (!open_.empty()) {
+            const uint32_t vertex = open_.back();
+            open_.pop_back();
+            make_less_steep(vertex);
+        }
+        for (const auto& near : near_.of(source)) field_[near.vertex] = {0, 0};
+    }
+
+private:
+    // Of a near vertex; others, and the source, have 0 for both.
+    struct Distances {
+        float exact, answer;
+        double error() const { return relative_error(exact, answer); }
+    };
+
+    uint32_t id_of(uint32_t vertex) const { return intake_.id_of_vertex[vertex]; }
+
+    // With the answers of MSAD.
+    void fill_field() {
+        const uint32_t id = id_of(source_);
+        const auto found = query_.within({&id, 1}, static_cast<float>(LOOKED_AT * near_.radius()));
+        for (const auto& [distance, other] : found) answer_[other] = distance;
+        for (const auto& [vertex, distance] : near_.of(source_))
+            field_[vertex] = {distance, answer_[id_of(vertex)]};
+        for (const auto& [distance, other] : found) answer_[other] = INFINITE;
+    }
+
+    double largest_error(uint32_t vertex) {
+        const Distances& distances = field_[vertex];
+        const double of_field = distances.error();
+        if (of_field <= SUSPICIOUS || of_field > LARGEST_ERROR) return of_field;
+        return std::max(of_field,
+                        relative_error(distances.exact, query_.sssd(id_of(source_), id_of(vertex))));
+    }
+
+    void correct(uint32_t vertex, double error) {
+        Distances& distances = field_[vertex];
+        const auto number = [&](uint32_t v) { return index_.number_of_id[id_of(v)]; };
+        const auto [first, second] = std::minmax({number(source_), number(vertex)});
+        distances.exact = distances.answer = rounded(distances.exact);
+        wrong_->push_back({{first, second, distances.exact}, error});
+    }
+
+    // Where an edge of a near vertex leads to another one and is too steep, the worse end is corrected.
+    void make_less_steep(uint32_t vertex) {
+        const auto is_near = [&](uint32_t v) { return field_[v].exact > 0 || v == source_; };
+        for (const uint32_t end : edge_ends_[vertex]) {
+            const uint32_t other = intake_.mesh.edges[end / 2][1 - end % 2];
+            if (!is_near(other) || !is_too_steep(vertex, other)) continue;
+            const uint32_t worse = deviation(vertex) < deviation(other) ? other : vertex;
+            if (!(deviation(worse) > 0)) continue;
+            correct(worse, field_[worse].error());
+            open_.push_back(worse);
+        }
+    }
+    bool is_too_steep(uint32_t a, uint32_t b) const {
+        const double length = (intake_.mesh.positions[a] - intake_.mesh.positions[b]).norm();
+        return std::abs(field_[a].answer - field_[b].answer) > STEEPEST * length;
+    }
+    float deviation(uint32_t vertex) const { return std::abs(field_[vertex].answer - field_[vertex].exact); }
+
+    const Index& index_;
+    const Intake& intake_;
+    const NearDistances& near_;
+    const ListOfLists<uint32_t>& edge_ends_;
+    Query query_;
+    uint32_t source_ = NONE;
+    std::vector<WrongPair>* wrong_ = nullptr;
+    std::vector<float> answer_;    // by id; infinite but while a field is filled
+    std::vector<Distances> field_; // by vertex
+    std::vector<uint32_t> open_;   // vertices whose edges are to be looked at
+};
+
+// Keeps each pair once. Errors of both directions may differ.
+void keep_different(std::vector<WrongPair>& wrong) {
+    const auto place = [](const WrongPair& w) { return std::pair(w.pair.first, w.pair.second); };
+    std::ranges::sort(wrong, [&](const WrongPair& a, const WrongPair& b) {
+        return place(a) != place(b) ? place(a) < place(b) : a.error > b.error;
+    });
+    const auto is_same = [&](const WrongPair& a, const WrongPair& b) { return place(a) == place(b); };
+    wrong.erase(std::unique(wrong.begin(), wrong.end(), is_same), wrong.end());
+}
+
+void keep_worst(std::vector<WrongPair>& wrong, size_t count) {
+    if (wrong.size() <= count) return;
+    std::ranges::stable_sort(wrong, std::ranges::greater{}, &WrongPair::error);
+    wrong.resize(count);
+    keep_different(wrong); // in the order of pairs again
+}
+
+}
+
+std::vector<MeasuredPair> find_wrong_pairs(const Index& index, const Intake& intake,
+                                           const NearDistances& near, Workers& workers) {
+    const uint32_t vertices = near.vertex_count();
+    const auto edge_ends = edge_ends_at_vertices(intake.mesh);
+    const size_t at_once = std::max<size_t>(FEWEST_AT_ONCE, vertices / MOST_TASKS);
+    std::vector<std::vector<WrongPair>> of_task((vertices + at_once - 1) / at_once);
+    workers.run(of_task.size(), [&](FieldSolver&, size_t task) {
+        Comparison comparison(index, intake, near, edge_ends);
+        const size_t begin = task * at_once, end = std::min<size_t>(begin + at_once, vertices);
+        for (size_t v = begin; v < end; ++v) comparison.compare(static_cast<uint32_t>(v), of_task[task]);
+    });
+    std::vector<WrongPair> wrong;
+    for (const auto& of_one : of_task) wrong.insert(wrong.end(), of_one.begin(), of_one.end());
+    keep_different(wrong);
+    keep_worst(wrong, MOST_PAIRS * vertices);
+    std::vector<MeasuredPair> pairs;
+    for (const WrongPair& w : wrong) pairs.push_back(w.pair);
+    return pairs;
+}
+
+}

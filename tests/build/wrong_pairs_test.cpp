@@ -1,0 +1,109 @@
+// That near vertices are right, all of them, on surfaces where tables alone are not: against the metric.
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "format/container.h"
+#include "src/index/section_tags.h"
+#include "tests/capi/calls.h"
+#include "tests/support/sanitized.h"
+
+using namespace geodesic::test;
+namespace format = geodesic::format;
+
+namespace {
+
+constexpr double LARGEST_ERROR = 0.01, STEEPEST = 1.05;
+constexpr double ROUNDING = 2e-4; // of measured distances, and of what they are compared with
+constexpr double NEAR_EDGES = 10;
+
+// Random heights: nearly no two triangles lie in a plane.
+TestMesh rough(uint32_t side, double height) {
+    TestMesh mesh = grid(side, side);
+    std::mt19937 random(5);
+    for (size_t i = 2; i < mesh.positions.size(); i += 3)
+        mesh.positions[i] = height * static_cast<double>(random() % 1000) / 1000;
+    return mesh;
+}
+
+std::set<std::pair<uint32_t, uint32_t>> edges_of(const TestMesh& mesh) {
+    std::set<std::pair<uint32_t, uint32_t>> edges;
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3)
+        for (size_t k = 0; k < 3; ++k)
+            edges.insert(std::minmax(mesh.triangles[t + k], mesh.triangles[t + (k + 1) % 3]));
+    return edges;
+}
+
+// The same index without its measured pairs.
+IndexHandle tables_only(const geoidx* index) {
+    const Bytes file = save(index);
+    const auto container = format::Container::parse(file, geodesic::INDEX_TAGS);
+    format::ContainerWriter writer(container.mesh_fingerprint());
+    for (const format::Section& section : container.sections())
+        if (section.tag != geodesic::TAG_MEASURED_PAIRS)
+            writer.add_bytes(section.tag, container.read_bytes(section.tag, UINT64_MAX));
+    return open(writer.finish());
+}
+
+struct Counts {
+    uint64_t wrong = 0, steep = 0; // near vertices, and edges between near ones
+};
+
+// Of fields, from every step-th vertex.
+Counts count_wrong(const geoidx* index, const TestMesh& mesh, uint32_t step) {
+    const auto edges = edges_of(mesh);
+    double sum = 0;
+    for (const auto& [a, b] : edges) sum += mesh.straight(a, b);
+    const double near = NEAR_EDGES * sum / static_cast<double>(edges.size());
+    const auto metric = solver(mesh, build_options());
+    Counts counts;
+    for (uint32_t source = 0; source < mesh.vertex_count(); source += step) {
+        const auto exact = metric_distances(metric.get(), source, mesh.vertex_count());
+        const auto field = msad(index, source, mesh.vertex_count());
+        for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
+            if (exact[v] > 0 && exact[v] <= near)
+                counts.wrong += std::abs(double{field[v]} / exact[v] - 1) > LARGEST_ERROR + ROUNDING;
+        for (const auto& [a, b] : edges)
+            if (exact[a] <= near && exact[b] <= near)
+                counts.steep += std::abs(double{field[a]} - double{field[b]}) >
+                                (STEEPEST + ROUNDING) * mesh.straight(a, b) + ROUNDING * exact[a];
+    }
+    return counts;
+}
+
+}
+
+TEST_CASE("wrong pairs: no answer for near vertices is off by more than a hundredth") {
+    for (const TestMesh& mesh : {rough(24, 4), hills(30, 20), lattice(4)}) {
+        geoidx_build_options options;
+        geoidx_build_options_init(&options);
+        options.threads = 2;
+        const auto index = build(mesh, options);
+        const Counts counts = count_wrong(index.get(), mesh, sparse(1));
+        CHECK(counts.wrong == 0);
+    }
+}
+
+TEST_CASE("wrong pairs: a rough surface has some by its tables alone, and few steep edges with them") {
+    const TestMesh mesh = rough(24, 4);
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    options.threads = 2;
+    const auto index = build(mesh, options);
+    const Counts before = count_wrong(tables_only(index.get()).get(), mesh, sparse(3)),
+                 now = count_wrong(index.get(), mesh, sparse(3));
+    CHECK(before.wrong > 0);
+    CHECK(now.wrong == 0);
+    CHECK(now.steep <= before.steep);
+}
+
+TEST_CASE("wrong pairs: threads change no bit of the file") {
+    const TestMesh mesh = rough(20, 3);
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    options.threads = 1;
+    const Bytes one = save(build(mesh, options).get());
+    options.threads = 4;
+    CHECK(save(build(mesh, options).get()) == one);
+}
