@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "src/overlay/kernels/dispatch.h"
+#include "src/base/four_at_a_time.h"
 #include "src/overlay/ring_segments.h"
-#include "src/overlay/sssd/ascent.h"
 
 namespace geodesic {
 
@@ -28,8 +27,9 @@ void PreparedSource::begin(uint32_t innermost) {
     const Numbering& numbering = index_.numbering;
     known_.resize(numbering.vertex_count());
     std::fill_n(known_.begin(), numbering.border_vertex_count(), INFINITE);
-    for (auto* distances : {&from_, &to_})
-        distances->resize(SourceCode::whole_blocks(index_.rings.largest_size()) + SourceCode::BLOCK);
+    if (code_.empty()) code_.resize(SourceCode::whole_blocks(index_.rings.largest_size()));
+    kept_.clear();
+    kept_begin_.assign(numbering.patch_count(), NONE);
     for (auto* is_known : {&is_inner_known_, &is_border_known_}) is_known->assign(numbering.patch_count(), 0);
     innermost_ = innermost;
     is_border_known_[innermost_] = 1;
@@ -90,20 +90,39 @@ float PreparedSource::distance_in_own_leaf(uint32_t target) const {
     return point_ ? distance_in_leaf(index_, innermost_, *point_, target) : known_[target];
 }
 
-// The kernel reads past the ring up to whole blocks; infinity there gives no way.
-float PreparedSource::distance_over_border(uint32_t leaf, uint32_t target) {
-    const RingRow row = inner_row_of(index_, target);
-    const uint32_t places = index_.rings.size(leaf);
-    const uint32_t* vertex = index_.rings.vertex.data() + row.first;
-    for (uint32_t k = 0; k < places; ++k) {
-        from_[k] = known_[vertex[k]];
-        to_[k] = row(row.first + k);
+// The borders of leaves are kept: a search asks for many vertices of a leaf, and comes and goes between
+// leaves.
+BorderFromSource PreparedSource::border_around(uint32_t leaf) {
+    const Rings& rings = index_.rings;
+    const uint32_t places = rings.size(leaf);
+    const size_t room = SourceCode::whole_blocks(places) + SourceCode::BLOCK;
+    const bool is_new = kept_begin_[leaf] == NONE;
+    if (is_new) {
+        kept_begin_[leaf] = static_cast<uint32_t>(kept_.size());
+        kept_.resize(kept_.size() + 3 * room, INFINITE);
     }
-    for (auto* distances : {&from_, &to_})
-        std::fill_n(distances->begin() + places, SourceCode::BLOCK, INFINITE);
-    const RingSegments segments = segments_from(index_.rings, row.first);
-    return runnable_kernels().back().meet(
-        {places, from_.data(), to_.data(), segments.length, segments.half_inverse});
+    float *const distance = kept_.data() + kept_begin_[leaf], *const foot = distance + room,
+                 *const height = foot + room;
+    const RingSegments segments = segments_from(rings, rings.begin[leaf]);
+    const BorderFromSource border{places,          code_.data(),          distance,
+                                  segments.length, segments.half_inverse, foot,
+                                  height,          index_.quantum[leaf]};
+    if (!is_new) return border;
+    const uint32_t first = rings.begin[leaf];
+    four_at_a_time(places, [&](size_t k) { distance[k] = known_[rings.vertex[first + k]]; });
+    kernels_.prepare_crossing(border, rings.is_own.data() + first, code_.data(), foot, height);
+    return border;
+}
+
+// Over all of the border.
+float PreparedSource::distance_over_border(uint32_t leaf, uint32_t target) {
+    const BorderFromSource border = border_around(leaf);
+    const NearRange whole{0, INFINITE, 0, border.places};
+    const uint32_t inner = target - index_.numbering.first_internal(leaf);
+    const uint16_t* const row = index_.hops.inner.data() + index_.inner_row(leaf, inner);
+    float distance = INFINITE;
+    kernels_.cross_near(border, whole, {&row, 1}, &distance);
+    return distance;
 }
 
 }

@@ -4,6 +4,7 @@
 #include <memory_resource>
 #include <optional>
 
+#include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/point_ways.h"
 #include "src/overlay/ssad.h"
 #include "src/overlay/tables.h"
@@ -17,8 +18,8 @@ namespace geodesic {
 class PreparedSource {
 public:
     PreparedSource(const OverlayIndex& index, std::pmr::memory_resource* memory)
-        : index_(index), known_(memory), is_inner_known_(memory), is_border_known_(memory), from_(memory),
-          to_(memory), to_border_(memory) {}
+        : index_(index), kernels_(runnable_kernels().back()), known_(memory), is_inner_known_(memory),
+          is_border_known_(memory), kept_(memory), kept_begin_(memory), code_(memory), to_border_(memory) {}
 
     void prepare(uint32_t vertex);
     // A point of a face that a leaf has.
@@ -35,16 +36,22 @@ private:
     void require_border(uint32_t patch, OverlaySsad& field);
     void require_inner(uint32_t patch, OverlaySsad& field);
     float distance_in_own_leaf(uint32_t target) const;
+    BorderFromSource border_around(uint32_t leaf);
     float distance_over_border(uint32_t leaf, uint32_t target);
 
     const OverlayIndex& index_;
+    const Kernels& kernels_;
     uint32_t innermost_ = 0;         // patch around the source
     std::optional<FacePoint> point_; // unless the source is a vertex
     Array<float> known_;             // by number: of the inner vertices and of the borders that are known
     // Per patch, the first ones but for those around the source.
     Array<uint8_t> is_inner_known_, is_border_known_;
-    Array<float> from_, to_; // scratch: from both ends to the places of a ring
-    Array<float> to_border_; // scratch: of a point, by position in the border of its leaf
+    // Of the borders of leaves that were asked for: distances, feet and heights, as BorderFromSource has
+    // them.
+    Array<float> kept_;
+    Array<uint32_t> kept_begin_; // per patch; NONE: not yet
+    Array<int16_t> code_;        // scratch: codes of places, which are not read here
+    Array<float> to_border_;     // scratch: of a point, by position in the border of its leaf
 };
 
 }
