@@ -5,24 +5,26 @@
 #include <utility>
 #include <vector>
 
+#include "src/base/numbers.h"
+#include "src/metric/metric.h"
+
 namespace geodesic {
 
 // What a search has open, by what is expected in all: a heap of four children each, since a search opens more
-// nodes than it comes to.
+// nodes than it comes to. One node is kept beside the heap: mostly a search comes to the best of the nodes
+// that it opened last, which then never enters the heap.
 template <class Node>
 class OpenNodes {
 public:
     void push(double expected, Node&& node) {
-        const Entry entry{expected, static_cast<uint32_t>(nodes_.size())};
+        Entry entry{expected, static_cast<uint32_t>(nodes_.size())};
         nodes_.push_back(std::move(node));
-        heap_.push_back(entry);
-        size_t at = heap_.size() - 1;
-        for (; at > 0 && entry < heap_[(at - 1) / CHILDREN]; at = (at - 1) / CHILDREN)
-            heap_[at] = heap_[(at - 1) / CHILDREN];
-        heap_[at] = entry;
+        if (entry < beside_) std::swap(entry, beside_);
+        if (entry.node != NONE) rise(entry);
     }
-    bool empty() const { return heap_.empty(); }
+    bool empty() const { return beside_.node == NONE && heap_.empty(); }
     uint32_t pop() {
+        if (heap_.empty() || beside_ < heap_.front()) return std::exchange(beside_, Entry{}).node;
         const uint32_t node = heap_.front().node;
         const Entry last = heap_.back();
         heap_.pop_back();
@@ -34,14 +36,22 @@ public:
 private:
     static constexpr size_t CHILDREN = 4;
     struct Entry {
-        double expected;
-        uint32_t node;
+        double expected = UNREACHABLE;
+        uint32_t node = NONE;
 
         // Of two that are expected to be as long, the one that was opened first.
         bool operator<(const Entry& other) const {
             return expected < other.expected || (expected == other.expected && node < other.node);
         }
     };
+
+    void rise(const Entry& entry) {
+        heap_.push_back(entry);
+        size_t at = heap_.size() - 1;
+        for (; at > 0 && entry < heap_[(at - 1) / CHILDREN]; at = (at - 1) / CHILDREN)
+            heap_[at] = heap_[(at - 1) / CHILDREN];
+        heap_[at] = entry;
+    }
 
     // From the root, which is free.
     void sink(const Entry& entry) {
@@ -57,6 +67,7 @@ private:
         heap_[at] = entry;
     }
 
+    Entry beside_; // of no node: NONE
     std::vector<Entry> heap_;
     std::vector<Node> nodes_;
 };
