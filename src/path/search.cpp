@@ -1,6 +1,7 @@
 #include "src/path/search.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "src/base/number_map.h"
@@ -44,15 +45,21 @@ private:
     static constexpr double UNKNOWN = -1;
     static constexpr double CLOSED = -UNREACHABLE; // expected where no node is opened any more
 
+    // An edge, and how far its ends are from the target.
+    struct Edge {
+        Portal ends;
+        double from_a, from_b;
+    };
+
     Met& met(Kind kind, uint32_t item) { return kind == Kind::FACE ? faces_[item] : vertices_[item]; }
     double rest_from(uint32_t vertex);
-    void open(double rest, Node&& node);
+    void open(Met& met, double rest, Node&& node);
     bool close(const Node& node);
     void reach_target(uint32_t index);
     void leave_face(uint32_t index);
-    void pass_vertex(uint32_t index, uint32_t vertex);
-    void pass_edge(uint32_t index, const Portal& portal);
-    EdgeCrossing cross_edge(const Portal& portal, const Vector3d& from);
+    void pass_vertex(uint32_t index, const Node& node, uint32_t vertex);
+    void pass_edge(uint32_t index, const Node& node, const Edge& edge);
+    EdgeCrossing cross_edge(const Edge& edge, const Vector3d& from);
     void leave_vertex(uint32_t index);
     Strip strip_to(uint32_t index) const;
 
@@ -71,11 +78,10 @@ double FaceSearch::rest_from(uint32_t vertex) {
 }
 
 // Unless the face or vertex is closed or will be before this node's turn.
-void FaceSearch::open(double rest, Node&& node) {
+void FaceSearch::open(Met& met, double rest, Node&& node) {
     const double expected = node.length + rest * (1 + distances_.error);
-    double& least = met(node.kind, node.item).expected;
-    if (!(expected < least)) return;
-    least = expected;
+    if (!(expected < met.expected)) return;
+    met.expected = expected;
     open_.push(expected, std::move(node));
 }
 
@@ -97,48 +103,55 @@ void FaceSearch::leave_face(uint32_t index) {
     const Node node = open_[index];
     if (std::ranges::find(targets_, node.item, &SurfacePoint::face) != targets_.end()) reach_target(index);
     const auto corners = surface_.faces[node.item];
-    for (uint32_t k = 0; k < 3; ++k) {
-        const auto [a, b] = std::minmax({corners[(k + 1) % 3], corners[(k + 2) % 3]});
-        const Portal opposite{a, b};
-        const bool is_entry = opposite == node.portal;
-        if (is_entry || node.portal.is_vertex()) pass_vertex(index, corners[k]);
-        if (!is_entry) pass_edge(index, opposite);
+    std::array<double, 3> rests;
+    std::ranges::transform(corners, rests.begin(), [&](uint32_t corner) { return rest_from(corner); });
+    for (size_t k = 0; k < 3; ++k) {
+        size_t i = (k + 1) % 3, j = (k + 2) % 3;
+        if (corners[j] < corners[i]) std::swap(i, j);
+        const Edge opposite{{corners[i], corners[j]}, rests[i], rests[j]};
+        const bool is_entry = opposite.ends == node.portal;
+        if (is_entry || node.portal.is_vertex()) pass_vertex(index, node, corners[k]);
+        if (!is_entry) pass_edge(index, node, opposite);
     }
 }
 
-void FaceSearch::pass_vertex(uint32_t index, uint32_t vertex) {
+void FaceSearch::pass_vertex(uint32_t index, const Node& node, uint32_t vertex) {
+    Met& met = vertices_[vertex];
+    if (met.expected == CLOSED) return;
     const Vector3d at = surface_.positions[vertex];
-    const double length = open_[index].length + (at - open_[index].at).norm();
-    open(rest_from(vertex), {Kind::VERTEX, vertex, {}, at, length, index});
+    const double length = node.length + (at - node.at).norm();
+    open(met, met.rest, {Kind::VERTEX, vertex, {}, at, length, index});
 }
 
-void FaceSearch::pass_edge(uint32_t index, const Portal& portal) {
-    const Node node = open_[index];
-    for_each_face_beyond(surface_, node.item, portal.a, portal.b, [&](uint32_t face) {
-        if (faces_[face].expected == CLOSED) return;
-        const EdgeCrossing crossing = cross_edge(portal, node.at);
-        const Vector3d at = position_at(surface_, portal, crossing.share);
+void FaceSearch::pass_edge(uint32_t index, const Node& node, const Edge& edge) {
+    for_each_face_beyond(surface_, node.item, edge.ends.a, edge.ends.b, [&](uint32_t face) {
+        Met& met = faces_[face];
+        if (met.expected == CLOSED) return;
+        const EdgeCrossing crossing = cross_edge(edge, node.at);
+        const Vector3d at = position_at(surface_, edge.ends, crossing.share);
         const double length = node.length + (at - node.at).norm();
-        open(crossing.rest, {Kind::FACE, face, portal, at, length, index});
+        open(met, crossing.rest, {Kind::FACE, face, edge.ends, at, length, index});
     });
 }
 
-EdgeCrossing FaceSearch::cross_edge(const Portal& portal, const Vector3d& from) {
-    const auto [a, b] = portal;
+EdgeCrossing FaceSearch::cross_edge(const Edge& edge, const Vector3d& from) {
+    const auto [a, b] = edge.ends;
     const auto inside = distances_.inside_edge ? distances_.inside_edge(a, b) : std::span<const double>();
-    return geodesic::cross_edge(surface_, a, b, from, rest_from(a), inside, rest_from(b));
+    return geodesic::cross_edge(surface_, a, b, from, edge.from_a, inside, edge.from_b);
 }
 
 void FaceSearch::leave_vertex(uint32_t index) {
     const Node node = open_[index];
     const Portal portal{node.item, node.item};
+    const double rest = rest_from(node.item);
     for (const uint32_t face : surface_.vertex_faces[node.item])
-        open(rest_from(node.item), {Kind::FACE, face, portal, node.at, node.length, index});
+        open(faces_[face], rest, {Kind::FACE, face, portal, node.at, node.length, index});
 }
 
 std::optional<Strip> FaceSearch::run() {
     for (const SurfacePoint& source : sources_)
-        open(0, {Kind::FACE, source.face, {NONE, NONE}, position_of(surface_, source), 0, NONE});
+        open(faces_[source.face], 0,
+             {Kind::FACE, source.face, {NONE, NONE}, position_of(surface_, source), 0, NONE});
     while (!open_.empty()) {
         const uint32_t index = open_.pop();
         const Node& node = open_[index];
