@@ -24,15 +24,40 @@ void PreparedSource::prepare(const FacePoint& point) {
 
 // The distances of internal vertices are read in the source's own leaf only.
 void PreparedSource::begin(uint32_t innermost) {
-    const Numbering& numbering = index_.numbering;
-    known_.resize(numbering.vertex_count());
-    std::fill_n(known_.begin(), numbering.border_vertex_count(), INFINITE);
-    if (code_.empty()) code_.resize(SourceCode::whole_blocks(index_.rings.largest_size()));
-    kept_.clear();
-    kept_begin_.assign(numbering.patch_count(), NONE);
-    for (auto* is_known : {&is_inner_known_, &is_border_known_}) is_known->assign(numbering.patch_count(), 0);
+    if (known_.empty())
+        make_room();
+    else
+        forget();
     innermost_ = innermost;
-    is_border_known_[innermost_] = 1;
+    begin_border(innermost);
+}
+
+void PreparedSource::make_room() {
+    const Numbering& numbering = index_.numbering;
+    for (auto* is_known : {&is_inner_known_, &is_border_known_}) is_known->resize(numbering.patch_count());
+    begun_.reserve(numbering.patch_count());
+    kept_begin_.resize(numbering.patch_count(), NONE);
+    code_.resize(SourceCode::whole_blocks(index_.rings.largest_size()));
+    known_.resize(numbering.vertex_count(), INFINITE); // the last one, which begin() looks at
+}
+
+// Only what the last source made known: most sources ask for few patches.
+void PreparedSource::forget() {
+    const Numbering& numbering = index_.numbering;
+    for (const uint32_t patch : begun_) {
+        for (const uint32_t vertex : numbering.border_of(patch)) known_[vertex] = INFINITE;
+        if (is_inner_known_[patch] || patch == innermost_)
+            std::fill_n(known_.begin() + numbering.first_inner(patch), numbering.inner_size(patch), INFINITE);
+        is_inner_known_[patch] = is_border_known_[patch] = 0;
+        kept_begin_[patch] = NONE;
+    }
+    begun_.clear();
+    kept_.clear();
+}
+
+void PreparedSource::begin_border(uint32_t patch) {
+    begun_.push_back(patch);
+    is_border_known_[patch] = 1;
 }
 
 // The one that the innermost patch is, or lies in; not of the innermost patch itself.
@@ -63,7 +88,7 @@ void PreparedSource::require_border(uint32_t patch, OverlaySsad& field) {
         require_border(child, field);
         field.hop_to_border(child, patch, known_);
     }
-    is_border_known_[patch] = 1;
+    begin_border(patch);
 }
 
 // Of a patch that is not around the source: down from its border.
@@ -98,8 +123,8 @@ BorderFromSource PreparedSource::border_around(uint32_t leaf) {
     const size_t room = SourceCode::whole_blocks(places) + SourceCode::BLOCK;
     const bool is_new = kept_begin_[leaf] == NONE;
     if (is_new) {
-        kept_begin_[leaf] = static_cast<uint32_t>(kept_.size());
         kept_.resize(kept_.size() + 3 * room, INFINITE);
+        kept_begin_[leaf] = static_cast<uint32_t>(kept_.size() - 3 * room);
     }
     float *const distance = kept_.data() + kept_begin_[leaf], *const foot = distance + room,
                  *const height = foot + room;

@@ -19,7 +19,8 @@ class PreparedSource {
 public:
     PreparedSource(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : index_(index), kernels_(runnable_kernels().back()), known_(memory), is_inner_known_(memory),
-          is_border_known_(memory), kept_(memory), kept_begin_(memory), code_(memory), to_border_(memory) {}
+          is_border_known_(memory), begun_(memory), kept_(memory), kept_begin_(memory), code_(memory),
+          to_border_(memory) {}
 
     void prepare(uint32_t vertex);
     // A point of a face that a leaf has.
@@ -30,6 +31,9 @@ public:
 
 private:
     void begin(uint32_t innermost);
+    void make_room();
+    void forget();
+    void begin_border(uint32_t patch);
     bool is_around_source(uint32_t patch) const { return index_.numbering.is_within(innermost_, patch); }
     uint32_t child_around_source(uint32_t patch) const;
     void require(uint32_t border_vertex, OverlaySsad& field);
@@ -46,6 +50,7 @@ private:
     Array<float> known_;             // by number: of the inner vertices and of the borders that are known
     // Per patch, the first ones but for those around the source.
     Array<uint8_t> is_inner_known_, is_border_known_;
+    Array<uint32_t> begun_; // patches whose borders are known
     // Of the borders of leaves that were asked for: distances, feet and heights, as BorderFromSource has
     // them.
     Array<float> kept_;
