@@ -13,7 +13,9 @@ OuterCrossing::OuterCrossing(const OverlayIndex& index, std::pmr::memory_resourc
 
 bool OuterCrossing::begin(uint32_t child, DistanceField distance, const RingSegments& segments) {
     read_border(child, distance, segments);
-    for (uint32_t i = 0; i < numbering_.overlay_size(parent_); ++i) add(i);
+    const uint32_t on_border = numbering_.border_size(parent_);
+    for (uint32_t i = 0; i < on_border; ++i) add_on_border(i);
+    for (uint32_t i = on_border; i < numbering_.overlay_size(parent_); ++i) add_owned(i);
     return crossing_.finish();
 }
 
@@ -23,15 +25,15 @@ bool OuterCrossing::begin_to_border(uint32_t child, uint32_t patch, DistanceFiel
     read_border(child, distance, segments);
     const uint32_t on_border = numbering_.border_size(parent_);
     if (patch == parent_) {
-        for (uint32_t i = 0; i < on_border; ++i) add(i);
+        for (uint32_t i = 0; i < on_border; ++i) add_on_border(i);
         return crossing_.finish();
     }
     const auto positions = std::span(numbering_.overlay_position)
                                .subspan(numbering_.border_begin[patch], numbering_.border_size(patch));
     for (const uint32_t i : positions)
-        if (i < on_border) add(i);
+        if (i < on_border) add_on_border(i);
     for (const uint32_t i : positions)
-        if (i >= on_border) add(i);
+        if (i >= on_border) add_owned(i);
     return crossing_.finish();
 }
 
@@ -46,12 +48,20 @@ void OuterCrossing::read_border(uint32_t child, DistanceField distance, const Ri
     owned_.clear();
 }
 
-// A position of the parent's overlay.
-void OuterCrossing::add(uint32_t position) {
+// A position of the parent's border, which comes first in its overlay.
+void OuterCrossing::add_on_border(uint32_t position) {
     if (index_.is_on_border(child_, position)) return;
-    numbers_.push_back(numbering_.overlay_number(parent_, position));
-    const OverlayColumn column = index_.overlay_column(parent_, position);
-    (column.is_owned ? owned_ : places_).push_back(column.number);
+    const uint32_t slot = numbering_.border_begin[parent_] + position;
+    numbers_.push_back(numbering_.border[slot]);
+    places_.push_back(rings_.place_of_slot[slot]);
+}
+
+// A position behind that border.
+void OuterCrossing::add_owned(uint32_t position) {
+    if (index_.is_on_border(child_, position)) return;
+    const uint32_t owned = position - numbering_.border_size(parent_);
+    numbers_.push_back(numbering_.owned_begin[parent_] + owned);
+    owned_.push_back(owned);
 }
 
 std::span<float> OuterCrossing::cross() {

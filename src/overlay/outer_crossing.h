@@ -43,7 +43,8 @@ public:
 
 private:
     void read_border(uint32_t child, DistanceField distance, const RingSegments& segments);
-    void add(uint32_t position);
+    void add_on_border(uint32_t position);
+    void add_owned(uint32_t position);
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
