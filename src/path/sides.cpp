@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "src/base/number_map.h"
+#include "src/base/plane.h"
 #include "src/mesh/angle.h"
 #include "src/path/nearby.h"
 #include "src/path/straighten.h"
@@ -39,6 +40,7 @@ private:
     double angle_around(uint32_t vertex);
     double length(PointRange range) const { return points_[range.last].along - points_[range.first].along; }
     double angle_at(const Place& beside, PointRange range) const;
+    double least_below_pi(const Place& beside, PointRange range) const;
     std::optional<Place> beside(const Pass& pass) const;
     PointRange piece_around(const Pass& pass) const;
     PointRange with_next_pieces(PointRange range) const;
@@ -102,6 +104,12 @@ double OtherSides::angle_at(const Place& beside, PointRange range) const {
            std::atan2(points_[range.last].along - beside.foot, beside.height);
 }
 
+// At least by how much that angle is below pi: an angle is no less than its sine.
+double OtherSides::least_below_pi(const Place& beside, PointRange range) const {
+    return beside.height / hypotenuse(beside.foot - points_[range.first].along, beside.height) +
+           beside.height / hypotenuse(points_[range.last].along - beside.foot, beside.height);
+}
+
 // Where along the path a vertex beside it is, measured from the longest piece within the faces at the vertex;
 // nothing where the path bends there.
 std::optional<Place> OtherSides::beside(const Pass& pass) const {
@@ -138,7 +146,10 @@ std::optional<Place> OtherSides::place_to_pass(const Pass& pass) {
     const double around = angle_around(pass.vertex);
     if (!(around < 2 * std::numbers::pi)) return std::nullopt;
     const auto place = beside(pass);
-    if (!place || !(around < std::numbers::pi + angle_at(*place, piece_around(pass)))) return std::nullopt;
+    if (!place) return std::nullopt;
+    const PointRange piece = piece_around(pass);
+    if (around + least_below_pi(*place, piece) > 2 * std::numbers::pi) return std::nullopt;
+    if (!(around < std::numbers::pi + angle_at(*place, piece))) return std::nullopt;
     return place;
 }
 
