@@ -33,6 +33,9 @@ SurfacePath path_of_strip(const Surface& surface, const Strip& strip, const Stri
                           [&](const auto& all, size_t i) { return distance_to_next(surface, all, i); });
 }
 
+// Of two strips with the same ends.
+bool is_same(const Strip& a, const Strip& b) { return a.faces == b.faces && a.portals == b.portals; }
+
 class PathFinder {
 public:
     PathFinder(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
@@ -51,7 +54,7 @@ private:
         constexpr double ERROR = 0.005; // of most distances of most indexes
         return {[this, end](uint32_t vertex) { return distance(end, vertex); }, {}, ERROR};
     }
-    std::optional<StripWay> led_by(size_t end);
+    std::optional<Strip> led_by(size_t end);
     double least_distance(double distance) const;
     bool belongs(uint32_t vertex, double slack, double length);
 
@@ -74,14 +77,13 @@ bool PathFinder::belongs(uint32_t vertex, double slack, double length) {
     return least_distance(distance(0, vertex)) + least_distance(distance(1, vertex)) <= length + slack;
 }
 
-// Led by the distances from one end, from the other one on.
-std::optional<StripWay> PathFinder::led_by(size_t end) {
+// Led by the distances from one end, from the other one on; the strip leads from source to target.
+std::optional<Strip> PathFinder::led_by(size_t end) {
     const TargetDistances distances = distances_from(end);
-    auto strip = end == 1 ? search_strip(surface_, source_, target_, distances)
-                          : search_strip(surface_, target_, source_, distances);
-    if (!strip) return std::nullopt;
-    if (end == 0) turn_back(*strip);
-    return straighten(surface_, std::move(*strip));
+    if (end == 1) return search_strip(surface_, source_, target_, distances);
+    auto strip = search_strip(surface_, target_, source_, distances);
+    if (strip) turn_back(*strip);
+    return strip;
 }
 
 // The errors of the two fields may lead to different ways around a bump. The longer one is given up where it
@@ -92,10 +94,13 @@ StripWay PathFinder::find_straight() {
     const auto length = [](const StripWay& way) { return way.path.length; };
     query_.prepare_end(1, points_.face_point_of(target_));
     query_.prepare_end(0, points_.face_point_of(source_));
-    std::vector<StripWay> ways;
+    std::vector<Strip> strips;
     for (const size_t end : {size_t{1}, size_t{0}})
-        if (auto way = led_by(end)) ways.push_back(std::move(*way));
-    if (ways.empty()) no_path();
+        if (auto strip = led_by(end)) strips.push_back(std::move(*strip));
+    if (strips.empty()) no_path();
+    if (is_same(strips.front(), strips.back())) strips.resize(1);
+    std::vector<StripWay> ways;
+    for (Strip& strip : strips) ways.push_back(straighten(surface_, std::move(strip)));
     std::ranges::sort(ways, {}, length);
     const double longer = length(ways.back()) - length(ways.front());
     if (longer <= SAME * length(ways.front()) || longer > MADE_UP_FOR * surface_.average_edge) ways.resize(1);
