@@ -82,4 +82,70 @@ std::optional<Turn::Fan> Turn::below(double limit, uint32_t from_face, const Vec
     return fan;
 }
 
+ClosedFan::ClosedFan(const Surface& surface, uint32_t vertex) : surface_(surface), vertex_(vertex) {
+    for (const uint32_t face : surface.vertex_faces[vertex]) {
+        if (count_ == MOST_FACES) return;
+        const auto [a, b, c] = surface.faces[face];
+        sectors_[count_++] = {face, {a == vertex ? b : a, c == vertex ? b : c}};
+    }
+    is_closed_ = true;
+    for (size_t i = 0; i < count_ && is_closed_; ++i)
+        is_closed_ = joins_two(sectors_[i].ends[0]) && joins_two(sectors_[i].ends[1]);
+}
+
+bool ClosedFan::joins_two(uint32_t end) const {
+    size_t faces = 0;
+    for (size_t i = 0; i < count_; ++i) faces += sectors_[i].has(end);
+    return faces == 2;
+}
+
+const ClosedFan::Sector& ClosedFan::beyond(const Sector& sector, uint32_t end) const {
+    return *std::ranges::find_if(
+        sectors_, [&](const Sector& other) { return other.face != sector.face && other.has(end); });
+}
+
+std::optional<Turn::Fan> ClosedFan::below(double limit, uint32_t from_face, const Vector3d& from,
+                                          uint32_t to_face, const Vector3d& to) const {
+    const Bend bend{sector_of(from_face), sector_of(to_face), from, to};
+    const auto [first, second] = bend.from_sector.ends;
+    const double over_first = angle_below(limit, bend, first),
+                 over_second = angle_below(std::min(limit, over_first), bend, second);
+    if (!(std::min(over_first, over_second) < limit)) return std::nullopt;
+    Turn::Fan fan = fan_over(bend, over_second < over_first ? second : first);
+    fan.angle = std::min(over_first, over_second);
+    return fan;
+}
+
+// Around the side that the edge to `first_end` is on; infinite if it is not below the limit.
+double ClosedFan::angle_below(double limit, const Bend& bend, uint32_t first_end) const {
+    uint32_t end = first_end;
+    Vector3d direction = direction_to(end);
+    double angle = angle_between(bend.from, direction);
+    for (const Sector* sector = &beyond(bend.from_sector, end); sector != &bend.to_sector;
+         sector = &beyond(*sector, end)) {
+        if (!(angle < limit)) return UNREACHABLE;
+        end = sector->other_than(end);
+        const Vector3d next = direction_to(end);
+        angle += angle_between(direction, next);
+        direction = next;
+    }
+    angle += angle_between(bend.to, direction);
+    return angle < limit ? angle : UNREACHABLE;
+}
+
+Turn::Fan ClosedFan::fan_over(const Bend& bend, uint32_t first_end) const {
+    Turn::Fan fan;
+    fan.faces.reserve(count_);
+    fan.spokes.reserve(count_);
+    uint32_t end = first_end;
+    fan.spokes.push_back(end);
+    for (const Sector* sector = &beyond(bend.from_sector, end); sector != &bend.to_sector;
+         sector = &beyond(*sector, end)) {
+        end = sector->other_than(end);
+        fan.faces.push_back(sector->face);
+        fan.spokes.push_back(end);
+    }
+    return fan;
+}
+
 }

@@ -68,4 +68,49 @@ private:
     Array<Sector> sectors_{&memory_};
 };
 
+// The faces around a vertex at which every edge joins two of them, as nearly everywhere on scans. There a way
+// from one face to another leads around one side or the other, so that none needs to be searched for.
+class ClosedFan {
+public:
+    ClosedFan(const Surface& surface, uint32_t vertex);
+
+    // Whether the vertex is such a one.
+    bool is_closed() const { return is_closed_; }
+
+    // As Turn::below(). The vertex must be such a one.
+    std::optional<Turn::Fan> below(double limit, uint32_t from_face, const Eigen::Vector3d& from,
+                                   uint32_t to_face, const Eigen::Vector3d& to) const;
+
+private:
+    static constexpr size_t MOST_FACES = 16;
+    struct Sector {
+        uint32_t face;
+        std::array<uint32_t, 2> ends; // of its edges at the vertex
+
+        bool has(uint32_t end) const { return (ends[0] == end) | (ends[1] == end); }
+        uint32_t other_than(uint32_t end) const { return ends[ends[0] == end ? 1 : 0]; }
+    };
+
+    // Two directions in faces at the vertex.
+    struct Bend {
+        const Sector &from_sector, &to_sector;
+        const Eigen::Vector3d &from, &to;
+    };
+
+    bool joins_two(uint32_t end) const;
+    const Sector& sector_of(uint32_t face) const { return *std::ranges::find(sectors_, face, &Sector::face); }
+    double angle_below(double limit, const Bend& bend, uint32_t first_end) const;
+    Turn::Fan fan_over(const Bend& bend, uint32_t first_end) const;
+    const Sector& beyond(const Sector& sector, uint32_t end) const;
+    Eigen::Vector3d direction_to(uint32_t end) const {
+        return surface_.positions[end] - surface_.positions[vertex_];
+    }
+
+    const Surface& surface_;
+    const uint32_t vertex_;
+    bool is_closed_ = false;
+    size_t count_ = 0;
+    std::array<Sector, MOST_FACES> sectors_;
+};
+
 }
