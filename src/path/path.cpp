@@ -25,7 +25,9 @@ bool is_at(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b)
 }
 
 SurfacePath path_of_strip(const Surface& surface, const Strip& strip, const StripPath& path) {
-    std::vector<SurfacePoint> points{strip.source};
+    std::vector<SurfacePoint> points;
+    points.reserve(strip.portals.size() + 2);
+    points.push_back(strip.source);
     for (size_t i = 0; i < strip.portals.size(); ++i)
         add_point(surface, point_at(surface, strip.faces[i + 1], strip.portals[i], path.shares[i]), points);
     add_point(surface, strip.target, points);

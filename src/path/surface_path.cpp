@@ -20,6 +20,7 @@ path_of_points(std::vector<SurfacePoint>&& points, const SurfacePoint& target,
                const std::function<double(const std::vector<SurfacePoint>&, size_t)>& length_of_piece) {
     SurfacePath path{std::move(points), {}, 0};
     if (path.points.size() < 2) path.points.push_back(target);
+    path.pieces.reserve(path.points.size() - 1);
     for (size_t i = 0; i + 1 < path.points.size(); ++i) {
         path.pieces.push_back(length_of_piece(path.points, i));
         path.length += path.pieces.back();
