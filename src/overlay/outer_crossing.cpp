@@ -14,8 +14,13 @@ OuterCrossing::OuterCrossing(const OverlayIndex& index, std::pmr::memory_resourc
 bool OuterCrossing::begin(uint32_t child, DistanceField distance, const RingSegments& segments) {
     read_border(child, distance, segments);
     const uint32_t on_border = numbering_.border_size(parent_);
-    for (uint32_t i = 0; i < on_border; ++i) add_on_border(i);
-    for (uint32_t i = on_border; i < numbering_.overlay_size(parent_); ++i) add_owned(i);
+    for (uint32_t i = 0; i < numbering_.overlay_size(parent_); ++i) {
+        if (index_.is_on_border(child_, i)) continue;
+        if (i < on_border)
+            add_on_border(i);
+        else
+            add_owned(i);
+    }
     return crossing_.finish();
 }
 
@@ -23,18 +28,18 @@ bool OuterCrossing::begin(uint32_t child, DistanceField distance, const RingSegm
 bool OuterCrossing::begin_to_border(uint32_t child, uint32_t patch, DistanceField distance,
                                     const RingSegments& segments) {
     read_border(child, distance, segments);
+    const auto border = numbering_.border_of(patch);
+    const uint32_t* const in_parent = numbering_.overlay_position.data() + numbering_.border_begin[patch];
     const uint32_t on_border = numbering_.border_size(parent_);
-    if (patch == parent_) {
-        for (uint32_t i = 0; i < on_border; ++i) add_on_border(i);
-        return crossing_.finish();
-    }
-    const auto positions = std::span(numbering_.overlay_position)
-                               .subspan(numbering_.border_begin[patch], numbering_.border_size(patch));
-    for (const uint32_t i : positions)
-        if (i < on_border) add_on_border(i);
-    for (const uint32_t i : positions)
-        if (i >= on_border) add_owned(i);
-    return crossing_.finish();
+    const auto is_known = [&](uint32_t i) { return distance[border[i]] < INFINITE; };
+    for (uint32_t i = 0; i < border.size(); ++i)
+        if (const uint32_t position = patch == parent_ ? i : in_parent[i];
+            position < on_border && !is_known(i))
+            add_on_border(position);
+    if (patch != parent_)
+        for (uint32_t i = 0; i < border.size(); ++i)
+            if (in_parent[i] >= on_border && !is_known(i)) add_owned(in_parent[i]);
+    return !numbers_.empty() && crossing_.finish();
 }
 
 void OuterCrossing::read_border(uint32_t child, DistanceField distance, const RingSegments& segments) {
@@ -50,7 +55,6 @@ void OuterCrossing::read_border(uint32_t child, DistanceField distance, const Ri
 
 // A position of the parent's border, which comes first in its overlay.
 void OuterCrossing::add_on_border(uint32_t position) {
-    if (index_.is_on_border(child_, position)) return;
     const uint32_t slot = numbering_.border_begin[parent_] + position;
     numbers_.push_back(numbering_.border[slot]);
     places_.push_back(rings_.place_of_slot[slot]);
@@ -58,7 +62,6 @@ void OuterCrossing::add_on_border(uint32_t position) {
 
 // A position behind that border.
 void OuterCrossing::add_owned(uint32_t position) {
-    if (index_.is_on_border(child_, position)) return;
     const uint32_t owned = position - numbering_.border_size(parent_);
     numbers_.push_back(numbering_.owned_begin[parent_] + owned);
     owned_.push_back(owned);

@@ -30,12 +30,13 @@ public:
     // Does the same with other segments, which must stay valid until the hop is done.
     bool begin(uint32_t child, DistanceField distance, const RingSegments& segments);
 
-    // The same, where only one border in that overlay is wanted: that of the parent or of another child.
+    // The same, where only one border in that overlay is wanted: that of the parent or of another child. What
+    // is known of it stays as it is.
     bool begin_to_border(uint32_t child, uint32_t patch, DistanceField distance,
                          const RingSegments& segments);
 
-    // Hops to each vertex of what is wanted that is not on the child's own border, whose distances are known;
-    // call it only if begin() or begin_to_border() returned true.
+    // Hops to each vertex of what is wanted whose distance is not known: of the whole overlay, those that are
+    // not on the child's own border. Call it only if begin() or begin_to_border() returned true.
     std::span<float> cross();
 
     // The numbers of these vertices.
