@@ -101,8 +101,12 @@ StripWay PathFinder::find_straight() {
         if (auto strip = led_by(end)) strips.push_back(std::move(*strip));
     if (strips.empty()) no_path();
     if (is_same(strips.front(), strips.back())) strips.resize(1);
+    Straightening straightening(surface_);
     std::vector<StripWay> ways;
-    for (Strip& strip : strips) ways.push_back(straighten(surface_, std::move(strip)));
+    for (Strip& strip : strips) {
+        if (!ways.empty() && is_same(strip, ways.front().strip)) break; // as the first one came out
+        straightening.straighten(ways.emplace_back(std::move(strip)));
+    }
     std::ranges::sort(ways, {}, length);
     const double longer = length(ways.back()) - length(ways.front());
     if (longer <= SAME * length(ways.front()) || longer > MADE_UP_FOR * surface_.average_edge) ways.resize(1);
