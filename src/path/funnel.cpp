@@ -154,6 +154,7 @@ struct TightPaths::Part {
 
 void TightPaths::pull_tight(const Strip& strip, StripPath& path) {
     path.shares.clear();
+    path.shares.reserve(strip.portals.size());
     Part part{0, 0, strip.source, strip.target};
     for (;; ++part.last) {
         const bool is_end = part.last == strip.portals.size();
