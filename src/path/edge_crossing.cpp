@@ -15,7 +15,8 @@ namespace {
 constexpr double LEAST_SQUARE = -1.0 / 32;
 
 // Over a piece of a line, from `begin` to `end`, whose ends have these distances from the target. The way
-// comes from a point at `foot` along the line and `height` off it.
+// comes from a point at `foot` along the line and `height` off it. To a target that is placed at both
+// distances the way is the longer the farther it crosses the line from where the straight way does.
 void cross_piece(double begin, double end, double from_begin, double from_end, double foot, double height,
                  double& least, double& at, double& rest) {
     const auto offer = [&](double x, double way_on) {
@@ -25,16 +26,17 @@ void cross_piece(double begin, double end, double from_begin, double from_end, d
         at = x;
         rest = way_on;
     };
-    offer(begin, from_begin);
-    offer(end, from_end);
     const double length = end - begin;
     const double target = foot_of(length, from_begin, from_end);
     const double square = (from_begin - target) * (from_begin + target);
-    if (!(length > 0) || !(square >= length * length * LEAST_SQUARE) || !(square < UNREACHABLE)) return;
     const double off = std::sqrt(std::max(square, 0.0)), both = off + height;
-    if (!(both > 0)) return;
     const double x = foot - begin + (target - foot + begin) * (height / both);
-    if (x > 0 && x < length) offer(begin + x, hypotenuse(x - target, off));
+    const bool is_placed =
+        length > 0 && square >= length * length * LEAST_SQUARE && square < UNREACHABLE && both > 0;
+    const bool is_at_both_distances = is_placed && square >= 0;
+    if (!is_at_both_distances || !(x > 0)) offer(begin, from_begin);
+    if (!is_at_both_distances || !(x < length)) offer(end, from_end);
+    if (is_placed && x > 0 && x < length) offer(begin + x, hypotenuse(x - target, off));
 }
 
 }
