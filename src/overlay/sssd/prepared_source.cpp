@@ -41,18 +41,28 @@ void PreparedSource::make_room() {
     known_.resize(numbering.vertex_count(), INFINITE); // the last one, which begin() looks at
 }
 
-// Only what the last source made known: most sources ask for few patches.
+// Only what the last source made known, since most sources ask for few patches; or else everything, where
+// that is less.
 void PreparedSource::forget() {
     const Numbering& numbering = index_.numbering;
+    const uint32_t borders = numbering.border_vertex_count();
+    uint64_t on_begun = 0;
+    for (const uint32_t patch : begun_) on_begun += numbering.border_size(patch);
+    if (on_begun > borders) std::fill_n(known_.begin(), borders, INFINITE);
     for (const uint32_t patch : begun_) {
-        for (const uint32_t vertex : numbering.border_of(patch)) known_[vertex] = INFINITE;
-        if (is_inner_known_[patch] || patch == innermost_)
-            std::fill_n(known_.begin() + numbering.first_inner(patch), numbering.inner_size(patch), INFINITE);
+        if (on_begun <= borders) forget(patch);
         is_inner_known_[patch] = is_border_known_[patch] = 0;
         kept_begin_[patch] = NONE;
     }
     begun_.clear();
     kept_.clear();
+}
+
+void PreparedSource::forget(uint32_t patch) {
+    const Numbering& numbering = index_.numbering;
+    for (const uint32_t vertex : numbering.border_of(patch)) known_[vertex] = INFINITE;
+    if (is_inner_known_[patch] || patch == innermost_)
+        std::fill_n(known_.begin() + numbering.first_inner(patch), numbering.inner_size(patch), INFINITE);
 }
 
 void PreparedSource::begin_border(uint32_t patch) {

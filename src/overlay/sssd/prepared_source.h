@@ -33,6 +33,7 @@ private:
     void begin(uint32_t innermost);
     void make_room();
     void forget();
+    void forget(uint32_t patch);
     void begin_border(uint32_t patch);
     bool is_around_source(uint32_t patch) const { return index_.numbering.is_within(innermost_, patch); }
     uint32_t child_around_source(uint32_t patch) const;
