@@ -701,9 +701,10 @@ GEOIDX_API geoidx_status geoidx_query_farthest_points(geoidx_query* query, const
 GEOIDX_API geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t threads);
 
 /* Keeps what depends on the source, for geoidx_query_prepared, until the next call; one that fails for lack
- * of memory leaves no source prepared. GEOIDX_ENGINE_OVERLAY: 4 bytes of scratch a vertex. What is kept is
- * made as targets need it, so that the first target in a part of the mesh takes longer than others there; for
- * targets in all parts that comes to about half the time of MSAD. */
+ * of memory leaves no source prepared. GEOIDX_ENGINE_OVERLAY: 4 bytes of scratch a vertex, and some 15 more
+ * where targets in all parts of the mesh are asked for. What is kept is made as targets need it, so that the
+ * first target in a part of the mesh takes longer than others there; for targets in all parts that comes to
+ * about half the time of MSAD. */
 GEOIDX_API geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t source);
 
 /* distances[i]: from the prepared source to targets[i]; GEOIDX_ERROR_INVALID_ARGUMENT without one. By

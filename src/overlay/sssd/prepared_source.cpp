@@ -130,14 +130,14 @@ float PreparedSource::distance_in_own_leaf(uint32_t target) const {
 BorderFromSource PreparedSource::border_around(uint32_t leaf) {
     const Rings& rings = index_.rings;
     const uint32_t places = rings.size(leaf);
-    const size_t room = SourceCode::whole_blocks(places) + SourceCode::BLOCK;
+    const size_t room = NearRange::whole_parts(places), all = 3 * room + NearRange::PART;
     const bool is_new = kept_begin_[leaf] == NONE;
     if (is_new) {
-        kept_.resize(kept_.size() + 3 * room, INFINITE);
-        kept_begin_[leaf] = static_cast<uint32_t>(kept_.size() - 3 * room);
+        kept_.resize(kept_.size() + all, INFINITE);
+        kept_begin_[leaf] = static_cast<uint32_t>(kept_.size() - all);
     }
-    float *const distance = kept_.data() + kept_begin_[leaf], *const foot = distance + room,
-                 *const height = foot + room;
+    float *const foot = kept_.data() + kept_begin_[leaf], *const height = foot + room,
+                 *const distance = height + room;
     const RingSegments segments = segments_from(rings, rings.begin[leaf]);
     const BorderFromSource border{places,          code_.data(),          distance,
                                   segments.length, segments.half_inverse, foot,

@@ -52,7 +52,7 @@ private:
     // Per patch, the first ones but for those around the source.
     Array<uint8_t> is_inner_known_, is_border_known_;
     Array<uint32_t> begun_; // patches whose borders are known
-    // Of the borders of leaves that were asked for: distances, feet and heights, as BorderFromSource has
+    // Of the borders of leaves that were asked for: feet, heights and distances, as BorderFromSource has
     // them.
     Array<float> kept_;
     Array<uint32_t> kept_begin_; // per patch; NONE: not yet
