@@ -17,10 +17,10 @@ namespace {
 
 constexpr double TABLES_END = 0.91; // the share of the work that is done when all tables are filled
 
-// A little beyond what counts as near, since answers are off by a hundredth or more there, too, now and then.
-// There are about 600 vertices so near to each. On very large meshes it is less far, so that they are no more
-// than 3 GB in all.
-double near_radius(const Mesh& mesh) {
+// Up to which distance vertices are compared with the metric: a little beyond what counts as near, since
+// answers are off by a hundredth or more there, too, now and then. There are about 600 vertices so near to
+// each. On very large meshes it is less far, so that they do not take much more than 3 GB.
+double compared_radius(const Mesh& mesh) {
     constexpr double MOST_EDGES = 1.2 * NEAR_EDGES, MOST_VERTICES = 600000;
     return MOST_EDGES * std::sqrt(std::min(1.0, MOST_VERTICES / mesh.vertex_count())) * mean_edge(mesh);
 }
@@ -30,8 +30,9 @@ double near_radius(const Mesh& mesh) {
 Filling::Filling(const Intake& intake, const geoidx_build_options& options, const Description& about,
                  Index& index)
     : intake_(intake), options_(options), about_(about), index_(index) {
-    if (crosses_between_vertices(about) && about.metric == GEOIDX_METRIC_EXACT && follows_positions(about))
-        near_.emplace(intake.mesh.vertex_count(), near_radius(intake.mesh));
+    if (crosses_between_vertices(about) && about.metric == GEOIDX_METRIC_EXACT && about.delta == 0 &&
+        follows_positions(about))
+        near_.emplace(intake.mesh.vertex_count(), compared_radius(intake.mesh));
 }
 
 StoredIndex Filling::fill(const SplitSurface& surface, Workers& workers) {

@@ -68,9 +68,15 @@ double average_edge(const Description& about, const Mesh& mesh, const ExactField
     return follows_positions(about) ? mean_edge(mesh) : mean_edge_at_sources(mesh, exact);
 }
 
+struct FieldErrors {
+    ErrorsByDistance by_distance;
+    std::vector<double> of_msad; // with signs
+};
+
 // The errors of MSAD and of some SSSD from the i-th source.
-ErrorsByDistance errors_of_field(const Index& index, const Intake& intake, const ExactFields& exact, size_t i,
-                                 bool counts_in_means, uint32_t pairs, ErrorsByDistance errors) {
+FieldErrors errors_of_field(const Index& index, const Intake& intake, const ExactFields& exact, size_t i,
+                            bool counts_in_means, uint32_t pairs, const ErrorsByDistance& none) {
+    FieldErrors errors{none, {}};
     Query query(index, std::pmr::get_default_resource());
     const auto& distances = exact.distances[i];
     const uint32_t source = intake.id_of_vertex[exact.sources[i]];
@@ -78,46 +84,43 @@ ErrorsByDistance errors_of_field(const Index& index, const Intake& intake, const
     query.msad({&source, 1}, INFINITE, answers);
     for (uint32_t v = 0; v < distances.size(); ++v) {
         if (!has_relative_error(distances[v])) continue;
-        const double error = relative_error(distances[v], answers[intake.id_of_vertex[v]]);
-        counts_in_means ? errors.of(distances[v]).add(error) : errors.of(distances[v]).add_to_max(error);
+        const double answer = answers[intake.id_of_vertex[v]];
+        const double error = relative_error(distances[v], answer);
+        ErrorSum& of_class = errors.by_distance.of(distances[v]);
+        counts_in_means ? of_class.add(error) : of_class.add_to_max(error);
+        errors.of_msad.push_back((answer - distances[v]) / distances[v]);
     }
     Random random(index.description.seed ^ PAIR_SEED ^ i);
     for (uint32_t k = 0; k < pairs; ++k) {
         const uint32_t v = random.below(static_cast<uint32_t>(distances.size()));
         if (!has_relative_error(distances[v])) continue;
         const double answer = query.sssd(source, intake.id_of_vertex[v]);
-        errors.of(distances[v]).add_to_max(relative_error(distances[v], answer));
+        errors.by_distance.of(distances[v]).add_to_max(relative_error(distances[v], answer));
     }
     return errors;
 }
 
-void add_errors_of_fields(const Index& index, const Intake& intake, const ExactFields& exact,
-                          bool counts_in_means, uint32_t pairs, const ErrorsByDistance& none,
-                          Workers& workers, ErrorsByDistance& errors) {
-    std::vector<ErrorsByDistance> of_source(exact.sources.size(), none);
+// Adds the errors by distance, and returns those of MSAD.
+std::vector<double> add_errors_of_fields(const Index& index, const Intake& intake, const ExactFields& exact,
+                                         bool counts_in_means, uint32_t pairs, const ErrorsByDistance& none,
+                                         Workers& workers, ErrorsByDistance& errors) {
+    std::vector<FieldErrors> of_source(exact.sources.size(), {none, {}});
     workers.run(of_source.size(), [&](FieldSolver&, size_t i) {
         of_source[i] = errors_of_field(index, intake, exact, i, counts_in_means, pairs, none);
     });
-    for (const ErrorsByDistance& of_one : of_source) errors.add(of_one);
+    std::vector<double> of_msad;
+    for (const FieldErrors& of_one : of_source) {
+        errors.add(of_one.by_distance);
+        of_msad.insert(of_msad.end(), of_one.of_msad.begin(), of_one.of_msad.end());
+    }
+    return of_msad;
 }
 
-// The errors of MSAD from these sources, now that the index may hold measured pairs.
-MeasuredError error_of_answers(const Index& index, const Intake& intake, const ExactFields& exact,
-                               Workers& workers) {
-    std::vector<std::vector<double>> of_source(exact.sources.size());
-    workers.run(of_source.size(), [&](FieldSolver&, size_t i) {
-        Query query(index, std::pmr::get_default_resource());
-        std::vector<float> answers(index.description.id_count);
-        query.msad({&intake.id_of_vertex[exact.sources[i]], 1}, INFINITE, answers);
-        for (uint32_t v = 0; v < exact.distances[i].size(); ++v)
-            if (const double distance = exact.distances[i][v]; has_relative_error(distance))
-                of_source[i].push_back((double{answers[intake.id_of_vertex[v]]} - distance) / distance);
-    });
-    std::vector<double> all;
-    for (const auto& errors : of_source) all.insert(all.end(), errors.begin(), errors.end());
-    MeasuredError error = summary(std::move(all));
-    error.mean_at_vertices = index.description.error.mean_at_vertices;
-    return error;
+// What was measured of the tables alone, and now of the index, which may hold measured pairs, too.
+MeasuredError with_measured_pairs(const MeasuredError& of_tables, std::vector<double> errors) {
+    MeasuredError stated = summary(std::move(errors));
+    stated.mean_at_vertices = of_tables.mean_at_vertices;
+    return stated;
 }
 
 MeanAndMax error_of_several(const Index& index, const Intake& intake, const ExactFields& exact,
@@ -137,13 +140,17 @@ void state_errors(const Intake& intake, std::span<const ExactFields* const> fiel
     const Effort effort = effort_for(about, intake.mesh.vertex_count());
     ErrorsByDistance errors(edge);
     const ErrorsByDistance none = errors;
-    for (const ExactFields* exact : fields)
-        add_errors_of_fields(index, intake, *exact, exact == &measuring, effort.pairs, none, workers, errors);
+    MeasuredError stated = about.error;
+    for (const ExactFields* exact : fields) {
+        const bool is_measuring = exact == &measuring;
+        auto of_msad =
+            add_errors_of_fields(index, intake, *exact, is_measuring, effort.pairs, none, workers, errors);
+        if (is_measuring && crosses_between_vertices(about))
+            stated = with_measured_pairs(about.error, std::move(of_msad));
+    }
     NearSearch search(index, intake, edge);
     search.run(effort.near, about.seed ^ NEAR_SEED, workers);
     errors.add(search.errors());
-    MeasuredError stated = about.error;
-    if (crosses_between_vertices(about)) stated = error_of_answers(index, intake, measuring, workers);
     stated.by_distance = errors.result();
     for (const MeanAndMax& of_class : stated.by_distance) stated.max = std::max(stated.max, of_class.max);
     stated.several = error_of_several(index, intake, measuring, effort.rounds, workers);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <tuple>
 #include <utility>
 
 #include "src/build/errors_by_distance.h"
@@ -72,7 +74,8 @@ private:
     // With the answers of MSAD.
     void fill_field() {
         const uint32_t id = id_of(source_);
-        const auto found = query_.within({&id, 1}, static_cast<float>(LOOKED_AT * near_.radius()));
+        const double radius = std::min(LOOKED_AT * near_.radius(), double{std::numeric_limits<float>::max()});
+        const auto found = query_.within({&id, 1}, static_cast<float>(radius));
         for (const auto& [distance, other] : found) answer_[other] = distance;
         for (const auto& [vertex, distance] : near_.of(source_))
             field_[vertex] = {distance, answer_[id_of(vertex)]};
@@ -91,8 +94,9 @@ private:
         Distances& distances = field_[vertex];
         const auto number = [&](uint32_t v) { return index_.number_of_id[id_of(v)]; };
         const auto [first, second] = std::minmax({number(source_), number(vertex)});
-        distances.exact = distances.answer = rounded(distances.exact);
-        wrong_->push_back({{first, second, distances.exact}, error});
+        distances.answer = distances.exact;
+        const float distance = rounded(distances.exact);
+        if (distance > 0 && distance < INFINITE) wrong_->push_back({{first, second, distance}, error});
     }
 
     // Where an edge of a near vertex leads to another one and is too steep, the worse end is corrected.
@@ -125,13 +129,14 @@ private:
     std::vector<uint32_t> open_;   // vertices whose edges are to be looked at
 };
 
-// Keeps each pair once. Errors of both directions may differ.
+// Keeps each pair once. Errors and distances of both directions may differ.
 void keep_different(std::vector<WrongPair>& wrong) {
-    const auto place = [](const WrongPair& w) { return std::pair(w.pair.first, w.pair.second); };
-    std::ranges::sort(wrong, [&](const WrongPair& a, const WrongPair& b) {
-        return place(a) != place(b) ? place(a) < place(b) : a.error > b.error;
+    std::ranges::sort(wrong, {}, [](const WrongPair& w) {
+        return std::tuple(w.pair.first, w.pair.second, -w.error, w.pair.distance);
     });
-    const auto is_same = [&](const WrongPair& a, const WrongPair& b) { return place(a) == place(b); };
+    const auto is_same = [](const WrongPair& a, const WrongPair& b) {
+        return a.pair.first == b.pair.first && a.pair.second == b.pair.second;
+    };
     wrong.erase(std::unique(wrong.begin(), wrong.end(), is_same), wrong.end());
 }
 
@@ -144,8 +149,8 @@ void keep_worst(std::vector<WrongPair>& wrong, size_t count) {
 
 }
 
-std::vector<MeasuredPair> find_wrong_pairs(const Index& index, const Intake& intake,
-                                           const NearDistances& near, Workers& workers) {
+WrongPairs find_wrong_pairs(const Index& index, const Intake& intake, const NearDistances& near,
+                            Workers& workers) {
     const uint32_t vertices = near.vertex_count();
     const auto edge_ends = edge_ends_at_vertices(intake.mesh);
     const size_t at_once = std::max<size_t>(FEWEST_AT_ONCE, vertices / MOST_TASKS);
@@ -153,15 +158,25 @@ std::vector<MeasuredPair> find_wrong_pairs(const Index& index, const Intake& int
     workers.run(of_task.size(), [&](FieldSolver&, size_t task) {
         Comparison comparison(index, intake, near, edge_ends);
         const size_t begin = task * at_once, end = std::min<size_t>(begin + at_once, vertices);
-        for (size_t v = begin; v < end; ++v) comparison.compare(static_cast<uint32_t>(v), of_task[task]);
+        for (size_t v = begin; v < end; ++v) {
+            workers.check_cancelled();
+            comparison.compare(static_cast<uint32_t>(v), of_task[task]);
+        }
+        keep_worst(of_task[task], 2 * MOST_PAIRS * (end - begin)); // which is still from one end only
     });
     std::vector<WrongPair> wrong;
-    for (const auto& of_one : of_task) wrong.insert(wrong.end(), of_one.begin(), of_one.end());
+    for (auto& of_one : of_task) {
+        wrong.insert(wrong.end(), of_one.begin(), of_one.end());
+        of_one = {};
+    }
     keep_different(wrong);
     keep_worst(wrong, MOST_PAIRS * vertices);
-    std::vector<MeasuredPair> pairs;
-    for (const WrongPair& w : wrong) pairs.push_back(w.pair);
-    return pairs;
+    WrongPairs result;
+    for (const WrongPair& w : wrong) {
+        result.pairs.push_back(w.pair);
+        result.largest_error = std::max(result.largest_error, std::min(w.error, 1.0));
+    }
+    return result;
 }
 
 }

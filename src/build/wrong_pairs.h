@@ -9,11 +9,15 @@
 
 namespace geodesic {
 
-// The pairs of near vertices of which MSAD or SSSD gives a distance that is off by more than a hundredth, and
-// those between which and their neighbours MSAD would be too steep: it is to change along an edge by no more
-// than 1.05 times the edge's length. They are in ascending order, and have the metric's distances. Of more
-// than four for each vertex, only the worst are kept.
-std::vector<MeasuredPair> find_wrong_pairs(const Index& index, const Intake& intake,
-                                           const NearDistances& near, Workers& workers);
+// The pairs of near vertices of which MSAD gives a distance that is off by more than a hundredth, or SSSD
+// does where MSAD is off by more than half of that; and of two neighbours between which MSAD from a third one
+// would change by more than 1.05 times the length of their edge, the one that is worse. They are in ascending
+// order, and have the metric's distances. Of more than four for each vertex, only the worst are kept.
+struct WrongPairs {
+    std::vector<MeasuredPair> pairs;
+    double largest_error = 0; // of what the index says of them, at most 1
+};
+WrongPairs find_wrong_pairs(const Index& index, const Intake& intake, const NearDistances& near,
+                            Workers& workers);
 
 }

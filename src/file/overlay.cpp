@@ -1,4 +1,5 @@
 // Sections of the overlay engine, but for its tables.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <string>
@@ -76,6 +77,7 @@ std::vector<uint32_t> of_pairs(const StoredIndex& stored, const Value& value) {
 std::vector<std::byte> pair_bytes(const StoredIndex& stored) {
     format::ByteWriter writer;
     writer.u64(stored.measured_pairs.size());
+    writer.f32(stored.error_of_measured);
     uint32_t before = 0;
     writer.u32_planes(of_pairs(
         stored, [&](const MeasuredPair& pair) { return pair.first - std::exchange(before, pair.first); }));
@@ -103,14 +105,21 @@ void check_pairs(const StoredIndex& stored) {
 
 // The numbers are added up modulo 2^32, so that what a file with other numbers makes is refused afterwards.
 void read_pairs(const format::Container& container, StoredIndex& stored) {
-    constexpr uint64_t NUMBERS = 3, MOST_PAIRS = (uint64_t{1} << 31) - 1;
-    constexpr uint64_t MOST_BYTES = sizeof(uint64_t) + MOST_PAIRS * NUMBERS * sizeof(uint32_t);
-    const auto bytes = container.read_bytes(TAG_MEASURED_PAIRS, MOST_BYTES);
+    constexpr uint64_t BYTES_OF_PAIR = 3 * sizeof(uint32_t), MOST_PAIRS = (uint64_t{1} << 31) - 1;
+    const uint64_t vertices = stored.positions.size();
+    const uint64_t most_pairs = std::min(MOST_PAIRS, vertices * vertices / 2);
+    const auto bytes = container.read_bytes(TAG_MEASURED_PAIRS,
+                                            sizeof(uint64_t) + sizeof(float) + most_pairs * BYTES_OF_PAIR);
     format::ByteReader reader(bytes, "section PAIR");
-    const uint64_t count = reader.count(MOST_PAIRS, NUMBERS * sizeof(uint32_t));
+    const uint64_t count = reader.u64();
+    stored.error_of_measured = reader.f32();
+    if (!(stored.error_of_measured >= 0) || !std::isfinite(stored.error_of_measured))
+        refuse_as_corrupt("section PAIR: the error " + std::to_string(stored.error_of_measured));
+    if (count > most_pairs || reader.remaining() != count * BYTES_OF_PAIR)
+        refuse_as_corrupt("section PAIR does not hold " + std::to_string(count) + " pairs");
     std::vector<uint32_t> steps(count), apart(count), distances(count);
     for (auto* const numbers : {&steps, &apart, &distances}) reader.u32_planes(*numbers);
-    reader.expect_end();
+    stored.measured_pairs.reserve(count);
     uint32_t first = 0;
     for (uint64_t i = 0; i < count; ++i) {
         first += steps[i];

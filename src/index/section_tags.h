@@ -20,9 +20,9 @@ inline constexpr uint32_t TAG_INTERNAL_TABLES = format::make_tag("IVIV");
 // These are of the overlay engine only.
 inline constexpr uint32_t TAG_QUANTA = format::make_tag("QUAN");
 inline constexpr uint32_t TAG_SEGMENTS = format::make_tag("SEGM");
+inline constexpr uint32_t TAG_MEASURED_PAIRS = format::make_tag("PAIR"); // only if there are any
 inline constexpr uint32_t TAG_OVERLAY_TABLES = format::make_tag("OVOV");
 inline constexpr uint32_t TAG_HOP_CODES = format::make_tag("HOPS");
-inline constexpr uint32_t TAG_MEASURED_PAIRS = format::make_tag("PAIR"); // only if there are any
 
 // This one is optional.
 inline constexpr uint32_t TAG_MESH = format::make_tag("MESH");
@@ -37,9 +37,9 @@ inline constexpr std::array INDEX_TAGS{TAG_META,
                                        TAG_INTERNAL_TABLES,
                                        TAG_QUANTA,
                                        TAG_SEGMENTS,
+                                       TAG_MEASURED_PAIRS,
                                        TAG_OVERLAY_TABLES,
                                        TAG_HOP_CODES,
-                                       TAG_MEASURED_PAIRS,
                                        TAG_MESH};
 
 }

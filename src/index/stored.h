@@ -60,6 +60,8 @@ struct StoredIndex {
     std::vector<uint8_t> shift;                  // QUAN: per patch; its codes are multiples of 2^shift
     std::vector<uint32_t> segment_end;           // SEGM: per element of `border`, a position there, or NONE
     std::vector<float> segment_length;           // SEGM: per element of `border`
+    float error_of_measured = 0;                 // PAIR: the largest one of what tables say of these pairs
+    std::vector<MeasuredPair> measured_pairs;    // PAIR: in ascending order, each once
     std::vector<uint16_t> overlay_codes;         // OVOV: of every inner patch, owned x border, then owned x
                                                  // owned below the diagonal
     std::vector<uint16_t> border_internal_codes; // BVIV: of every leaf, a row for each border vertex
@@ -67,7 +69,6 @@ struct StoredIndex {
     // HOPS: in a mapped file, in place of the three above: the codes of HopTables, which is what queries
     // read. They lie in the file, or in the index that is going to be saved.
     std::span<const uint16_t> hop_codes;
-    std::vector<MeasuredPair> measured_pairs; // PAIR: in ascending order, each once
 
     // MESH, still packed: it lies in the file, or in the index that is going to be saved. No bytes if the
     // mesh is not kept.

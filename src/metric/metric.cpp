@@ -18,6 +18,7 @@ void FieldSolver::solve(const FieldRequest& request) {
     }
     touched_.clear();
     point_distance_.assign(request.target_points.size(), UNREACHABLE);
+    final_up_to_ = 0;
     run(request);
 }
 

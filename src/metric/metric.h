@@ -24,8 +24,10 @@ struct FieldRequest {
     std::span<const uint32_t> sources, targets;
     std::span<const SurfacePoint> source_points, target_points;
     double radius = UNREACHABLE; // targets farther than this need not be final
-    // All vertices up to this distance are final, too. Only the exact metric heeds it.
+    // The vertices up to this distance are final, too, of those up to `radius`, or at least the nearest
+    // `final_count` of them. Only the exact metric heeds it.
     double final_radius = 0;
+    uint32_t final_count = std::numeric_limits<uint32_t>::max();
 };
 
 // Throws Error CANCELLED.
@@ -51,6 +53,8 @@ public:
     double distance(uint32_t vertex) const { return distance_[vertex]; }
     // The vertices for which it found any distance, final or not.
     std::span<const uint32_t> reached() const { return touched_; }
+    // Up to this distance, all of them are final. Only the exact metric says so; by others it is 0.
+    double final_up_to() const { return final_up_to_; }
     // Position in `sources` of the source that distance(vertex) was measured from, or past them in
     // `source_points`; NONE if there is none.
     uint32_t nearest(uint32_t vertex) const { return nearest_[vertex]; }
@@ -59,6 +63,7 @@ public:
 
 protected:
     virtual void run(const FieldRequest& request) = 0;
+    void set_final_up_to(double distance) { final_up_to_ = distance; }
 
     // Lowers the distance of a vertex; false if it was that low already.
     bool improve(uint32_t vertex, double distance, uint32_t nearest) {
@@ -83,6 +88,7 @@ private:
     std::vector<uint32_t> nearest_;
     std::vector<uint32_t> touched_;
     std::vector<double> point_distance_;
+    double final_up_to_ = 0;
     const std::atomic<bool>* cancelled_ = nullptr;
 };
 

@@ -113,23 +113,31 @@ void WindowPropagation::run(const FieldRequest& request) {
     clear();
     start(request);
     const uint32_t first_edge = vertex_count(), first_point = first_edge + edge_count();
-    double radius = request.radius;
-    const auto finish = [&] { radius = std::min(radius, request.final_radius); };
+    bool is_done = false; // with the targets
+    uint32_t settled = 0;
+    front_ = 0;
+    set_final_up_to(UNREACHABLE);
     while (!queue_.empty()) {
         const auto event = queue_.pop();
-        if (event.distance > radius) break;
+        const bool is_final_part_done =
+            is_done && (event.distance > request.final_radius || settled >= request.final_count);
+        if (event.distance > request.radius || is_final_part_done) {
+            set_final_up_to(front_);
+            break;
+        }
         front_ = event.distance;
         if (!queue_.empty()) prefetch(queue_.top().item);
         if (event.item < first_edge) {
             if (event.distance != distance(event.item)) continue;
             settle(event.item);
-            if (pending_.settle(event.item)) finish();
+            ++settled;
+            is_done |= pending_.settle(event.item);
         } else if (event.item < first_point) {
             const uint32_t edge = event.item - first_edge;
             if (event.distance == queued_distance_[edge]) propagate_edge(edge);
             if (lists_.crowded()) sweep();
-        } else if (pending_.settle_point(event.item - first_point)) {
-            finish();
+        } else {
+            is_done |= pending_.settle_point(event.item - first_point);
         }
     }
 }

@@ -34,11 +34,12 @@ float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, const FacePoint
 
 }
 
-// A source alone has its own measured distances, whatever tables say.
+// A source alone, which may be given several times, has its own measured distances, whatever tables say.
 void OverlayQuery::msad(const Sources& sources, float radius, const OverlayMsad::Field& field) {
-    const bool is_alone = sources.keys.size() == 1;
+    const auto is_first = [&](uint32_t key) { return key == sources.keys.front(); };
+    const bool is_alone = !sources.keys.empty() && std::ranges::all_of(sources.keys, is_first);
     if (is_alone) {
-        field_.sweep(sources, radius, field.distance);
+        field_.sweep({sources.keys.first(1), sources.points}, radius, field.distance);
         for (size_t v = 0; v < field.source.size(); ++v)
             field.source[v] = field.distance[v] < INFINITE ? sources.keys.front() : NONE;
     } else {

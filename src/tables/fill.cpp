@@ -27,8 +27,8 @@ public:
 
     void fill(FieldSolver& solver, uint32_t number) {
         if (numbering_.is_border(number)) return fill_border(solver, number);
-        measure_internal(numbering_, vertex_of_number_, number, 0, solver, stored_.border_internal_tables,
-                         stored_.internal_tables);
+        measure_internal(numbering_, vertex_of_number_, number, nullptr, solver,
+                         stored_.border_internal_tables, stored_.internal_tables);
     }
 
     // The least ratio of a distance in the patch's tables to the straight line between its two vertices; at

@@ -15,8 +15,16 @@ float measured_distance(const FieldSolver& solver, uint32_t vertex) {
     return static_cast<float>(distance);
 }
 
+void solve_for_tables(const uint32_t& vertex, std::span<const uint32_t> targets, const NearDistances* near,
+                      FieldSolver& solver) {
+    if (near)
+        solver.solve(near->with_near({&vertex, 1}, targets));
+    else
+        solver.solve({&vertex, 1}, targets);
+}
+
 bool measure_internal(const Numbering& numbering, std::span<const uint32_t> vertex_of_number, uint32_t number,
-                      double final_radius, FieldSolver& solver, std::span<float> border_internal_tables,
+                      const NearDistances* near, FieldSolver& solver, std::span<float> border_internal_tables,
                       std::span<float> internal_tables) {
     const uint32_t leaf = numbering.leaf_of(number), first = numbering.first_internal(leaf);
     const uint32_t own = number - first, size = numbering.internal_size(leaf);
@@ -25,7 +33,7 @@ bool measure_internal(const Numbering& numbering, std::span<const uint32_t> vert
     for (uint32_t other : border) targets.push_back(vertex_of_number[other]);
     for (uint32_t i = own + 1; i < size; ++i) targets.push_back(vertex_of_number[first + i]);
     if (targets.empty()) return false;
-    solver.solve({{&vertex_of_number[number], 1}, targets, {}, {}, UNREACHABLE, final_radius});
+    solve_for_tables(vertex_of_number[number], targets, near, solver);
     for (uint32_t i = 0; i < border.size(); ++i)
         border_internal_tables[numbering.border_internal_entry(leaf, i, own)] =
             measured_distance(solver, vertex_of_number[border[i]]);

@@ -4,6 +4,7 @@
 
 #include "src/index/numbering.h"
 #include "src/metric/metric.h"
+#include "src/tables/near_distances.h"
 
 namespace geodesic {
 
@@ -11,12 +12,16 @@ namespace geodesic {
 // for a float.
 float measured_distance(const FieldSolver& solver, uint32_t vertex);
 
+// Solves from one vertex for these targets and, unless `near` is NULL, for what is near.
+void solve_for_tables(const uint32_t& vertex, std::span<const uint32_t> targets, const NearDistances* near,
+                      FieldSolver& solver);
+
 // Measures the distances of an internal vertex to the border of its leaf and to the leaf's internal vertices
 // with larger numbers, and writes them into tables that are laid out as in StoredIndex. vertex_of_number
-// gives the mesh vertex of each number. Distances up to `final_radius` are final, too. Returns whether there
-// was anything to measure; if not, nothing has been solved.
+// gives the mesh vertex of each number. Unless `near` is NULL, what is near is solved for, too. Returns
+// whether there was anything to measure; if not, nothing has been solved.
 bool measure_internal(const Numbering& numbering, std::span<const uint32_t> vertex_of_number, uint32_t number,
-                      double final_radius, FieldSolver& solver, std::span<float> border_internal_tables,
+                      const NearDistances* near, FieldSolver& solver, std::span<float> border_internal_tables,
                       std::span<float> internal_tables);
 
 }

@@ -1,19 +1,24 @@
 #include "src/tables/near_distances.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace geodesic {
 
+// Of those that are equally far, the ones with smaller numbers, so that each run keeps the same.
 void NearDistances::take(uint32_t vertex, const FieldSolver& solver) {
-    const auto is_near = [&](uint32_t other) {
-        const double distance = solver.distance(other);
-        return other < near_.size() && distance > 0 && distance <= radius_;
-    };
-    std::vector<Near>& near = near_[vertex];
-    near.clear();
-    near.reserve(static_cast<size_t>(std::ranges::count_if(solver.reached(), is_near)));
+    const double radius = std::min(radius_, solver.final_up_to());
+    std::vector<Near> near;
     for (const uint32_t other : solver.reached())
-        if (is_near(other)) near.push_back({other, static_cast<float>(solver.distance(other))});
+        if (const auto distance = static_cast<float>(solver.distance(other));
+            other < near_.size() && distance > 0 && solver.distance(other) <= radius)
+            near.push_back({other, distance});
+    if (near.size() > MOST) {
+        std::ranges::nth_element(near, near.begin() + MOST, {},
+                                 [](const Near& n) { return std::pair(n.distance, n.vertex); });
+        near.resize(MOST);
+    }
+    near_[vertex].assign(near.begin(), near.end());
 }
 
 }

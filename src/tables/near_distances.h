@@ -8,10 +8,12 @@
 
 namespace geodesic {
 
-// The metric's distances between vertices of the caller's mesh that are near each other. Solving for tables
-// finds most of them anyway.
+// The metric's distances between vertices of the caller's mesh that are near each other: up to a radius, and
+// no more than MOST for each. Solving for tables finds most of them anyway. The metric must be the exact one.
 class NearDistances {
 public:
+    static constexpr uint32_t MOST = 1024;
+
     struct Near {
         uint32_t vertex;
         float distance;
@@ -23,9 +25,17 @@ public:
     double radius() const { return radius_; }
     uint32_t vertex_count() const { return static_cast<uint32_t>(near_.size()); }
 
-    // Takes what the latest solve, from this vertex alone, found up to the radius; all of it is final.
-    // Different threads may take different vertices at once.
+    // The request for these targets, and for what is near the only source.
+    FieldRequest with_near(std::span<const uint32_t> source, std::span<const uint32_t> targets) const {
+        return {source, targets, {}, {}, UNREACHABLE, radius_, MOST};
+    }
+
+    // Takes what the latest solve, from this vertex alone, found near it. Different threads may take
+    // different vertices at once.
     void take(uint32_t vertex, const FieldSolver& solver);
+
+    // Whether anything has been taken for a vertex. Where that is nothing, it is far from all others.
+    bool has(uint32_t vertex) const { return !near_[vertex].empty(); }
 
     // The vertices that are near this one and not at the same place, in no particular order.
     std::span<const Near> of(uint32_t vertex) const { return near_[vertex]; }

@@ -48,17 +48,18 @@ public:
         : numbering_(numbering), vertex_of_number_(vertex_of_number), exact_(exact), tables_(tables),
           near_(near) {}
 
+    // What is near a vertex is the same on all meshes of the surface, and is taken once.
     void fill(FieldSolver& solver, uint32_t number) {
         const uint32_t& vertex = vertex_of_number_[number];
-        const bool takes_near = near_ && vertex < near_->vertex_count();
-        const double radius = takes_near ? near_->radius() : 0;
+        NearDistances* const near =
+            near_ && vertex < near_->vertex_count() && !near_->has(vertex) ? near_ : nullptr;
         const bool is_solved = numbering_.is_border(number)
-                                   ? fill_border(solver, number, radius)
-                                   : measure_internal(numbering_, vertex_of_number_, number, radius, solver,
+                                   ? fill_border(solver, number, near)
+                                   : measure_internal(numbering_, vertex_of_number_, number, near, solver,
                                                       tables_.border_internal, tables_.internal);
-        if (!takes_near) return;
-        if (!is_solved) solver.solve({&vertex, 1}, {}, radius);
-        near_->take(vertex, solver);
+        if (!near) return;
+        if (!is_solved) solve_for_tables(vertex, {&vertex, 1}, near, solver);
+        near->take(vertex, solver);
     }
 
 private:
@@ -73,15 +74,14 @@ private:
     }
 
     // As measure_internal() does it.
-    bool fill_border(FieldSolver& solver, uint32_t number, double final_radius) {
+    bool fill_border(FieldSolver& solver, uint32_t number, const NearDistances* near) {
         const auto overlays = overlays_of(number);
         std::vector<uint32_t> targets;
         for (const auto& [patch, own] : overlays)
             for (uint32_t i = 0; i < numbering_.overlay_size(patch); ++i)
                 if (const uint32_t other = numbering_.overlay_number(patch, i); other > number)
                     targets.push_back(vertex_of_number_[other]);
-        if (!targets.empty())
-            solver.solve({{&vertex_of_number_[number], 1}, targets, {}, {}, UNREACHABLE, final_radius});
+        if (!targets.empty()) solve_for_tables(vertex_of_number_[number], targets, near, solver);
         for (const auto& [patch, own] : overlays) {
             const size_t size = numbering_.overlay_size(patch);
             std::vector<float>& table = tables_.overlay[patch];

@@ -1,10 +1,13 @@
 // Golden files: one of each form, one of rounded distances, one with added vertices, two without positions,
-// and one with the mesh, which every later version of the library must open (SPEC.md, "Versions").
+// one with the mesh and one with measured pairs, which every later version of the library must open (SPEC.md,
+// "Versions").
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <utility>
 
+#include "format/container.h"
+#include "src/index/section_tags.h"
 #include "tests/capi/calls.h"
 
 using namespace geodesic;
@@ -19,6 +22,7 @@ struct Golden {
     uint32_t flags = 0;
     double target_error = 0; // over 0: there are added vertices
     bool keeps_mesh = false;
+    double height = 1; // over 1: so rough that there are measured pairs
 };
 
 constexpr Golden GOLDEN[] = {
@@ -30,7 +34,8 @@ constexpr Golden GOLDEN[] = {
     {"added", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, 0, 1e-4},
     {"no_positions", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, GEOIDX_SAVE_NO_POSITIONS},
     {"added_no_positions", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, GEOIDX_SAVE_NO_POSITIONS, 1e-4},
-    {"with_mesh", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, 0, 0, true}};
+    {"with_mesh", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, 0, 0, true},
+    {"measured_pairs", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, 0, 0, false, 16}};
 
 std::string path_of(const Golden& golden) {
     return std::string(GEOIDX_GOLDEN_FOLDER "/") + golden.name + ".geoidx";
@@ -51,7 +56,7 @@ TestMesh mesh_of(const Golden& golden) {
     TestMesh mesh = grid(golden.columns, golden.columns - 1);
     append(mesh, grid(4, 3), 40);
     for (size_t v = 0; v < mesh.positions.size() / 3; ++v)
-        mesh.positions[3 * v + 2] = static_cast<double>((v * 7 + v / 5 * 3) % 9) / 32;
+        mesh.positions[3 * v + 2] = static_cast<double>((v * 7 + v / 5 * 3) % 9) / 32 * golden.height;
     return mesh;
 }
 
@@ -117,6 +122,8 @@ TEST_CASE("golden files: they open, belong to their mesh and answer near the tru
         CHECK(info.format_major == 2);
         CHECK((golden.target_error > 0) == (info.added_vertex_count > 0));
         CHECK((info.has_mesh == 1) == golden.keeps_mesh);
+        const auto container = format::Container::parse(file, INDEX_TAGS);
+        CHECK(container.has(TAG_MEASURED_PAIRS) == (golden.height > 1));
         if (golden.keeps_mesh) check_surface(index.get(), view);
         CHECK((golden.columns > 30) == (info.table_entries >= 65536)); // distances are rounded
         double sum = 0;

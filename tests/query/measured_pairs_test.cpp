@@ -66,9 +66,9 @@ std::vector<uint32_t> numbers_of_ids(const format::Container& container) {
 
 // The section as format/SPEC.md has it.
 Bytes section_of(std::span<const Planted> pairs, std::span<const uint32_t> number_of_id) {
-    std::map<std::pair<uint32_t, uint32_t>, float> distance_of;
+    std::multimap<std::pair<uint32_t, uint32_t>, float> distance_of;
     for (const auto& [a, b, distance] : pairs)
-        distance_of[std::minmax(number_of_id[a], number_of_id[b])] = distance;
+        distance_of.emplace(std::minmax(number_of_id[a], number_of_id[b]), distance);
     std::vector<uint32_t> steps, apart, distances;
     uint32_t before = 0;
     for (const auto& [numbers, distance] : distance_of) {
@@ -79,6 +79,7 @@ Bytes section_of(std::span<const Planted> pairs, std::span<const uint32_t> numbe
     }
     format::ByteWriter writer;
     writer.u64(pairs.size());
+    writer.f32(0.5f);
     for (const auto* planes : {&steps, &apart, &distances}) writer.u32_planes(*planes);
     return writer.take();
 }
@@ -139,12 +140,57 @@ void check_fields(const geoidx* index) {
     }
 }
 
+// Of vertices as points, alone or given twice, and of the nearest of some targets.
+void check_points_and_targets(const geoidx* index) {
+    const auto query = query_of(index);
+    const geoidx_mesh view = mesh().view();
+    geoidx_surface* made = nullptr;
+    require_success(geoidx_surface_create(&view, nullptr, &made));
+    const SurfaceHandle surface(made);
+    const uint32_t count = mesh().vertex_count();
+    for (const auto& [a, b, distance] : planted()) {
+        geoidx_surface_point twice[2], target;
+        require_success(geoidx_vertex_point(made, a, &twice[0]));
+        require_success(geoidx_vertex_point(made, b, &target));
+        twice[1] = twice[0];
+        float answer = -1;
+        require_success(geoidx_query_point_sssd(query.get(), made, &twice[0], &target, &answer));
+        CHECK(answer == distance);
+        std::vector<float> field(count);
+        std::vector<uint32_t> nearest(count);
+        for (const uint32_t sources : {1u, 2u}) {
+            require_success(
+                geoidx_query_point_msad(query.get(), made, twice, sources, nullptr, field.data(), count));
+            CHECK(field[b] == distance);
+            require_success(geoidx_query_point_nearest_sources(query.get(), made, twice, sources, nullptr,
+                                                               nearest.data(), field.data(), count));
+            CHECK(field[b] == distance);
+            CHECK(nearest[b] == 0);
+        }
+        std::vector<uint32_t> targets{b};
+        for (const uint32_t more : {0u, 700u}) { // few are asked for as pairs, many in sweeps
+            while (targets.size() < more) targets.push_back(static_cast<uint32_t>(targets.size()) * 2);
+            std::vector<uint32_t> positions(targets.size());
+            std::vector<float> distances(targets.size());
+            uint32_t found = 0;
+            require_success(geoidx_query_nearest_targets(
+                query.get(), a, targets.data(), static_cast<uint32_t>(targets.size()), positions.data(),
+                distances.data(), static_cast<uint32_t>(targets.size()), &found));
+            REQUIRE(found == targets.size());
+            CHECK(std::ranges::is_sorted(distances));
+            CHECK(distances[static_cast<size_t>(std::ranges::find(positions, 0u) - positions.begin())] ==
+                  distance);
+        }
+    }
+}
+
 // Whether the vertex is found, and where it is.
-float distance_within(geoidx_query* query, uint32_t source, float radius, uint32_t vertex) {
+float distance_within(geoidx_query* query, std::span<const uint32_t> sources, float radius, uint32_t vertex) {
     std::vector<uint32_t> vertices(mesh().vertex_count());
     std::vector<float> distances(vertices.size());
     uint32_t count = 0;
-    require_success(geoidx_query_within(query, &source, 1, radius, vertices.data(), distances.data(),
+    require_success(geoidx_query_within(query, sources.data(), static_cast<uint32_t>(sources.size()), radius,
+                                        vertices.data(), distances.data(),
                                         static_cast<uint32_t>(vertices.size()), &count));
     CHECK(std::is_sorted(distances.begin(), distances.begin() + count));
     const auto end = vertices.begin() + count, found = std::find(vertices.begin(), end, vertex);
@@ -164,6 +210,7 @@ TEST_CASE("measured pairs: every query from one vertex answers them, from every 
         const auto opened = open(file);
         check_pair_queries(opened.get());
         check_fields(opened.get());
+        check_points_and_targets(opened.get());
     }
     CHECK(file == save(index.get()));
 }
@@ -175,7 +222,7 @@ TEST_CASE("measured pairs: they are within a radius by what was measured") {
     for (const auto& [a, b, distance] : planted())
         for (const float share : {0.999f, 1.0f, 1.001f, 4.0f}) {
             const float radius = share * distance, expected = share < 1 ? FAR : distance;
-            CHECK(distance_within(query.get(), a, radius, b) == expected);
+            CHECK(distance_within(query.get(), {&a, 1}, radius, b) == expected);
             std::vector<float> field(count);
             require_success(geoidx_query_msad_within(query.get(), &a, 1, radius, field.data(), count));
             CHECK(field[b] == expected);
@@ -198,6 +245,9 @@ TEST_CASE("measured pairs: several sources have those that are shorter than what
             geoidx_query_nearest_sources(query.get(), sources, 2, nearest.data(), field.data(), count));
         CHECK(field[b] == std::min(before, distance));
         if (distance < before) CHECK(nearest[b] == 1);
+        // What is within a radius of several is what is within it of each.
+        const float least = std::min(msad(plain.get(), sources[0], count)[b], distance);
+        CHECK(distance_within(query.get(), sources, FAR, b) == least);
     }
 }
 
@@ -205,13 +255,13 @@ TEST_CASE("measured pairs: a section that breaks a rule is refused") {
     const auto container = format::Container::parse(plain_file(), geodesic::INDEX_TAGS);
     const auto good = section_of(planted(), numbers_of_ids(container));
     REQUIRE(open_status(with_section(good)) == GEOIDX_OK);
-    REQUIRE(open_status(with_section(Bytes(8))) == GEOIDX_OK); // no pair at all
+    REQUIRE(open_status(with_section(Bytes(12))) == GEOIDX_OK); // no pair at all
     const size_t pairs = planted().size();
     const auto refused = [&](const char* what, size_t plane, size_t pair, uint32_t value) {
         CAPTURE(what);
         Bytes section = good; // u32 in planes: the lowest byte of each, then the second one
         for (size_t byte = 0; byte < 4; ++byte)
-            section[8 + plane * 4 * pairs + byte * pairs + pair] =
+            section[12 + plane * 4 * pairs + byte * pairs + pair] =
                 static_cast<std::byte>(value >> 8 * byte & 0xff);
         const Bytes file = with_section(section);
         CHECK(open_status(file) == GEOIDX_ERROR_CORRUPT);
@@ -229,9 +279,16 @@ TEST_CASE("measured pairs: a section that breaks a rule is refused") {
     refused("descending order", 0, 1, UINT32_MAX);
     for (const float distance : {0.0f, -1.0f, FAR, std::numeric_limits<float>::quiet_NaN()})
         refused("distance", 2, 2, std::bit_cast<uint32_t>(distance));
+    const std::vector<Planted> twice{planted()[0], planted()[0]};
+    CHECK(open_status(with_section(section_of(twice, numbers_of_ids(container)))) == GEOIDX_ERROR_CORRUPT);
+    for (const float error : {-1.0f, FAR, std::numeric_limits<float>::quiet_NaN()}) {
+        Bytes section = good;
+        std::memcpy(section.data() + 8, &error, sizeof error);
+        CHECK(open_status(with_section(section)) == GEOIDX_ERROR_CORRUPT);
+    }
     Bytes longer = good, shorter = good;
     longer.push_back(std::byte{0});
     shorter.pop_back();
-    for (const Bytes& section : {longer, shorter, Bytes(7)})
+    for (const Bytes& section : {longer, shorter, Bytes(11)})
         CHECK(open_status(with_section(section)) == GEOIDX_ERROR_CORRUPT);
 }
