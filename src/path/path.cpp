@@ -108,7 +108,8 @@ StripWay PathFinder::find_straight() {
     std::vector<StripWay> ways;
     for (Strip& strip : strips) {
         if (!ways.empty() && is_same(strip, ways.front().strip)) break; // as the first one came out
-        straightening.straighten(ways.emplace_back(std::move(strip)));
+        ways.push_back({std::move(strip), {}});
+        straightening.straighten(ways.back());
     }
     std::ranges::sort(ways, {}, length);
     const double longer = length(ways.back()) - length(ways.front());

@@ -87,7 +87,7 @@ private:
         uint32_t face;
         std::array<uint32_t, 2> ends; // of its edges at the vertex
 
-        bool has(uint32_t end) const { return (ends[0] == end) | (ends[1] == end); }
+        bool has(uint32_t end) const { return ends[0] == end || ends[1] == end; }
         uint32_t other_than(uint32_t end) const { return ends[ends[0] == end ? 1 : 0]; }
     };
 
