@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
-#include <set>
 
 #include "tests/capi/calls.h"
 #include "tests/support/sanitized.h"
@@ -20,16 +19,6 @@ geoidx_build_options options_for(uint32_t engine, uint32_t metric = GEOIDX_METRI
     auto options = build_options(metric);
     options.engine = engine;
     return options;
-}
-
-double average_edge(const TestMesh& mesh) {
-    std::set<std::pair<uint32_t, uint32_t>> edges;
-    for (size_t t = 0; t < mesh.triangles.size(); t += 3)
-        for (size_t k = 0; k < 3; ++k)
-            edges.insert(std::minmax(mesh.triangles[t + k], mesh.triangles[t + (k + 1) % 3]));
-    double sum = 0;
-    for (const auto& [a, b] : edges) sum += mesh.straight(a, b);
-    return sum / static_cast<double>(edges.size());
 }
 
 struct Class {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <set>
 
 #include "format/container.h"
 #include "src/index/section_tags.h"
@@ -27,12 +26,11 @@ TestMesh rough(uint32_t side, double height) {
     return mesh;
 }
 
-std::set<std::pair<uint32_t, uint32_t>> edges_of(const TestMesh& mesh) {
-    std::set<std::pair<uint32_t, uint32_t>> edges;
-    for (size_t t = 0; t < mesh.triangles.size(); t += 3)
-        for (size_t k = 0; k < 3; ++k)
-            edges.insert(std::minmax(mesh.triangles[t + k], mesh.triangles[t + (k + 1) % 3]));
-    return edges;
+geoidx_build_options default_options(uint32_t threads = 2) {
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    options.threads = threads;
+    return options;
 }
 
 // The same index without its measured pairs.
@@ -53,9 +51,7 @@ struct Counts {
 // Of fields, from every step-th vertex.
 Counts count_wrong(const geoidx* index, const TestMesh& mesh, uint32_t step) {
     const auto edges = edges_of(mesh);
-    double sum = 0;
-    for (const auto& [a, b] : edges) sum += mesh.straight(a, b);
-    const double near = NEAR_EDGES * sum / static_cast<double>(edges.size());
+    const double near = NEAR_EDGES * average_edge(mesh);
     const auto metric = solver(mesh, build_options());
     Counts counts;
     for (uint32_t source = 0; source < mesh.vertex_count(); source += step) {
@@ -76,10 +72,7 @@ Counts count_wrong(const geoidx* index, const TestMesh& mesh, uint32_t step) {
 
 TEST_CASE("wrong pairs: no answer for near vertices is off by more than a hundredth") {
     for (const TestMesh& mesh : {rough(24, 4), hills(30, 20), lattice(4)}) {
-        geoidx_build_options options;
-        geoidx_build_options_init(&options);
-        options.threads = 2;
-        const auto index = build(mesh, options);
+        const auto index = build(mesh, default_options());
         const Counts counts = count_wrong(index.get(), mesh, sparse(1));
         CHECK(counts.wrong == 0);
     }
@@ -87,10 +80,7 @@ TEST_CASE("wrong pairs: no answer for near vertices is off by more than a hundre
 
 TEST_CASE("wrong pairs: a rough surface has some by its tables alone, and steep edges") {
     const TestMesh mesh = rough(24, 16);
-    geoidx_build_options options;
-    geoidx_build_options_init(&options);
-    options.threads = 2;
-    const auto index = build(mesh, options);
+    const auto index = build(mesh, default_options());
     const Counts before = count_wrong(tables_only(index.get()).get(), mesh, 3),
                  now = count_wrong(index.get(), mesh, 3);
     CHECK(before.wrong > 0);
@@ -101,11 +91,7 @@ TEST_CASE("wrong pairs: a rough surface has some by its tables alone, and steep 
 
 TEST_CASE("wrong pairs: threads change no bit of the file") {
     const TestMesh mesh = rough(20, 3);
-    geoidx_build_options options;
-    geoidx_build_options_init(&options);
-    options.threads = 1;
-    const Bytes one = save(build(mesh, options).get());
+    const Bytes one = save(build(mesh, default_options(1)).get());
     REQUIRE(format::Container::parse(one, geodesic::INDEX_TAGS).has(geodesic::TAG_MEASURED_PAIRS));
-    options.threads = 4;
-    CHECK(save(build(mesh, options).get()) == one);
+    CHECK(save(build(mesh, default_options(4)).get()) == one);
 }

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geoidx.h"
@@ -43,6 +45,22 @@ struct TestMesh {
                           positions[3 * a + 2] - positions[3 * b + 2]);
     }
 };
+
+// Each edge once, the smaller id first.
+inline std::set<std::pair<uint32_t, uint32_t>> edges_of(const TestMesh& mesh) {
+    std::set<std::pair<uint32_t, uint32_t>> edges;
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3)
+        for (size_t k = 0; k < 3; ++k)
+            edges.insert(std::minmax(mesh.triangles[t + k], mesh.triangles[t + (k + 1) % 3]));
+    return edges;
+}
+
+inline double average_edge(const TestMesh& mesh) {
+    const auto edges = edges_of(mesh);
+    double sum = 0;
+    for (const auto& [a, b] : edges) sum += mesh.straight(a, b);
+    return sum / static_cast<double>(edges.size());
+}
 
 // The same mesh in single precision.
 struct FloatMesh {
