@@ -85,15 +85,6 @@ ProgressFunction progress_function(const geoidx_build_options& options) {
     };
 }
 
-// Where the answers for near vertices are wrong, the index holds what is right.
-void hold_wrong_pairs(const Intake& intake, const Filling& filling, Workers& workers, Index& index) {
-    if (!filling.near_distances()) return;
-    const WrongPairs wrong = find_wrong_pairs(index, intake, *filling.near_distances(), workers);
-    MeasuredPairs& measured = std::get<OverlayIndex>(index.engine).measured;
-    take_measured_pairs(wrong.pairs, index.numbering().vertex_count(), measured);
-    measured.largest_error = static_cast<float>(wrong.largest_error);
-}
-
 }
 
 void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, Index& index) {
@@ -117,7 +108,7 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
             .run({intake.mesh, hierarchy}, *metric, std::move(stored));
     Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
     stating.begin_stage("accuracy", 0.5);
-    hold_wrong_pairs(intake, filling, stating, index);
+    if (filling.near_distances()) hold_wrong_pairs(intake, *filling.near_distances(), stating, index);
     stating.begin_stage("accuracy", 1);
     state_errors(intake, filling.solved_fields(), stating, index);
     if (options.store_mesh) keep_mesh(pack_mesh(mesh).view(), index);

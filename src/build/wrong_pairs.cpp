@@ -14,12 +14,12 @@ namespace geodesic {
 
 namespace {
 
-constexpr double LARGEST_ERROR = 0.01;
-// Where MSAD is off by more, SSSD is asked, too: what makes one of them wrong makes both.
-constexpr double SUSPICIOUS = LARGEST_ERROR / 2;
+constexpr double LARGEST_ERROR = 0.01; // that is let pass, unless too many pairs are off by more
+constexpr size_t MOST_PAIRS = 4;       // for each vertex, on average
+constexpr double RAISE = 1.5;          // by which a larger error is let pass then
 // Along an edge, distances change by no more than its length. Answers may by this much more.
 constexpr double STEEPEST = 1.05;
-constexpr size_t MOST_PAIRS = 4;  // for each vertex, on average
+constexpr uint32_t MOST_ROUNDS = 4;
 constexpr double LOOKED_AT = 1.1; // near radii: answers beyond are off by more than any that is let pass
 constexpr size_t FEWEST_AT_ONCE = 64, MOST_TASKS = 256; // sources of a task share a query
 
@@ -28,7 +28,8 @@ struct WrongPair {
     double error;
 };
 
-// Rounded to 13 bits, which is far below what is let pass, so that files have fewer of them.
+// Rounded to 13 bits, which changes it far less than what is let pass, so that files have fewer of them.
+constexpr float ROUNDING = 1.f / (1 << 13);
 float rounded(float distance) {
     constexpr uint32_t DROPPED = (1 << 11) - 1;
     const auto bits = std::bit_cast<uint32_t>(distance);
@@ -38,9 +39,10 @@ float rounded(float distance) {
 // One thread's answers compared with the metric, from one source at a time.
 class Comparison {
 public:
+    // An error up to `limit` is let pass.
     Comparison(const Index& index, const Intake& intake, const NearDistances& near,
-               const ListOfLists<uint32_t>& edge_ends)
-        : index_(index), intake_(intake), near_(near), edge_ends_(edge_ends),
+               const ListOfLists<uint32_t>& edge_ends, double limit)
+        : index_(index), intake_(intake), near_(near), edge_ends_(edge_ends), limit_(limit),
           query_(index, std::pmr::get_default_resource()), answer_(index.description.id_count, INFINITE),
           field_(near.vertex_count(), {0, 0}) {}
 
@@ -50,8 +52,7 @@ public:
         wrong_ = &wrong;
         fill_field();
         for (const auto& near : near_.of(source))
-            if (const double error = largest_error(near.vertex); error > LARGEST_ERROR)
-                correct(near.vertex, error);
+            if (const double error = largest_error(near.vertex); error > limit_) correct(near.vertex, error);
         open_.clear();
         for (const auto& near : near_.of(source)) open_.push_back(near.vertex);
         while (!open_.empty()) {
@@ -85,7 +86,8 @@ private:
     double largest_error(uint32_t vertex) {
         const Distances& distances = field_[vertex];
         const double of_field = distances.error();
-        if (of_field <= SUSPICIOUS || of_field > LARGEST_ERROR) return of_field;
+        const double suspicious = limit_ / 2; // what makes one of MSAD and SSSD wrong makes both
+        if (of_field <= suspicious || of_field > limit_) return of_field;
         return std::max(of_field,
                         relative_error(distances.exact, query_.sssd(id_of(source_), id_of(vertex))));
     }
@@ -106,7 +108,7 @@ private:
             const uint32_t other = intake_.mesh.edges[end / 2][1 - end % 2];
             if (!is_near(other) || !is_too_steep(vertex, other)) continue;
             const uint32_t worse = deviation(vertex) < deviation(other) ? other : vertex;
-            if (!(deviation(worse) > 0)) continue;
+            if (!(deviation(worse) > ROUNDING * field_[worse].exact)) continue;
             correct(worse, field_[worse].error());
             open_.push_back(worse);
         }
@@ -121,6 +123,7 @@ private:
     const Intake& intake_;
     const NearDistances& near_;
     const ListOfLists<uint32_t>& edge_ends_;
+    const double limit_;
     Query query_;
     uint32_t source_ = NONE;
     std::vector<WrongPair>* wrong_ = nullptr;
@@ -140,43 +143,93 @@ void keep_different(std::vector<WrongPair>& wrong) {
     wrong.erase(std::unique(wrong.begin(), wrong.end(), is_same), wrong.end());
 }
 
-void keep_worst(std::vector<WrongPair>& wrong, size_t count) {
-    if (wrong.size() <= count) return;
-    std::ranges::stable_sort(wrong, std::ranges::greater{}, &WrongPair::error);
-    wrong.resize(count);
-    keep_different(wrong); // in the order of pairs again
-}
+class Search {
+public:
+    Search(const Intake& intake, const NearDistances& near, Workers& workers, Index& index)
+        : intake_(intake), near_(near), workers_(workers), index_(index),
+          edge_ends_(edge_ends_at_vertices(intake.mesh)) {}
 
-}
+    void run() {
+        for (double limit = LARGEST_ERROR; !hold_all(limit) && limit < 1;) limit *= RAISE;
+        if (held_.size() > most()) keep_worst();
+    }
 
-WrongPairs find_wrong_pairs(const Index& index, const Intake& intake, const NearDistances& near,
-                            Workers& workers) {
-    const uint32_t vertices = near.vertex_count();
-    const auto edge_ends = edge_ends_at_vertices(intake.mesh);
-    const size_t at_once = std::max<size_t>(FEWEST_AT_ONCE, vertices / MOST_TASKS);
-    std::vector<std::vector<WrongPair>> of_task((vertices + at_once - 1) / at_once);
-    workers.run(of_task.size(), [&](FieldSolver&, size_t task) {
-        Comparison comparison(index, intake, near, edge_ends);
-        const size_t begin = task * at_once, end = std::min<size_t>(begin + at_once, vertices);
-        for (size_t v = begin; v < end; ++v) {
-            workers.check_cancelled();
-            comparison.compare(static_cast<uint32_t>(v), of_task[task]);
+private:
+    size_t most() const { return MOST_PAIRS * near_.vertex_count(); }
+
+    // What is held changes the fields of both vertices of a pair, so that those are looked at again. Returns
+    // whether there are not too many pairs.
+    bool hold_all(double limit) {
+        held_.clear();
+        hold();
+        for (uint32_t round = 0; round < MOST_ROUNDS; ++round) {
+            if (!find(limit, round == 0)) return true;
+            if (held_.size() > most()) return false;
+            hold();
         }
-        keep_worst(of_task[task], 2 * MOST_PAIRS * (end - begin)); // which is still from one end only
-    });
-    std::vector<WrongPair> wrong;
-    for (auto& of_one : of_task) {
-        wrong.insert(wrong.end(), of_one.begin(), of_one.end());
-        of_one = {};
+        return true;
     }
-    keep_different(wrong);
-    keep_worst(wrong, MOST_PAIRS * vertices);
-    WrongPairs result;
-    for (const WrongPair& w : wrong) {
-        result.pairs.push_back(w.pair);
-        result.largest_error = std::max(result.largest_error, std::min(w.error, 1.0));
+
+    // Looks from all vertices, or from those that have pairs. Returns whether any pair is new.
+    bool find(double limit, bool everywhere) {
+        const uint32_t vertices = near_.vertex_count();
+        const size_t at_once = std::max<size_t>(FEWEST_AT_ONCE, vertices / MOST_TASKS);
+        std::vector<std::vector<WrongPair>> of_task((vertices + at_once - 1) / at_once);
+        workers_.run(of_task.size(), [&](FieldSolver&, size_t task) {
+            Comparison comparison(index_, intake_, near_, edge_ends_, limit);
+            const size_t begin = task * at_once, end = std::min<size_t>(begin + at_once, vertices);
+            const size_t far_too_many = 16 * MOST_PAIRS * (end - begin);
+            for (size_t v = begin; v < end && of_task[task].size() < far_too_many; ++v) {
+                workers_.check_cancelled();
+                const auto vertex = static_cast<uint32_t>(v);
+                if (everywhere || has_pairs(vertex)) comparison.compare(vertex, of_task[task]);
+            }
+        });
+        const size_t before = held_.size();
+        for (auto& found : of_task) {
+            held_.insert(held_.end(), found.begin(), found.end());
+            found = {};
+        }
+        keep_different(held_);
+        return held_.size() > before;
     }
-    return result;
+
+    bool has_pairs(uint32_t vertex) const {
+        return !measured().of(index_.number_of_id[intake_.id_of_vertex[vertex]]).empty();
+    }
+
+    void hold() {
+        std::vector<MeasuredPair> pairs;
+        double largest = 0;
+        for (const WrongPair& wrong : held_) {
+            pairs.push_back(wrong.pair);
+            largest = std::max(largest, std::min(wrong.error, 1.0));
+        }
+        take_measured_pairs(pairs, index_.numbering().vertex_count(), measured());
+        measured().largest_error = static_cast<float>(largest);
+    }
+
+    void keep_worst() {
+        std::ranges::stable_sort(held_, std::ranges::greater{}, &WrongPair::error);
+        held_.resize(most());
+        keep_different(held_); // in the order of pairs again
+        hold();
+    }
+
+    MeasuredPairs& measured() const { return std::get<OverlayIndex>(index_.engine).measured; }
+
+    const Intake& intake_;
+    const NearDistances& near_;
+    Workers& workers_;
+    Index& index_;
+    const ListOfLists<uint32_t> edge_ends_;
+    std::vector<WrongPair> held_; // in ascending order, each once
+};
+
+}
+
+void hold_wrong_pairs(const Intake& intake, const NearDistances& near, Workers& workers, Index& index) {
+    Search(intake, near, workers, index).run();
 }
 
 }
