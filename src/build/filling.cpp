@@ -17,12 +17,11 @@ namespace {
 
 constexpr double TABLES_END = 0.91; // the share of the work that is done when all tables are filled
 
-// Up to which distance vertices are compared with the metric: a little beyond what counts as near, since
-// answers are off by a hundredth or more there, too, now and then. There are about 600 vertices so near to
-// each. On very large meshes it is less far, so that they do not take much more than 3 GB.
-double compared_radius(const Mesh& mesh) {
-    constexpr double MOST_EDGES = 1.2 * NEAR_EDGES, MOST_VERTICES = 600000;
-    return MOST_EDGES * std::sqrt(std::min(1.0, MOST_VERTICES / mesh.vertex_count())) * mean_edge(mesh);
+// With how many vertices around each one answers are compared: as far as wrong ones are frequent, which is
+// some twelve edges on scans. On very large meshes they are fewer, so that they take no more than 3 GB.
+uint32_t compared_around(uint32_t vertex_count) {
+    constexpr uint32_t MOST = 640, VERTICES = 600000;
+    return vertex_count <= VERTICES ? MOST : static_cast<uint32_t>(uint64_t{MOST} * VERTICES / vertex_count);
 }
 
 }
@@ -32,7 +31,7 @@ Filling::Filling(const Intake& intake, const geoidx_build_options& options, cons
     : intake_(intake), options_(options), about_(about), index_(index) {
     if (crosses_between_vertices(about) && about.metric == GEOIDX_METRIC_EXACT && about.delta == 0 &&
         follows_positions(about))
-        near_.emplace(intake.mesh.vertex_count(), compared_radius(intake.mesh));
+        near_.emplace(intake.mesh.vertex_count(), compared_around(intake.mesh.vertex_count()));
 }
 
 StoredIndex Filling::fill(const SplitSurface& surface, Workers& workers) {

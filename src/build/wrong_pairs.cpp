@@ -20,7 +20,7 @@ constexpr double RAISE = 1.5;          // by which a larger error is let pass th
 // Along an edge, distances change by no more than its length. Answers may by this much more.
 constexpr double STEEPEST = 1.05;
 constexpr uint32_t MOST_ROUNDS = 4;
-constexpr double LOOKED_AT = 1.1; // near radii: answers beyond are off by more than any that is let pass
+constexpr float LOOKED_AT = 1.1f; // times as far as near vertices: what is beyond is off by more than that
 constexpr size_t FEWEST_AT_ONCE = 64, MOST_TASKS = 256; // sources of a task share a query
 
 struct WrongPair {
@@ -75,8 +75,10 @@ private:
     // With the answers of MSAD.
     void fill_field() {
         const uint32_t id = id_of(source_);
-        const double radius = std::min(LOOKED_AT * near_.radius(), double{std::numeric_limits<float>::max()});
-        const auto found = query_.within({&id, 1}, static_cast<float>(radius));
+        float farthest = 0;
+        for (const auto& near : near_.of(source_)) farthest = std::max(farthest, near.distance);
+        const float radius = std::min(LOOKED_AT * farthest, std::numeric_limits<float>::max());
+        const auto found = query_.within({&id, 1}, radius);
         for (const auto& [distance, other] : found) answer_[other] = distance;
         for (const auto& [vertex, distance] : near_.of(source_))
             field_[vertex] = {distance, answer_[id_of(vertex)]};
@@ -147,7 +149,7 @@ class Search {
 public:
     Search(const Intake& intake, const NearDistances& near, Workers& workers, Index& index)
         : intake_(intake), near_(near), workers_(workers), index_(index),
-          edge_ends_(edge_ends_at_vertices(intake.mesh)) {}
+          edge_ends_(edge_ends_at_vertices(intake.mesh)), average_edge_(mean_edge(intake.mesh)) {}
 
     void run() {
         for (double limit = LARGEST_ERROR; !hold_all(limit) && limit < 1;) limit *= RAISE;
@@ -200,13 +202,13 @@ private:
 
     void hold() {
         std::vector<MeasuredPair> pairs;
-        double largest = 0;
+        measured().largest_errors.fill(0);
         for (const WrongPair& wrong : held_) {
             pairs.push_back(wrong.pair);
-            largest = std::max(largest, std::min(wrong.error, 1.0));
+            float& largest = measured().largest_errors[distance_class(wrong.pair.distance / average_edge_)];
+            largest = std::max(largest, static_cast<float>(std::min(wrong.error, 1.0)));
         }
         take_measured_pairs(pairs, index_.numbering().vertex_count(), measured());
-        measured().largest_error = static_cast<float>(largest);
     }
 
     void keep_worst() {
@@ -223,6 +225,7 @@ private:
     Workers& workers_;
     Index& index_;
     const ListOfLists<uint32_t> edge_ends_;
+    const double average_edge_;
     std::vector<WrongPair> held_; // in ascending order, each once
 };
 

@@ -77,7 +77,7 @@ std::vector<uint32_t> of_pairs(const StoredIndex& stored, const Value& value) {
 std::vector<std::byte> pair_bytes(const StoredIndex& stored) {
     format::ByteWriter writer;
     writer.u64(stored.measured_pairs.size());
-    writer.f32(stored.error_of_measured);
+    writer.f32_array(stored.errors_of_measured);
     uint32_t before = 0;
     writer.u32_planes(of_pairs(
         stored, [&](const MeasuredPair& pair) { return pair.first - std::exchange(before, pair.first); }));
@@ -108,13 +108,14 @@ void read_pairs(const format::Container& container, StoredIndex& stored) {
     constexpr uint64_t BYTES_OF_PAIR = 3 * sizeof(uint32_t), MOST_PAIRS = (uint64_t{1} << 31) - 1;
     const uint64_t vertices = stored.positions.size();
     const uint64_t most_pairs = std::min(MOST_PAIRS, vertices * vertices / 2);
-    const auto bytes = container.read_bytes(TAG_MEASURED_PAIRS,
-                                            sizeof(uint64_t) + sizeof(float) + most_pairs * BYTES_OF_PAIR);
+    const auto bytes = container.read_bytes(
+        TAG_MEASURED_PAIRS, sizeof(uint64_t) + sizeof stored.errors_of_measured + most_pairs * BYTES_OF_PAIR);
     format::ByteReader reader(bytes, "section PAIR");
     const uint64_t count = reader.u64();
-    stored.error_of_measured = reader.f32();
-    if (!(stored.error_of_measured >= 0) || !std::isfinite(stored.error_of_measured))
-        refuse_as_corrupt("section PAIR: the error " + std::to_string(stored.error_of_measured));
+    reader.f32_array(stored.errors_of_measured);
+    for (const float error : stored.errors_of_measured)
+        if (!(error >= 0) || !std::isfinite(error))
+            refuse_as_corrupt("section PAIR: the error " + std::to_string(error));
     if (count > most_pairs || reader.remaining() != count * BYTES_OF_PAIR)
         refuse_as_corrupt("section PAIR does not hold " + std::to_string(count) + " pairs");
     std::vector<uint32_t> steps(count), apart(count), distances(count);

@@ -56,11 +56,12 @@ struct StoredIndex {
     std::vector<float> internal_tables;        // IVIV: of every leaf, below the diagonal
 
     // Overlay engine: codes of distances (src/overlay/codes.h), in steps of the quantum of the patch.
-    std::vector<float> quantum;                  // QUAN: per patch
-    std::vector<uint8_t> shift;                  // QUAN: per patch; its codes are multiples of 2^shift
-    std::vector<uint32_t> segment_end;           // SEGM: per element of `border`, a position there, or NONE
-    std::vector<float> segment_length;           // SEGM: per element of `border`
-    float error_of_measured = 0;                 // PAIR: the largest one of what tables say of these pairs
+    std::vector<float> quantum;        // QUAN: per patch
+    std::vector<uint8_t> shift;        // QUAN: per patch; its codes are multiples of 2^shift
+    std::vector<uint32_t> segment_end; // SEGM: per element of `border`, a position there, or NONE
+    std::vector<float> segment_length; // SEGM: per element of `border`
+    // PAIR: the largest of what tables say of these pairs, by the classes of their distances
+    std::array<float, DISTANCE_CLASSES> errors_of_measured{};
     std::vector<MeasuredPair> measured_pairs;    // PAIR: in ascending order, each once
     std::vector<uint16_t> overlay_codes;         // OVOV: of every inner patch, owned x border, then owned x
                                                  // owned below the diagonal

@@ -24,10 +24,9 @@ struct FieldRequest {
     std::span<const uint32_t> sources, targets;
     std::span<const SurfacePoint> source_points, target_points;
     double radius = UNREACHABLE; // targets farther than this need not be final
-    // The vertices up to this distance are final, too, of those up to `radius`, or at least the nearest
-    // `final_count` of them. Only the exact metric heeds it.
-    double final_radius = 0;
-    uint32_t final_count = std::numeric_limits<uint32_t>::max();
+    // So many vertices are final, too, the nearest ones, of those up to `radius`. Only the exact metric heeds
+    // it.
+    uint32_t final_count = 0;
 };
 
 // Throws Error CANCELLED.

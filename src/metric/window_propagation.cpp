@@ -119,9 +119,7 @@ void WindowPropagation::run(const FieldRequest& request) {
     set_final_up_to(UNREACHABLE);
     while (!queue_.empty()) {
         const auto event = queue_.pop();
-        const bool is_final_part_done =
-            is_done && (event.distance > request.final_radius || settled >= request.final_count);
-        if (event.distance > request.radius || is_final_part_done) {
+        if (event.distance > request.radius || (is_done && settled >= request.final_count)) {
             set_final_up_to(front_);
             break;
         }

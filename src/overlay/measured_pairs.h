@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -23,7 +24,8 @@ struct MeasuredPairs {
     Array<uint32_t>
         begin;           // per vertex number: where its pairs begin in `others`; empty if there are no pairs
     Array<Other> others; // of each vertex in ascending order
-    float largest_error = 0; // of what tables say of these pairs, relative to their distances
+    // Of what tables say of these pairs, relative to their distances, by the classes of these.
+    std::array<float, DISTANCE_CLASSES> largest_errors{};
 
     std::span<const Other> of(uint32_t number) const {
         if (begin.empty()) return {};
@@ -34,7 +36,7 @@ struct MeasuredPairs {
     const float* distance(uint32_t first, uint32_t second) const;
 };
 
-// Replaces all pairs by these, which are in ascending order. The largest error stays as it is.
+// Replaces all pairs by these, which are in ascending order. The largest errors stay as they are.
 void take_measured_pairs(std::span<const MeasuredPair> pairs, uint32_t vertex_count, MeasuredPairs& measured);
 
 // The pairs that were taken.

@@ -171,7 +171,7 @@ void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
     else
         make_hop_codes(stored, index);
     make_inner_bounds(index);
-    index.measured.largest_error = stored.error_of_measured;
+    index.measured.largest_errors = stored.errors_of_measured;
     take_measured_pairs(stored.measured_pairs, index.numbering.vertex_count(), index.measured);
 }
 
@@ -197,7 +197,7 @@ void restore_overlay(const OverlayIndex& index, StoredIndex& stored) {
     const auto internal = index.hops.internal.first(numbering.internal_table_begin.back());
     stored.internal_codes.assign(internal.begin(), internal.end());
     stored.hop_codes = index.hops.codes;
-    stored.error_of_measured = index.measured.largest_error;
+    stored.errors_of_measured = index.measured.largest_errors;
     stored.measured_pairs = restore_measured_pairs(index.measured);
 }
 

@@ -70,11 +70,10 @@ private:
 // The least that a distance can be of which the index says this, by the largest errors that it states. These
 // are of vertices, which have measured pairs; a path asks for distances from its ends by tables alone.
 double PathFinder::least_distance(double distance) const {
-    constexpr double LEAST_ERROR = 1e-3, FARTHEST_MEASURED = 1.5 * NEAR_EDGES;
-    const double edges = distance / surface_.average_edge;
-    double error = std::max(LEAST_ERROR, index_.description.error.by_distance[distance_class(edges)].max);
-    if (edges <= FARTHEST_MEASURED) error = std::max(error, error_of_measured_pairs(index_));
-    return distance / (1 + error);
+    constexpr double LEAST_ERROR = 1e-3;
+    const size_t of_class = distance_class(distance / surface_.average_edge);
+    const double stated = index_.description.error.by_distance[of_class].max;
+    return distance / (1 + std::max({LEAST_ERROR, stated, error_of_measured_pairs(index_, of_class)}));
 }
 
 // Vertices over which there may be a way that is no longer than the path, but for the width of a face.

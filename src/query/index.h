@@ -62,11 +62,11 @@ StoredIndex restore(const Index& index);
 // does.
 void require_hops_follow(const Index& index);
 
-// The largest error that tables are known to have of pairs that are held beside them: answers that measured
-// pairs do not reach may be as wrong.
-inline double error_of_measured_pairs(const Index& index) {
+// The largest error of tables, for pairs of a class of distances that are held beside them: answers that
+// measured pairs do not reach may be as wrong.
+inline double error_of_measured_pairs(const Index& index, size_t of_class) {
     const auto* const overlay = std::get_if<OverlayIndex>(&index.engine);
-    return overlay ? double{overlay->measured.largest_error} : 0;
+    return overlay ? double{overlay->measured.largest_errors[of_class]} : 0;
 }
 
 // Distances that are stored in the tables of an index.

@@ -7,16 +7,15 @@ namespace geodesic {
 
 // Of those that are equally far, the ones with smaller numbers, so that each run keeps the same.
 void NearDistances::take(uint32_t vertex, const FieldSolver& solver) {
-    const double radius = std::min(radius_, solver.final_up_to());
     std::vector<Near> near;
     for (const uint32_t other : solver.reached())
         if (const auto distance = static_cast<float>(solver.distance(other));
-            other < near_.size() && distance > 0 && solver.distance(other) <= radius)
+            other < near_.size() && distance > 0 && solver.distance(other) <= solver.final_up_to())
             near.push_back({other, distance});
-    if (near.size() > MOST) {
-        std::ranges::nth_element(near, near.begin() + MOST, {},
+    if (near.size() > most_) {
+        std::ranges::nth_element(near, near.begin() + most_, {},
                                  [](const Near& n) { return std::pair(n.distance, n.vertex); });
-        near.resize(MOST);
+        near.resize(most_);
     }
     near_[vertex].assign(near.begin(), near.end());
 }

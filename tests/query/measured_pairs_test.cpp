@@ -79,7 +79,7 @@ Bytes section_of(std::span<const Planted> pairs, std::span<const uint32_t> numbe
     }
     format::ByteWriter writer;
     writer.u64(pairs.size());
-    writer.f32(0.5f);
+    for (const float error : {0.5f, 0.25f, 0.0f}) writer.f32(error);
     for (const auto* planes : {&steps, &apart, &distances}) writer.u32_planes(*planes);
     return writer.take();
 }
@@ -255,13 +255,13 @@ TEST_CASE("measured pairs: a section that breaks a rule is refused") {
     const auto container = format::Container::parse(plain_file(), geodesic::INDEX_TAGS);
     const auto good = section_of(planted(), numbers_of_ids(container));
     REQUIRE(open_status(with_section(good)) == GEOIDX_OK);
-    REQUIRE(open_status(with_section(Bytes(12))) == GEOIDX_OK); // no pair at all
+    REQUIRE(open_status(with_section(Bytes(20))) == GEOIDX_OK); // no pair at all
     const size_t pairs = planted().size();
     const auto refused = [&](const char* what, size_t plane, size_t pair, uint32_t value) {
         CAPTURE(what);
         Bytes section = good; // u32 in planes: the lowest byte of each, then the second one
         for (size_t byte = 0; byte < 4; ++byte)
-            section[12 + plane * 4 * pairs + byte * pairs + pair] =
+            section[20 + plane * 4 * pairs + byte * pairs + pair] =
                 static_cast<std::byte>(value >> 8 * byte & 0xff);
         const Bytes file = with_section(section);
         CHECK(open_status(file) == GEOIDX_ERROR_CORRUPT);
@@ -289,6 +289,6 @@ TEST_CASE("measured pairs: a section that breaks a rule is refused") {
     Bytes longer = good, shorter = good;
     longer.push_back(std::byte{0});
     shorter.pop_back();
-    for (const Bytes& section : {longer, shorter, Bytes(11)})
+    for (const Bytes& section : {longer, shorter, Bytes(19)})
         CHECK(open_status(with_section(section)) == GEOIDX_ERROR_CORRUPT);
 }

@@ -361,8 +361,8 @@ class Index:
         if "PAIR" not in self.sections:
             return
         fields = Fields(self.sections["PAIR"].bytes())
-        count, error = int(fields.take("<u8", 1)[0]), float(fields.take("<f4", 1)[0])
-        require(0 <= error < numpy.inf, "an error that cannot be")
+        count, errors = int(fields.take("<u8", 1)[0]), fields.take("<f4", 3)
+        require(((0 <= errors) & (errors < numpy.inf)).all(), "errors that cannot be")
         first = fields.planes(count).cumsum(dtype="u4")
         second, distance = first + fields.planes(count), fields.planes(count).view("<f4")
         require(fields.at == len(fields.content), "PAIR is longer than its pairs")
