@@ -19,7 +19,7 @@ constexpr size_t MOST_PAIRS = 4;       // for each vertex, on average
 constexpr double RAISE = 1.5;          // by which a larger error is let pass then
 // Along an edge, distances change by no more than its length. Answers may by this much more.
 constexpr double STEEPEST = 1.05;
-constexpr uint32_t MOST_ROUNDS = 4;
+constexpr uint32_t MOST_PASSES = 4;
 constexpr float LOOKED_AT = 1.1f; // times as far as near vertices: what is beyond is off by more than that
 constexpr size_t FEWEST_AT_ONCE = 64, MOST_TASKS = 256; // sources of a task share a query
 
@@ -164,8 +164,8 @@ private:
     bool hold_all(double limit) {
         held_.clear();
         hold();
-        for (uint32_t round = 0; round < MOST_ROUNDS; ++round) {
-            if (!find(limit, round == 0)) return true;
+        for (uint32_t pass = 0; pass < MOST_PASSES; ++pass) {
+            if (!find(limit, pass == 0)) return true;
             if (held_.size() > most()) return false;
             hold();
         }
