@@ -33,7 +33,7 @@ public:
     // was calibrated by, if it was.
     std::vector<const ExactFields*> solved_fields() const;
 
-    // Those of the latest fill(), if the metric is one for which they are measured.
+    // What fill() found near each vertex, if the metric is one for which that is kept.
     const std::optional<NearDistances>& near_distances() const { return near_; }
 
     // The number of table entries that fill() would make.
@@ -52,7 +52,7 @@ private:
     Index& index_;
     // Solved once, since distances between vertices of the caller's are the same on all meshes.
     std::optional<ExactFields> calibration_, measuring_;
-    std::optional<NearDistances> near_;
+    std::optional<NearDistances> near_; // taken once for each vertex, for the same reason
 };
 
 }
