@@ -18,8 +18,6 @@ constexpr int32_t MOST_STEPS = (1 << 23) - 1;
 struct MeasuredPair {
     uint32_t first, second; // first < second
     float distance;
-
-    bool operator==(const MeasuredPair&) const = default;
 };
 
 // What a file holds: one field for each field of format/SPEC.md, in the same order. The builder and the
