@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src/base/prefetch.h"
 #include "src/overlay/kernels/nearest_places.h"
 
 namespace geodesic {
@@ -10,6 +11,10 @@ namespace {
 
 // From so many near columns on, those of a block take less time together than one by one.
 constexpr size_t MANY_NEAR = 5;
+
+// Of each row, so many codes are asked for before the first row is read. Processors find those behind by
+// themselves.
+constexpr uint32_t CODES_AHEAD = 64;
 
 }
 
@@ -55,8 +60,13 @@ void OverlayCrossing::cross_to_owned(Columns owned, float* distances, uint16_t* 
 template <class RowAt>
 void OverlayCrossing::cross(const RowAt& row_at, Columns columns, float* distances, uint16_t* winners) {
     if (columns.empty()) return;
+    const auto [first, last] = std::minmax(columns.front(), columns.back());
+    const uint32_t ahead = std::min(last - first + 1, CODES_AHEAD);
     const uint16_t** row = rows_.data();
-    part_.for_each_place([&](uint32_t place) { *row++ = row_at(index_.position_in_parent(patch_, place)); });
+    part_.for_each_place([&](uint32_t place) {
+        *row = row_at(index_.position_in_parent(patch_, place));
+        prefetch(*row++ + first, ahead);
+    });
     cross_rows(columns, distances, winners);
 }
 

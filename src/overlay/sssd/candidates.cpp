@@ -9,8 +9,9 @@ namespace geodesic {
 
 namespace {
 
-// A candidate longer than the shortest one by more than this factor is not measured.
-constexpr float WORTH_MEASURING = 1.05f;
+// A candidate longer than the shortest one by more than so many spacings of samples is not measured: what it
+// loses by being straightened is less than that.
+constexpr float WORTH_MEASURING = 0.5f;
 
 // An end that is nearer to a border than this many spacings of its samples counts as lying beside the border.
 constexpr float BESIDE = 1;
@@ -42,7 +43,7 @@ float least_of(uint32_t count, const Value& value) {
 // each side, in ascending order.
 std::array<Way, Candidates::MOST_BY_LENGTH> shortest_ways(const OverlayIndex& index, uint32_t patch,
                                                           std::span<const float> lengths, float least) {
-    const float longest = least * WORTH_MEASURING;
+    const float longest = least + WORTH_MEASURING * index.pairs.samples.spacing[patch];
     std::array<Way, Candidates::MOST_BY_LENGTH> shortest;
     if (!(least < INFINITE)) return shortest;
     for_each_chain_of_samples(index, patch, [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {

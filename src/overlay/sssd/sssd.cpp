@@ -229,7 +229,7 @@ float OverlaySssd::meet() {
     const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
     if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_)) return least;
     uint32_t place;
-    if (least < NEAR_SPACINGS * spacing && take_parts_within(least)) return measure(place);
+    if (least < NEAR_SPACINGS * spacing && take_parts_within(least, ways)) return measure(place);
     float shortest = INFINITE;
     for (const uint32_t sample : find_candidates(index_, patch, ways, least)) {
         const auto length = [&](uint32_t over) { return lengths_[over]; };
@@ -239,15 +239,16 @@ float OverlaySssd::meet() {
     return shortest <= least * (1 + SAMPLES_ROUNDING) ? shortest : least;
 }
 
-// Takes the parts of both ends that a way no longer than this can cross. Returns whether they are small
-// enough to be measured.
-bool OverlaySssd::take_parts_within(float length) {
-    to_.take_parts_within(index_, length);
+// Takes the parts of both ends that a way no longer than this can cross. From the meeting border on, it has at
+// least as far to go as from there to the other end. Returns whether the parts are small enough to be
+// measured.
+bool OverlaySssd::take_parts_within(float length, const WaysOverSamples& ways) {
+    to_.take_parts_within(index_, length - std::ranges::min(ways.from));
     const uint32_t patch = meeting_patch();
     to_.parts.back() = part_within(index_, patch, lengths_, length + index_.pairs.samples.spacing[patch]);
     size_t pairs = to_.pairs_between_parts();
     if (!from_.is_at_top()) {
-        from_.take_parts_within(index_, length);
+        from_.take_parts_within(index_, length - std::ranges::min(ways.to));
         pairs += from_.pairs_between_parts() + size_t{from_.parts.back().size()} * to_.parts.back().size();
     }
     return pairs <= MOST_NEAR_PAIRS;
