@@ -11,7 +11,7 @@ namespace {
 
 // A candidate longer than the shortest one by more than so many spacings of samples is not measured: what it
 // loses by being straightened is less than that.
-constexpr float WORTH_MEASURING = 0.5f;
+constexpr float WORTH_MEASURING = 1;
 
 // An end that is nearer to a border than this many spacings of its samples counts as lying beside the border.
 constexpr float BESIDE = 1;

@@ -22,9 +22,13 @@ constexpr size_t FEW_PAIRS_OF_HOPS = 3 * FEW_PAIRS;
 // takes long: so many of its pairs count as one.
 constexpr size_t PAIRS_OF_CHAINS_AS_ONE = 128, PLACES_OF_SHORT_CHAIN = 48;
 
-// Of ways no longer than so many spacings of samples, the shortest one need not be the shortest over samples:
-// these make each longer by a share of a spacing. Everything that such a way can cross is measured.
+// Of ways no longer than so many spacings of samples, or as many of the border's longest segments, the shortest
+// one need not be the shortest over samples: these make each longer by a share of a spacing. Everything that
+// such a way can cross is measured.
 constexpr float NEAR_SPACINGS = 14;
+
+// Ways over samples are longer than the true ones by up to so many spacings, since these are averages.
+constexpr float MOST_LONGER = 2;
 
 // Unless these are more pairs of places than that, which would take too long.
 constexpr size_t MOST_NEAR_PAIRS = size_t{1} << 15;
@@ -136,8 +140,8 @@ void OverlaySssd::End::take_parts_within(const OverlayIndex& index, float length
     parts.clear();
     for (size_t b = 0; b < ascent.patches.size(); ++b) {
         const uint32_t patch = ascent.patches[b];
-        parts.push_back(
-            part_within(index, patch, sampled.distances(b), length + index.pairs.samples.spacing[patch]));
+        parts.push_back(part_within(index, patch, sampled.distances(b),
+                                    length + MOST_LONGER * index.pairs.samples.spacing[patch]));
     }
 }
 
@@ -229,7 +233,9 @@ float OverlaySssd::meet() {
     const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
     if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_)) return least;
     uint32_t place;
-    if (least < NEAR_SPACINGS * spacing && take_parts_within(least, ways)) return measure(place);
+    if (least < NEAR_SPACINGS * std::max(spacing, index_.longest_segment[patch]) &&
+        take_parts_within(least, ways))
+        return measure(place);
     float shortest = INFINITE;
     for (const uint32_t sample : find_candidates(index_, patch, ways, least)) {
         const auto length = [&](uint32_t over) { return lengths_[over]; };
@@ -239,13 +245,14 @@ float OverlaySssd::meet() {
     return shortest <= least * (1 + SAMPLES_ROUNDING) ? shortest : least;
 }
 
-// Takes the parts of both ends that a way no longer than this can cross. From the meeting border on, it has at
-// least as far to go as from there to the other end. Returns whether the parts are small enough to be
+// Takes the parts of both ends that a way no longer than this can cross. From the meeting border on, it has
+// at least as far to go as from there to the other end. Returns whether the parts are small enough to be
 // measured.
 bool OverlaySssd::take_parts_within(float length, const WaysOverSamples& ways) {
     to_.take_parts_within(index_, length - std::ranges::min(ways.from));
     const uint32_t patch = meeting_patch();
-    to_.parts.back() = part_within(index_, patch, lengths_, length + index_.pairs.samples.spacing[patch]);
+    to_.parts.back() =
+        part_within(index_, patch, lengths_, length + MOST_LONGER * index_.pairs.samples.spacing[patch]);
     size_t pairs = to_.pairs_between_parts();
     if (!from_.is_at_top()) {
         from_.take_parts_within(index_, length - std::ranges::min(ways.to));
