@@ -11,6 +11,8 @@
 #include "src/build/wrong_pairs.h"
 #include "src/file/kept_mesh.h"
 #include "src/index/stored.h"
+#include "src/metric/edge_graph.h"
+#include "src/metric/fast_marching.h"
 #include "src/partition/hierarchy.h"
 
 namespace geodesic {
@@ -53,6 +55,9 @@ HierarchyOptions hierarchy_options(const geoidx_mesh& mesh, const Intake& intake
     result.lloyd_iterations = options.lloyd_iterations;
     result.seed = options.seed;
     result.edge_lengths = given_lengths(mesh, intake, options);
+    if (result.edge_lengths.empty()) result.edge_lengths = edge_lengths(intake.mesh);
+    if (options.metric == GEOIDX_METRIC_EXACT)
+        result.rough_metric = std::make_shared<FastMarchingMetric>(intake.mesh, result.edge_lengths);
     return result;
 }
 
@@ -98,7 +103,7 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     const double first_end = may_add_vertices(options) ? FIRST_FILLING_END : 1;
     Workers workers(*metric, options.threads, part_of_progress(filling_progress, 0, first_end));
 
-    workers.begin_stage("patches", 0.1);
+    workers.begin_stage("patches", 0.05);
     const Hierarchy hierarchy =
         build_hierarchy(intake.mesh, hierarchy_options(mesh, intake, options), workers);
     Filling filling(intake, options, about, index);

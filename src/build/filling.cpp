@@ -37,7 +37,7 @@ Filling::Filling(const Intake& intake, const geoidx_build_options& options, cons
 StoredIndex Filling::fill(const SplitSurface& surface, Workers& workers) {
     StoredIndex stored;
     stored.description = about_;
-    workers.begin_stage("borders", 0.13);
+    workers.begin_stage("borders", 0.06);
     const auto vertex_of_number = lay_out_vertices(surface, workers, stored);
     workers.begin_stage("tables", options_.engine == GEOIDX_ENGINE_OVERLAY ? 0.88 : TABLES_END);
     fill_tables(surface, vertex_of_number, workers, stored);

@@ -79,8 +79,11 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
             Random random(seed_of_patch(options.seed, first + static_cast<uint32_t>(i)));
             const double share = static_cast<double>(patches[i].size()) / mesh.face_count();
             const uint32_t count = child_count(options, level, share);
-            children[i] =
-                split_patch(mesh, lengths, patches[i], count, options.lloyd_iterations, solver, random);
+            const bool is_rough = options.rough_metric && patches[i].size() > HierarchyOptions::LARGE_PATCH;
+            const auto rough = is_rough ? options.rough_metric->make_solver() : nullptr;
+            if (rough) workers.end_when_cancelled(*rough);
+            children[i] = split_patch(mesh, lengths, patches[i], count, options.lloyd_iterations,
+                                      rough ? *rough : solver, random);
         });
         std::vector<std::vector<uint32_t>> next;
         for (uint32_t i = 0; i < children.size(); ++i) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "src/mesh/mesh.h"
@@ -39,6 +41,11 @@ struct HierarchyOptions {
     std::vector<uint8_t> in_proportion = {};
     // Of each edge of the mesh; empty means those that follow from the positions.
     std::vector<double> edge_lengths = {};
+    // Patches of more than LARGE_PATCH faces are split by these distances instead of the metric's, or by the
+    // metric's if there are none. Borders are moved to where they are short anyway, and the exact metric
+    // takes longest where it has least to tell: on large and smooth surfaces.
+    std::shared_ptr<const Metric> rough_metric = {};
+    static constexpr size_t LARGE_PATCH = 4000;
 };
 
 // The sizes that a hierarchy is given where the caller does not choose them.

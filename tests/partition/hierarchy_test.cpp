@@ -1,7 +1,9 @@
 #include "src/partition/hierarchy.h"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <set>
 #include <string>
@@ -10,6 +12,7 @@
 
 #include "geoidx.h"
 #include "src/metric/edge_graph.h"
+#include "src/metric/fast_marching.h"
 #include "src/metric/window_propagation.h"
 #include "src/partition/split.h"
 #include "tests/support/meshes.h"
@@ -195,10 +198,57 @@ TEST_CASE("hierarchy: other metrics split, too, also with edges of no length") {
 }
 
 TEST_CASE("hierarchy: a cancelled build ends with CANCELLED") {
-    const Mesh mesh = mesh_of(bumpy_sphere(3, 1));
+    const Mesh mesh = mesh_of(grid(60, 50, 3, 1));
     const ExactMetric metric(mesh);
-    Workers workers(metric, 2, [](double, const char*) { return false; });
-    CHECK(failure_of([&] { build_hierarchy(mesh, {{8, 4}, 4, 1}, workers); }) == GEOIDX_ERROR_CANCELLED);
+    const auto rough = std::make_shared<FastMarchingMetric>(mesh, edge_lengths(mesh));
+    REQUIRE(mesh.face_count() > HierarchyOptions::LARGE_PATCH);
+    for (const auto& of_large_patches :
+         {std::shared_ptr<const Metric>(), std::shared_ptr<const Metric>(rough)}) {
+        Workers workers(metric, 2, [](double, const char*) { return false; });
+        CHECK(failure_of([&] {
+                  build_hierarchy(mesh, {{8, 4}, 4, 1, {}, {}, of_large_patches}, workers);
+              }) == GEOIDX_ERROR_CANCELLED);
+    }
+}
+
+// A metric that counts its solves, and is the edge graph otherwise.
+class CountedMetric final : public Metric {
+public:
+    explicit CountedMetric(const Mesh& mesh) : edges_(mesh, edge_lengths(mesh)) {}
+    std::unique_ptr<FieldSolver> make_solver() const override {
+        ++solvers;
+        return edges_.make_solver();
+    }
+
+    mutable std::atomic<int> solvers = 0;
+
+private:
+    EdgeGraphMetric edges_;
+};
+
+TEST_CASE("hierarchy: rough distances split large patches, and no others") {
+    for (const Soup& soup : {bumpy_sphere(5, 1), torus(80, 40, 2, 0.8), grid(60, 50, 3, 1)}) {
+        const Mesh mesh = mesh_of(soup);
+        REQUIRE(mesh.face_count() > HierarchyOptions::LARGE_PATCH);
+        const ExactMetric metric(mesh);
+        const auto build_with = [&](std::shared_ptr<const Metric> rough, uint32_t threads) {
+            Workers workers(metric, threads, {});
+            return build_hierarchy(mesh, {{12, 6}, 4, 1, {}, {}, std::move(rough)}, workers);
+        };
+        const auto rough = std::make_shared<FastMarchingMetric>(mesh, edge_lengths(mesh));
+        const Hierarchy h = build_with(rough, 1);
+        CHECK(same(h, build_with(rough, 2)));
+        check_numbering(h, 2);
+        const uint32_t first = h.level_begin[2] - 1;
+        CHECK(first >= 10);
+        CHECK(first <= 12);
+        const auto faces = faces_of_patches(h);
+        for (uint32_t p = 1; p < h.patch_count(); ++p) CHECK(edge_connected(mesh, faces[p]));
+        for (uint32_t p = 1; p <= first; ++p) CHECK(faces[p].size() <= 4 * mesh.face_count() / first);
+        const auto counted = std::make_shared<CountedMetric>(mesh);
+        build_with(counted, 2);
+        CHECK(counted->solvers == 1); // the whole mesh; its patches are small
+    }
 }
 
 TEST_CASE("split_patch: a part of the mesh, into a partition of just its faces") {
