@@ -9,9 +9,9 @@
 
 #include "src/metric/window_propagation.h"
 #include "src/path/least_excess.h"
-#include "src/path/search.h"
 #include "src/path/sides.h"
 #include "src/path/straighten.h"
+#include "src/path/strip_search.h"
 
 namespace geodesic {
 

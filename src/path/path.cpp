@@ -10,9 +10,9 @@
 #include "src/path/costs.h"
 #include "src/path/face_points.h"
 #include "src/path/nearby.h"
-#include "src/path/search.h"
 #include "src/path/sides.h"
 #include "src/path/straighten.h"
+#include "src/path/strip_search.h"
 #include "src/path/vertex_path.h"
 #include "src/path/weighted_path.h"
 

@@ -6,9 +6,9 @@
 #include "format/error.h"
 #include "geoidx.h"
 #include "src/path/costs.h"
+#include "src/path/edge_search.h"
 #include "src/path/face_points.h"
 #include "src/path/nearby.h"
-#include "src/path/search.h"
 #include "src/path/strip.h"
 
 namespace geodesic {

@@ -4,9 +4,9 @@
 
 #include <doctest/doctest.h>
 
-#include "src/path/search.h"
 #include "src/path/sides.h"
 #include "src/path/straighten.h"
+#include "src/path/strip_search.h"
 #include "tests/support/meshes.h"
 
 using namespace geodesic;

@@ -24,17 +24,4 @@ struct TargetDistances {
 std::optional<Strip> search_strip(const Surface& surface, const SurfacePoint& source,
                                   const SurfacePoint& target, const TargetDistances& distances);
 
-// A vertex that a way begins or ends at, and how far it is from the end of the path.
-struct VertexEnd {
-    uint32_t vertex;
-    double distance;
-};
-
-// The same over edges alone: the vertices of the way, from one of the sources to one of the targets. Edges of
-// infinite length are not passed.
-std::optional<std::vector<uint32_t>>
-search_edges(const Surface& surface, std::span<const VertexEnd> sources, std::span<const VertexEnd> targets,
-             const std::function<double(uint32_t)>& distance_to_target,
-             const std::function<double(uint32_t, uint32_t)>& edge_length);
-
 }
