@@ -14,20 +14,20 @@ namespace geodesic {
 template <class T>
 class NumberMap {
 public:
-    // The value of a number, T{} at first. The next number that is new moves it.
+    // The value of a number, T{} at first. The next call may move it.
     T& operator[](uint32_t number) {
-        if (2 * (count_ + 1) > cells_.size()) grow();
+        if (free_ == 0) grow();
         Cell& cell = cell_of(number);
         if (cell.number == NONE) {
             cell.number = number;
-            ++count_;
+            --free_;
         }
         return cell.value;
     }
 
     void clear() {
         cells_.assign(cells_.size(), {});
-        count_ = 0;
+        free_ = cells_.size() / 2;
     }
 
 private:
@@ -41,20 +41,23 @@ private:
     Cell& cell_of(uint32_t number) {
         constexpr uint32_t GOLDEN = 0x9e3779b9; // spreads numbers that are close to each other
         size_t i = (number * GOLDEN) >> shift_;
-        while (cells_[i].number != number && cells_[i].number != NONE) i = (i + 1) & (cells_.size() - 1);
+        while (cells_[i].number != number && cells_[i].number != NONE) i = (i + 1) & last_;
         return cells_[i];
     }
 
     void grow() {
         std::vector<Cell> old(cells_.empty() ? FEWEST_CELLS : 2 * cells_.size());
         old.swap(cells_);
+        free_ = cells_.size() / 2 - old.size() / 2;
+        last_ = cells_.size() - 1;
         shift_ = 32 - std::countr_zero(cells_.size());
         for (Cell& cell : old)
             if (cell.number != NONE) cell_of(cell.number) = cell;
     }
 
     std::vector<Cell> cells_; // a power of two, at least half of them without a number
-    size_t count_ = 0;
+    size_t free_ = 0;         // numbers that there is room for without more cells
+    size_t last_ = 0;         // cell
     int shift_ = 0;
 };
 

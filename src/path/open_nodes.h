@@ -32,6 +32,11 @@ public:
         return node;
     }
     const Node& operator[](uint32_t i) const { return nodes_[i]; }
+    void clear() {
+        beside_ = {};
+        heap_.clear();
+        nodes_.clear();
+    }
 
 private:
     static constexpr size_t CHILDREN = 4;

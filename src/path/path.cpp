@@ -43,7 +43,7 @@ public:
     PathFinder(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
                const SurfacePoint& target)
         : index_(index), query_(query), surface_(surface), points_(index, query, surface), source_(source),
-          target_(target) {}
+          target_(target), search_(surface) {}
 
     SurfacePath find(PathQuality quality);
     StripWay find_straight();
@@ -65,6 +65,7 @@ private:
     const Surface& surface_;
     PointQueries points_;
     const SurfacePoint source_, target_;
+    StripSearch search_;
 };
 
 // The least that a distance can be of which the index says this, by the largest errors that it states. These
@@ -84,8 +85,8 @@ bool PathFinder::belongs(uint32_t vertex, double slack, double length) {
 // Led by the distances from one end, from the other one on; the strip leads from source to target.
 std::optional<Strip> PathFinder::led_by(size_t end) {
     const TargetDistances distances = distances_from(end);
-    if (end == 1) return search_strip(surface_, source_, target_, distances);
-    auto strip = search_strip(surface_, target_, source_, distances);
+    if (end == 1) return search_.run(source_, target_, distances);
+    auto strip = search_.run(target_, source_, distances);
     if (strip) turn_back(*strip);
     return strip;
 }

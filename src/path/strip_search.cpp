@@ -4,154 +4,113 @@
 #include <array>
 #include <utility>
 
-#include "src/base/number_map.h"
 #include "src/path/edge_crossing.h"
 #include "src/path/nearby.h"
-#include "src/path/open_nodes.h"
 
 namespace geodesic {
 
-namespace {
-
 using Eigen::Vector3d;
 
-class FaceSearch {
-public:
-    FaceSearch(const Surface& surface, const SurfacePoint& source, const SurfacePoint& target,
-               const TargetDistances& distances)
-        : surface_(surface), distances_(distances), target_position_(position_of(surface, target)) {
-        for_each_alias(surface, source, [&](const SurfacePoint& alias) { sources_.push_back(alias); });
-        for_each_alias(surface, target, [&](const SurfacePoint& alias) { targets_.push_back(alias); });
-    }
+void StripSearch::begin(const SurfacePoint& source, const SurfacePoint& target) {
+    open_.clear();
+    faces_.clear();
+    vertices_.clear();
+    sources_.clear();
+    targets_.clear();
+    target_position_ = position_of(surface_, target);
+    for_each_alias(surface_, source, [&](const SurfacePoint& alias) { sources_.push_back(alias); });
+    for_each_alias(surface_, target, [&](const SurfacePoint& alias) { targets_.push_back(alias); });
+    for (const SurfacePoint& alias : sources_)
+        open(faces_[alias.face], 0, {Kind::FACE, alias.face, NONE, {{NONE, NONE}, 0, 0}, 0, 0});
+}
 
-    std::optional<Strip> run();
-
-private:
-    enum class Kind { FACE, VERTEX, TARGET };
-    struct Node {
-        Kind kind;
-        uint32_t item;
-        Portal portal; // that a face was entered by; NONE twice where the way begins
-        Vector3d at;
-        double length; // up to there
-        uint32_t before;
-    };
-
-    // What is known of a face, or of a vertex and its distance to the target.
-    struct Met {
-        double expected = UNREACHABLE; // the least length in all over nodes that are open there
-        double rest = UNKNOWN;
-    };
-    static constexpr double UNKNOWN = -1;
-    static constexpr double CLOSED = -UNREACHABLE; // expected where no node is opened any more
-
-    // An edge, and how far its ends are from the target.
-    struct Edge {
-        Portal ends;
-        double from_a, from_b;
-    };
-
-    Met& met(Kind kind, uint32_t item) { return kind == Kind::FACE ? faces_[item] : vertices_[item]; }
-    double rest_from(uint32_t vertex);
-    void open(Met& met, double rest, Node&& node);
-    bool close(const Node& node);
-    void reach_target(uint32_t index);
-    void leave_face(uint32_t index);
-    void pass_vertex(uint32_t index, const Node& node, uint32_t vertex);
-    void pass_edge(uint32_t index, const Node& node, const Edge& edge);
-    EdgeCrossing cross_edge(const Edge& edge, const Vector3d& from);
-    void leave_vertex(uint32_t index);
-    Strip strip_to(uint32_t index) const;
-
-    const Surface& surface_;
-    const TargetDistances& distances_;
-    const Vector3d target_position_;
-    std::vector<SurfacePoint> sources_, targets_;
-    OpenNodes<Node> open_;
-    NumberMap<Met> faces_, vertices_;
-};
-
-double FaceSearch::rest_from(uint32_t vertex) {
-    double& rest = vertices_[vertex].rest;
-    if (rest == UNKNOWN) rest = distances_.at_vertex(vertex);
-    return rest;
+// Of a face or a vertex.
+Vector3d StripSearch::position(const Node& node) const {
+    if (node.kind == Kind::VERTEX) return surface_.positions[node.item];
+    if (node.entry.ends.a != NONE) return position_at(surface_, node.entry.ends, node.share);
+    return position_of(surface_, *std::ranges::find(sources_, node.item, &SurfacePoint::face));
 }
 
 // Unless the face or vertex is closed or will be before this node's turn.
-void FaceSearch::open(Met& met, double rest, Node&& node) {
-    const double expected = node.length + rest * (1 + distances_.error);
-    if (!(expected < met.expected)) return;
-    met.expected = expected;
-    open_.push(expected, std::move(node));
+void StripSearch::open(Expected& expected, double rest, Node&& node) {
+    const double length = node.length + rest * (1 + distances_->error);
+    if (!(length < expected.length)) return;
+    expected.length = length;
+    open_.push(length, std::move(node));
 }
 
-bool FaceSearch::close(const Node& node) {
-    double& expected = met(node.kind, node.item).expected;
-    if (expected == CLOSED) return false;
-    expected = CLOSED;
-    return true;
+bool StripSearch::close(const Node& node) {
+    return std::exchange(expected_at(node).length, CLOSED) != CLOSED;
 }
 
-void FaceSearch::reach_target(uint32_t index) {
+void StripSearch::reach_target(const Leaving& leaving) {
+    const double length = leaving.length + (target_position_ - leaving.at).norm();
+    open_.push(length, {Kind::TARGET, leaving.face, leaving.node, {}, 0, length});
+}
+
+// What the edge leads to that the face was entered by was reached from the face before, in a shorter way.
+void StripSearch::leave_face(uint32_t index) {
     const Node& node = open_[index];
-    const double length = node.length + (target_position_ - node.at).norm();
-    open_.push(length, {Kind::TARGET, node.item, {}, target_position_, length, index});
-}
-
-// What the edge that the way came over leads to was reached from the face before, in a shorter way.
-void FaceSearch::leave_face(uint32_t index) {
-    const Node node = open_[index];
-    if (std::ranges::find(targets_, node.item, &SurfacePoint::face) != targets_.end()) reach_target(index);
-    const auto corners = surface_.faces[node.item];
+    const Leaving leaving{index, node.item, position(node), node.length};
+    const Edge entry = node.entry;
+    if (std::ranges::find(targets_, leaving.face, &SurfacePoint::face) != targets_.end())
+        reach_target(leaving);
+    const auto& corners = surface_.faces[leaving.face];
     std::array<double, 3> rests;
-    std::ranges::transform(corners, rests.begin(), [&](uint32_t corner) { return rest_from(corner); });
+    for (size_t k = 0; k < 3; ++k) rests[k] = rest_from(corners[k], entry);
     for (size_t k = 0; k < 3; ++k) {
-        size_t i = (k + 1) % 3, j = (k + 2) % 3;
-        if (corners[j] < corners[i]) std::swap(i, j);
-        const Edge opposite{{corners[i], corners[j]}, rests[i], rests[j]};
-        const bool is_entry = opposite.ends == node.portal;
-        if (is_entry || node.portal.is_vertex()) pass_vertex(index, node, corners[k]);
-        if (!is_entry) pass_edge(index, node, opposite);
+        const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+        const bool is_of_entry = entry.ends.contains(corners[k]);
+        if (!is_of_entry) pass_vertex(leaving, corners[k]);
+        if (is_of_entry || entry.ends.is_vertex())
+            pass_edge(leaving, edge_between(corners[i], rests[i], corners[j], rests[j]));
     }
 }
 
-void FaceSearch::pass_vertex(uint32_t index, const Node& node, uint32_t vertex) {
-    Met& met = vertices_[vertex];
-    if (met.expected == CLOSED) return;
-    const Vector3d at = surface_.positions[vertex];
-    const double length = node.length + (at - node.at).norm();
-    open(met, met.rest, {Kind::VERTEX, vertex, {}, at, length, index});
+double StripSearch::rest_from(uint32_t vertex, const Edge& entry) {
+    if (vertex == entry.ends.a) return entry.from_a;
+    if (vertex == entry.ends.b) return entry.from_b;
+    double& rest = vertices_[vertex].rest;
+    if (rest == UNKNOWN) rest = distances_->at_vertex(vertex);
+    return rest;
 }
 
-void FaceSearch::pass_edge(uint32_t index, const Node& node, const Edge& edge) {
-    for_each_face_beyond(surface_, node.item, edge.ends.a, edge.ends.b, [&](uint32_t face) {
-        Met& met = faces_[face];
-        if (met.expected == CLOSED) return;
-        const EdgeCrossing crossing = cross_edge(edge, node.at);
-        const Vector3d at = position_at(surface_, edge.ends, crossing.share);
-        const double length = node.length + (at - node.at).norm();
-        open(met, crossing.rest, {Kind::FACE, face, edge.ends, at, length, index});
+void StripSearch::pass_vertex(const Leaving& leaving, uint32_t vertex) {
+    auto& [expected, rest] = vertices_[vertex];
+    if (expected.length == CLOSED) return;
+    const double length = leaving.length + (surface_.positions[vertex] - leaving.at).norm();
+    open(expected, rest, {Kind::VERTEX, vertex, leaving.node, {{vertex, vertex}, rest, rest}, 0, length});
+}
+
+void StripSearch::pass_edge(const Leaving& leaving, const Edge& edge) {
+    Crossing crossing;
+    for_each_face_beyond(surface_, leaving.face, edge.ends.a, edge.ends.b, [&](uint32_t face) {
+        Expected& expected = faces_[face];
+        if (expected.length == CLOSED) return;
+        if (!crossing.is_known) crossing = cross(leaving, edge);
+        open(expected, crossing.rest,
+             {Kind::FACE, face, leaving.node, edge, crossing.share, crossing.length});
     });
 }
 
-EdgeCrossing FaceSearch::cross_edge(const Edge& edge, const Vector3d& from) {
+StripSearch::Crossing StripSearch::cross(const Leaving& leaving, const Edge& edge) const {
     const auto [a, b] = edge.ends;
-    const auto inside = distances_.inside_edge ? distances_.inside_edge(a, b) : std::span<const double>();
-    return geodesic::cross_edge(surface_, a, b, from, edge.from_a, inside, edge.from_b);
+    const auto inside = distances_->inside_edge ? distances_->inside_edge(a, b) : std::span<const double>();
+    const auto [share, rest] = cross_edge(surface_, a, b, leaving.at, edge.from_a, inside, edge.from_b);
+    const Vector3d at = position_at(surface_, edge.ends, share);
+    return {true, share, rest, leaving.length + (at - leaving.at).norm()};
 }
 
-void FaceSearch::leave_vertex(uint32_t index) {
-    const Node node = open_[index];
-    const Portal portal{node.item, node.item};
-    const double rest = rest_from(node.item);
-    for (const uint32_t face : surface_.vertex_faces[node.item])
-        open(faces_[face], rest, {Kind::FACE, face, portal, node.at, node.length, index});
+void StripSearch::leave_vertex(uint32_t index) {
+    const auto [kind, vertex, before, entry, share, length] = open_[index];
+    for (const uint32_t face : surface_.vertex_faces[vertex])
+        open(faces_[face], entry.from_a, {Kind::FACE, face, index, entry, 0, length});
 }
 
-std::optional<Strip> FaceSearch::run() {
-    for (const SurfacePoint& source : sources_)
-        open(faces_[source.face], 0,
-             {Kind::FACE, source.face, {NONE, NONE}, position_of(surface_, source), 0, NONE});
+std::optional<Strip> StripSearch::run(const SurfacePoint& source, const SurfacePoint& target,
+                                      const TargetDistances& distances) {
+    distances_ = &distances;
+    begin(source, target);
     while (!open_.empty()) {
         const uint32_t index = open_.pop();
         const Node& node = open_[index];
@@ -165,13 +124,13 @@ std::optional<Strip> FaceSearch::run() {
     return std::nullopt;
 }
 
-Strip FaceSearch::strip_to(uint32_t index) const {
+Strip StripSearch::strip_to(uint32_t index) const {
     Strip strip;
     strip.target = *std::ranges::find(targets_, open_[index].item, &SurfacePoint::face);
     for (uint32_t i = open_[index].before; i != NONE; i = open_[i].before) {
         if (open_[i].kind == Kind::VERTEX) continue;
         strip.faces.push_back(open_[i].item);
-        if (open_[i].portal.a != NONE) strip.portals.push_back(open_[i].portal);
+        if (open_[i].entry.ends.a != NONE) strip.portals.push_back(open_[i].entry.ends);
     }
     std::ranges::reverse(strip.faces);
     std::ranges::reverse(strip.portals);
@@ -179,11 +138,9 @@ Strip FaceSearch::strip_to(uint32_t index) const {
     return strip;
 }
 
-}
-
 std::optional<Strip> search_strip(const Surface& surface, const SurfacePoint& source,
                                   const SurfacePoint& target, const TargetDistances& distances) {
-    return FaceSearch(surface, source, target, distances).run();
+    return StripSearch(surface).run(source, target, distances);
 }
 
 }
