@@ -78,8 +78,8 @@ std::optional<Turn::Fan> Straightening::shorter_side(const StripWay& way, const 
     if (from.isZero(0) || to.isZero(0)) return std::nullopt;
     const uint32_t first = way.strip.faces[pass.first], last = way.strip.faces[pass.last + 1];
     if (first == last) return Turn::Fan{};
-    const ClosedFan closed(surface_, pass.vertex);
-    if (closed.is_closed()) return closed.below(std::numbers::pi - ROUNDING, first, from, last, to);
+    const ClosedFan closed(surface_, pass.vertex, first);
+    if (closed.is_closed()) return closed.below(std::numbers::pi - ROUNDING, from, last, to);
     return Turn(surface_, pass.vertex).below(std::numbers::pi - ROUNDING, first, from, last, to);
 }
 

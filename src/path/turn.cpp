@@ -82,68 +82,78 @@ std::optional<Turn::Fan> Turn::below(double limit, uint32_t from_face, const Vec
     return fan;
 }
 
-ClosedFan::ClosedFan(const Surface& surface, uint32_t vertex) : surface_(surface), vertex_(vertex) {
-    for (const uint32_t face : surface.vertex_faces[vertex]) {
-        if (count_ == MOST_FACES) return;
-        const auto [a, b, c] = surface.faces[face];
-        sectors_[count_++] = {face, {a == vertex ? b : a, c == vertex ? b : c}};
+ClosedFan::ClosedFan(const Surface& surface, uint32_t vertex, uint32_t first_face)
+    : surface_(surface), vertex_(vertex), is_closed_(read_sectors(first_face) && put_in_order()) {}
+
+// The first one comes first. Gives whether there is room for all of them.
+bool ClosedFan::read_sectors(uint32_t first_face) {
+    for (const uint32_t face : surface_.vertex_faces[vertex_]) {
+        if (count_ == MOST_FACES) return false;
+        const auto [a, b, c] = surface_.faces[face];
+        sectors_[count_] = {face, {a == vertex_ ? b : a, c == vertex_ ? b : c}};
+        if (face == first_face) std::swap(sectors_[0], sectors_[count_]);
+        ++count_;
     }
-    is_closed_ = true;
-    for (size_t i = 0; i < count_ && is_closed_; ++i)
-        is_closed_ = joins_two(sectors_[i].ends[0]) && joins_two(sectors_[i].ends[1]);
+    return true;
 }
 
-bool ClosedFan::joins_two(uint32_t end) const {
-    size_t faces = 0;
-    for (size_t i = 0; i < count_; ++i) faces += sectors_[i].has(end);
-    return faces == 2;
+// Each one is followed by the only one of those not in order yet that has its edge; the last one has the edge
+// that the first one began with.
+bool ClosedFan::put_in_order() {
+    for (size_t i = 1; i < count_; ++i) {
+        const uint32_t end = sectors_[i - 1].ends[1];
+        size_t next = 0, found = 0;
+        for (size_t k = i; k < count_; ++k) {
+            const auto [a, b] = sectors_[k].ends;
+            const bool is_next = (a == end) | (b == end); // without a jump
+            next = is_next ? k : next;
+            found += is_next;
+        }
+        if (found != 1) return false;
+        std::swap(sectors_[i], sectors_[next]);
+        if (sectors_[i].ends[0] != end) std::swap(sectors_[i].ends[0], sectors_[i].ends[1]);
+    }
+    return sectors_[count_ - 1].ends[1] == sectors_[0].ends[0];
 }
 
-const ClosedFan::Sector& ClosedFan::beyond(const Sector& sector, uint32_t end) const {
-    return *std::ranges::find_if(
-        sectors_, [&](const Sector& other) { return other.face != sector.face && other.has(end); });
-}
-
-std::optional<Turn::Fan> ClosedFan::below(double limit, uint32_t from_face, const Vector3d& from,
-                                          uint32_t to_face, const Vector3d& to) const {
-    const Bend bend{sector_of(from_face), sector_of(to_face), from, to};
-    const auto [first, second] = bend.from_sector.ends;
-    const double over_first = angle_below(limit, bend, first),
-                 over_second = angle_below(std::min(limit, over_first), bend, second);
-    if (!(std::min(over_first, over_second) < limit)) return std::nullopt;
-    Turn::Fan fan = fan_over(bend, over_second < over_first ? second : first);
-    fan.angle = std::min(over_first, over_second);
+std::optional<Turn::Fan> ClosedFan::below(double limit, const Vector3d& from, uint32_t to_face,
+                                          const Vector3d& to) const {
+    size_t place = 1;
+    while (sectors_[place].face != to_face) ++place;
+    std::optional<Side> best;
+    for (const Side& side : {Side{true, place}, Side{false, count_ - place}}) {
+        const double angle = angle_below_half_turn(side, from, to);
+        if (!(angle < limit)) continue;
+        limit = angle;
+        best = side;
+    }
+    if (!best) return std::nullopt;
+    Turn::Fan fan = fan_over(*best);
+    fan.angle = limit;
     return fan;
 }
 
-// Around the side that the edge to `first_end` is on; infinite if it is not below the limit.
-double ClosedFan::angle_below(double limit, const Bend& bend, uint32_t first_end) const {
-    uint32_t end = first_end;
-    Vector3d direction = direction_to(end);
-    double angle = angle_between(bend.from, direction);
-    for (const Sector* sector = &beyond(bend.from_sector, end); sector != &bend.to_sector;
-         sector = &beyond(*sector, end)) {
-        if (!(angle < limit)) return UNREACHABLE;
-        end = sector->other_than(end);
-        const Vector3d next = direction_to(end);
-        angle += angle_between(direction, next);
+// Around one side; infinite if it is half a turn or more.
+double ClosedFan::angle_below_half_turn(const Side& side, const Vector3d& from, const Vector3d& to) const {
+    AngleSum sum;
+    Vector3d direction = from;
+    for (size_t i = 0; i < side.edges; ++i) {
+        const Vector3d next = direction_to(end(side, i));
+        sum.add(direction, next);
+        if (sum.is_half_turn()) return UNREACHABLE;
         direction = next;
     }
-    angle += angle_between(bend.to, direction);
-    return angle < limit ? angle : UNREACHABLE;
+    sum.add(direction, to);
+    return sum.is_half_turn() ? UNREACHABLE : sum.value();
 }
 
-Turn::Fan ClosedFan::fan_over(const Bend& bend, uint32_t first_end) const {
+Turn::Fan ClosedFan::fan_over(const Side& side) const {
     Turn::Fan fan;
-    fan.faces.reserve(count_);
-    fan.spokes.reserve(count_);
-    uint32_t end = first_end;
-    fan.spokes.push_back(end);
-    for (const Sector* sector = &beyond(bend.from_sector, end); sector != &bend.to_sector;
-         sector = &beyond(*sector, end)) {
-        end = sector->other_than(end);
-        fan.faces.push_back(sector->face);
-        fan.spokes.push_back(end);
+    fan.spokes.reserve(side.edges);
+    fan.faces.reserve(side.edges);
+    for (size_t i = 0; i < side.edges; ++i) {
+        fan.spokes.push_back(end(side, i));
+        if (i + 1 < side.edges) fan.faces.push_back(face(side, i));
     }
     return fan;
 }

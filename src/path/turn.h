@@ -68,49 +68,55 @@ private:
     Array<Sector> sectors_{&memory_};
 };
 
-// The faces around a vertex at which every edge joins two of them, as nearly everywhere on scans. There a way
-// from one face to another leads around one side or the other, so that none needs to be searched for.
+// The faces around a vertex at which every edge joins two of them, as nearly everywhere on scans, in their
+// order from one of them on. There a way from that face to another leads around one side or the other, so
+// that none needs to be searched for.
 class ClosedFan {
 public:
-    ClosedFan(const Surface& surface, uint32_t vertex);
+    ClosedFan(const Surface& surface, uint32_t vertex, uint32_t first_face);
 
     // Whether the vertex is such a one.
     bool is_closed() const { return is_closed_; }
 
-    // As Turn::below(). The vertex must be such a one.
-    std::optional<Turn::Fan> below(double limit, uint32_t from_face, const Eigen::Vector3d& from,
-                                   uint32_t to_face, const Eigen::Vector3d& to) const;
+    // As Turn::below(), from the first face to another, for a limit of at most pi. The vertex must be such a
+    // one.
+    std::optional<Turn::Fan> below(double limit, const Eigen::Vector3d& from, uint32_t to_face,
+                                   const Eigen::Vector3d& to) const;
 
 private:
     static constexpr size_t MOST_FACES = 16;
     struct Sector {
         uint32_t face;
-        std::array<uint32_t, 2> ends; // of its edges at the vertex
-
-        bool has(uint32_t end) const { return ends[0] == end || ends[1] == end; }
-        uint32_t other_than(uint32_t end) const { return ends[ends[0] == end ? 1 : 0]; }
+        std::array<uint32_t, 2> ends; // of its edges at the vertex: to the sector before, and to the next one
+    };
+    // Of a way from the first face to another: so many edges are passed, in the order of the sectors or
+    // against it.
+    struct Side {
+        bool is_forward;
+        size_t edges;
     };
 
-    // Two directions in faces at the vertex.
-    struct Bend {
-        const Sector &from_sector, &to_sector;
-        const Eigen::Vector3d &from, &to;
-    };
-
-    bool joins_two(uint32_t end) const;
-    const Sector& sector_of(uint32_t face) const { return *std::ranges::find(sectors_, face, &Sector::face); }
-    double angle_below(double limit, const Bend& bend, uint32_t first_end) const;
-    Turn::Fan fan_over(const Bend& bend, uint32_t first_end) const;
-    const Sector& beyond(const Sector& sector, uint32_t end) const;
+    bool read_sectors(uint32_t first_face);
+    bool put_in_order();
+    // The end of the edge that the way passes after so many others, and the face behind it.
+    uint32_t end(const Side& side, size_t edge) const {
+        return sectors_[side.is_forward ? edge : count_ - 1 - edge].ends[1];
+    }
+    uint32_t face(const Side& side, size_t edge) const {
+        return sectors_[side.is_forward ? edge + 1 : count_ - 1 - edge].face;
+    }
+    double angle_below_half_turn(const Side& side, const Eigen::Vector3d& from,
+                                 const Eigen::Vector3d& to) const;
+    Turn::Fan fan_over(const Side& side) const;
     Eigen::Vector3d direction_to(uint32_t end) const {
         return surface_.positions[end] - surface_.positions[vertex_];
     }
 
     const Surface& surface_;
     const uint32_t vertex_;
-    bool is_closed_ = false;
     size_t count_ = 0;
     std::array<Sector, MOST_FACES> sectors_;
+    const bool is_closed_;
 };
 
 }
