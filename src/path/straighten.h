@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "src/base/number_map.h"
-#include "src/path/funnel.h"
 #include "src/path/strip.h"
+#include "src/path/tight_paths.h"
 #include "src/path/turn.h"
 
 namespace geodesic {
