@@ -35,18 +35,12 @@ PointRange between_bends(const StripWay& way, const Pass& pass) {
 }
 
 double length(const Surface& surface, const StripWay& way, PointRange range) {
-    const auto position = [&](size_t point) {
-        return point <= way.strip.portals.size() ? position_before(surface, way.strip, way.path, point)
-                                                 : position_of(surface, way.strip.target);
-    };
-    double length = 0;
-    Vector3d last = position(range.first);
-    for (size_t point = range.first + 1; point <= range.last; ++point) {
-        const Vector3d next = position(point);
-        length += (next - last).norm();
-        last = next;
-    }
-    return length;
+    const auto& [strip, path] = way;
+    const size_t first = range.first, count = range.last - range.first - 1;
+    return length_over(
+        surface, position_before(surface, strip, path, first),
+        {std::span(strip.portals).subspan(first, count), std::span(path.shares).subspan(first, count)},
+        position_after(surface, strip, path, range.last - 2));
 }
 
 // The first portal at the vertex that the path passes at a point, if it does; the portal there if not.

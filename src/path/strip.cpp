@@ -24,14 +24,20 @@ Vector3d position_after(const Surface& surface, const Strip& strip, const StripP
 }
 
 double length_of(const Surface& surface, const Strip& strip, const std::vector<double>& shares) {
-    Vector3d last = position_of(surface, strip.source);
+    return length_over(surface, position_of(surface, strip.source), {strip.portals, shares},
+                       position_of(surface, strip.target));
+}
+
+double length_over(const Surface& surface, const Vector3d& from, const PassedPortals& passed,
+                   const Vector3d& to) {
+    Vector3d last = from;
     double length = 0;
-    for (size_t i = 0; i < shares.size(); ++i) {
-        const Vector3d next = position_at(surface, strip.portals[i], shares[i]);
+    for (size_t i = 0; i < passed.shares.size(); ++i) {
+        const Vector3d next = position_at(surface, passed.portals[i], passed.shares[i]);
         length += (next - last).norm();
         last = next;
     }
-    return length + (position_of(surface, strip.target) - last).norm();
+    return length + (to - last).norm();
 }
 
 void copy_part(const Surface& surface, const Strip& strip, const StripPath& path, PointRange range,

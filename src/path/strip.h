@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "src/path/surface.h"
@@ -56,6 +57,16 @@ Eigen::Vector3d position_after(const Surface& surface, const Strip& strip, const
 
 // The sum of the lengths of the pieces, by positions in space.
 double length_of(const Surface& surface, const Strip& strip, const std::vector<double>& shares);
+
+// Points of a path between two others, at some portals in a row.
+struct PassedPortals {
+    std::span<const Portal> portals;
+    std::span<const double> shares;
+};
+
+// The same from one position over these points to another position.
+double length_over(const Surface& surface, const Eigen::Vector3d& from, const PassedPortals& passed,
+                   const Eigen::Vector3d& to);
 
 // Positions from the first one up to, but without, the last one.
 struct Replaced {
