@@ -34,11 +34,6 @@ double straight_between(const Surface& surface, const SurfacePoint& a, const Sur
 
 }
 
-Place place_beside(const Vector3d& begin, const Vector3d& direction, const Vector3d& point) {
-    const double foot = (point - begin).dot(direction);
-    return {foot, (point - begin - foot * direction).norm()};
-}
-
 double straight_nearby(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
     double least = UNREACHABLE;
     for_each_alias(surface, a, [&](const SurfacePoint& from) {

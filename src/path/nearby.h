@@ -15,8 +15,12 @@ struct Place {
 };
 
 // Of a line that begins there, with a direction of length 1.
-Place place_beside(const Eigen::Vector3d& begin, const Eigen::Vector3d& direction,
-                   const Eigen::Vector3d& point);
+inline Place place_beside(const Eigen::Vector3d& begin, const Eigen::Vector3d& direction,
+                          const Eigen::Vector3d& point) {
+    const Eigen::Vector3d to = point - begin;
+    const double foot = to.dot(direction);
+    return {foot, (to - foot * direction).norm()};
+}
 
 // The length of the straight line between two points of one face, or between two points of faces that share
 // an edge that it crosses when both are unfolded; infinite if there is none. A point on an edge or at a
