@@ -60,7 +60,8 @@ void OverlayCrossing::cross_to_owned(Columns owned, float* distances, uint16_t* 
 template <class RowAt>
 void OverlayCrossing::cross(const RowAt& row_at, Columns columns, float* distances, uint16_t* winners) {
     if (columns.empty()) return;
-    const auto [first, last] = std::minmax(columns.front(), columns.back());
+    const uint32_t first = std::min(columns.front(), columns.back()),
+                   last = std::max(columns.front(), columns.back());
     const uint32_t ahead = std::min(last - first + 1, CODES_AHEAD);
     const uint16_t** row = rows_.data();
     part_.for_each_place([&](uint32_t place) {
