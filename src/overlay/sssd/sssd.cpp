@@ -22,9 +22,9 @@ constexpr size_t FEW_PAIRS_OF_HOPS = 3 * FEW_PAIRS;
 // takes long: so many of its pairs count as one.
 constexpr size_t PAIRS_OF_CHAINS_AS_ONE = 128, PLACES_OF_SHORT_CHAIN = 48;
 
-// Of ways no longer than so many spacings of samples, or as many of the border's longest segments, the shortest
-// one need not be the shortest over samples: these make each longer by a share of a spacing. Everything that
-// such a way can cross is measured.
+// Of ways no longer than so many spacings of samples, or as many of the border's longest segments, the
+// shortest one need not be the shortest over samples: these make each longer by a share of a spacing.
+// Everything that such a way can cross is measured.
 constexpr float NEAR_SPACINGS = 14;
 
 // Ways over samples are longer than the true ones by up to so many spacings, since these are averages.
