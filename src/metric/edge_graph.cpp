@@ -1,39 +1,22 @@
 #include "src/metric/edge_graph.h"
 
-#include "src/metric/event_queue.h"
+#include "src/metric/vertex_front.h"
 
 namespace geodesic {
 
 namespace {
 
-class Dijkstra final : public FieldSolver {
+class Dijkstra final : public VertexFront {
 public:
-    Dijkstra(std::shared_ptr<const ListOfLists<EdgeGraphMetric::Arc>> arcs)
-        : FieldSolver(static_cast<uint32_t>(arcs->size())), arcs_(std::move(arcs)), pending_(vertex_count()) {
-    }
+    explicit Dijkstra(std::shared_ptr<const ListOfLists<EdgeGraphMetric::Arc>> arcs)
+        : VertexFront(static_cast<uint32_t>(arcs->size())), arcs_(std::move(arcs)) {}
 
 private:
-    void run(const FieldRequest& request) override {
-        queue_.clear();
-        pending_.begin(request);
-        for (uint32_t i = 0; i < request.sources.size(); ++i) reach(request.sources[i], 0, i);
-        while (!queue_.empty()) {
-            const auto event = queue_.pop();
-            if (event.distance > request.radius) break;
-            if (event.distance != distance(event.item)) continue;
-            if (pending_.settle(event.item)) break;
-            for (const auto& arc : (*arcs_)[event.item])
-                reach(arc.to, event.distance + arc.cost, nearest(event.item));
-        }
-    }
-
-    void reach(uint32_t vertex, double distance, uint32_t nearest) {
-        if (improve(vertex, distance, nearest)) queue_.push(distance, vertex);
+    void leave(uint32_t vertex) override {
+        for (const auto& arc : (*arcs_)[vertex]) reach(arc.to, distance(vertex) + arc.cost, nearest(vertex));
     }
 
     std::shared_ptr<const ListOfLists<EdgeGraphMetric::Arc>> arcs_;
-    EventQueue queue_;
-    PendingTargets pending_;
 };
 
 }

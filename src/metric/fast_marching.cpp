@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/metric/event_queue.h"
 #include "src/metric/intrinsic_mesh.h"
+#include "src/metric/vertex_front.h"
 
 namespace geodesic {
 
@@ -33,24 +33,14 @@ double distance_across(double first, double second, double length, double to_fir
     return norm(source.foot - target.foot, heights);
 }
 
-class FastMarching final : public FieldSolver {
+class FastMarching final : public VertexFront {
 public:
     explicit FastMarching(std::shared_ptr<const ListOfLists<FastMarchingMetric::Corner>> corners)
-        : FieldSolver(static_cast<uint32_t>(corners->size())), corners_(std::move(corners)),
-          pending_(vertex_count()) {}
+        : VertexFront(static_cast<uint32_t>(corners->size())), corners_(std::move(corners)) {}
 
 private:
-    void run(const FieldRequest& request) override {
-        queue_.clear();
-        pending_.begin(request);
-        for (uint32_t i = 0; i < request.sources.size(); ++i) reach(request.sources[i], 0, i);
-        while (!queue_.empty()) {
-            const auto event = queue_.pop();
-            if (event.distance > request.radius) break;
-            if (event.distance != distance(event.item)) continue;
-            if (pending_.settle(event.item)) break;
-            for (const auto& corner : (*corners_)[event.item]) pass(event.item, corner);
-        }
+    void leave(uint32_t vertex) override {
+        for (const auto& corner : (*corners_)[vertex]) pass(vertex, corner);
     }
 
     void pass(uint32_t vertex, const FastMarchingMetric::Corner& corner) {
@@ -71,13 +61,7 @@ private:
         reach(third, std::max(own, across), nearest(nearer));
     }
 
-    void reach(uint32_t vertex, double distance, uint32_t nearest) {
-        if (improve(vertex, distance, nearest)) queue_.push(distance, vertex);
-    }
-
     std::shared_ptr<const ListOfLists<FastMarchingMetric::Corner>> corners_;
-    EventQueue queue_;
-    PendingTargets pending_;
 };
 
 }

@@ -16,9 +16,9 @@ namespace geodesic {
 template <class Node>
 class OpenNodes {
 public:
-    void push(double expected, Node&& node) {
+    void push(double expected, const Node& node) {
         Entry entry{expected, static_cast<uint32_t>(nodes_.size())};
-        nodes_.push_back(std::move(node));
+        nodes_.push_back(node);
         if (entry < beside_) std::swap(entry, beside_);
         if (entry.node != NONE) rise(entry);
     }

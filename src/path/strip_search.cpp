@@ -32,11 +32,11 @@ Vector3d StripSearch::position(const Node& node) const {
 }
 
 // Unless the face or vertex is closed or will be before this node's turn.
-void StripSearch::open(Expected& expected, double rest, Node&& node) {
+void StripSearch::open(Expected& expected, double rest, const Node& node) {
     const double length = node.length + rest * (1 + distances_->error);
     if (!(length < expected.length)) return;
     expected.length = length;
-    open_.push(length, std::move(node));
+    open_.push(length, node);
 }
 
 bool StripSearch::close(const Node& node) {

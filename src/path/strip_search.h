@@ -79,7 +79,7 @@ private:
         return node.kind == Kind::FACE ? faces_[node.item] : vertices_[node.item].expected;
     }
     Eigen::Vector3d position(const Node& node) const;
-    void open(Expected& expected, double rest, Node&& node);
+    void open(Expected& expected, double rest, const Node& node);
     bool close(const Node& node);
     void reach_target(const Leaving& leaving);
     void leave_face(uint32_t index);

@@ -126,7 +126,7 @@ void SteinerWay::reach(uint32_t node, double length, uint32_t before, uint32_t f
     reached.length = length;
     reached.before = before;
     reached.face = face;
-    open_.push(is_limited ? length : expected, uint32_t{node});
+    open_.push(is_limited ? length : expected, node);
 }
 
 void SteinerWay::reach_through(uint32_t face, uint32_t node, uint32_t from) {
