@@ -12,9 +12,9 @@ namespace {
 // From so many near columns on, those of a block take less time together than one by one.
 constexpr size_t MANY_NEAR = 5;
 
-// Of each row, so many codes are asked for before the first row is read. Processors find those behind by
-// themselves.
-constexpr uint32_t CODES_AHEAD = 64;
+// Where a hop reads few rows, so many codes of each are asked for before the first row is read. Processors
+// find those behind by themselves.
+constexpr uint32_t FEW_ROWS = 128, CODES_AHEAD = 64;
 
 }
 
@@ -62,7 +62,7 @@ void OverlayCrossing::cross(const RowAt& row_at, Columns columns, float* distanc
     if (columns.empty()) return;
     const uint32_t first = std::min(columns.front(), columns.back()),
                    last = std::max(columns.front(), columns.back());
-    const uint32_t ahead = std::min(last - first + 1, CODES_AHEAD);
+    const uint32_t ahead = part_.size() <= FEW_ROWS ? std::min(last - first + 1, CODES_AHEAD) : 0;
     const uint16_t** row = rows_.data();
     part_.for_each_place([&](uint32_t place) {
         *row = row_at(index_.position_in_parent(patch_, place));

@@ -9,10 +9,6 @@ namespace geodesic {
 
 namespace {
 
-// A candidate longer than the shortest one by more than so many spacings of samples is not measured: what it
-// loses by being straightened is less than that.
-constexpr float WORTH_MEASURING = 1;
-
 // An end that is nearer to a border than this many spacings of its samples counts as lying beside the border.
 constexpr float BESIDE = 1;
 
@@ -39,13 +35,12 @@ float least_of(uint32_t count, const Value& value) {
     return std::ranges::min(least);
 }
 
-// Finds the shortest of those ways that are worth measuring and no longer than the ways over the samples on
-// each side, in ascending order.
+// Finds the shortest of the ways up to this length that are no longer than those over the samples on each
+// side, in ascending order.
 std::array<Way, Candidates::MOST_BY_LENGTH> shortest_ways(const OverlayIndex& index, uint32_t patch,
-                                                          std::span<const float> lengths, float least) {
-    const float longest = least + WORTH_MEASURING * index.pairs.samples.spacing[patch];
+                                                          std::span<const float> lengths, float longest) {
     std::array<Way, Candidates::MOST_BY_LENGTH> shortest;
-    if (!(least < INFINITE)) return shortest;
+    if (!(longest < INFINITE)) return shortest;
     for_each_chain_of_samples(index, patch, [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
         const float before_first = chain.is_closed ? lengths[last] : INFINITE,
                     after_last = chain.is_closed ? lengths[first] : INFINITE;
@@ -84,9 +79,9 @@ float WaysOverSamples::least() const {
 }
 
 Candidates find_candidates(const OverlayIndex& index, uint32_t patch, const WaysOverSamples& ways,
-                           float least) {
+                           float longest) {
     Candidates candidates;
-    const auto shortest = shortest_ways(index, patch, ways.lengths, least);
+    const auto shortest = shortest_ways(index, patch, ways.lengths, longest);
     uint32_t beside = sample_beside_an_end(ways, index.pairs.samples.spacing[patch]);
     for (const Way& way : shortest) {
         if (!(way.length < INFINITE)) break;

@@ -33,9 +33,10 @@ private:
     size_t count_ = 0;
 };
 
-// Chooses candidates of a patch's border; `least` is ways.least(). Those by length come first, the shortest
-// one foremost.
+// Chooses candidates of a patch's border. Those by length come first, the shortest one foremost; a candidate
+// by length is no longer than `longest`, which is ways.least() and as much as ways can get shorter when they
+// are straightened.
 Candidates find_candidates(const OverlayIndex& index, uint32_t patch, const WaysOverSamples& ways,
-                           float least);
+                           float longest);
 
 }

@@ -24,8 +24,9 @@ constexpr size_t PAIRS_OF_CHAINS_AS_ONE = 128, PLACES_OF_SHORT_CHAIN = 48;
 
 // Of ways no longer than so many spacings of samples, or as many of the border's longest segments, the
 // shortest one need not be the shortest over samples: these make each longer by a share of a spacing.
-// Everything that such a way can cross is measured.
-constexpr float NEAR_SPACINGS = 14;
+// Everything that such a way can cross is measured. A few segments that are much longer than all others do
+// not make more pairs near.
+constexpr float NEAR_SPACINGS = 14, LONGEST_SEGMENT = 4;
 
 // Ways over samples are longer than the true ones by up to so many spacings, since these are averages.
 constexpr float MOST_LONGER = 2;
@@ -232,30 +233,42 @@ float OverlaySssd::meet() {
     const WaysOverSamples ways{from, to, lengths_};
     const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
     if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_)) return least;
-    uint32_t place;
-    if (least < NEAR_SPACINGS * std::max(spacing, index_.longest_segment[patch]) &&
-        take_parts_within(least, ways))
-        return measure(place);
+    const float near = std::max(spacing, std::min(index_.longest_segment[patch], LONGEST_SEGMENT * spacing));
     float shortest = INFINITE;
-    for (const uint32_t sample : find_candidates(index_, patch, ways, least)) {
-        const auto length = [&](uint32_t over) { return lengths_[over]; };
-        take_parts(sample, part_near(index_, patch, ways_near(index_, patch, sample, length)));
-        shortest = std::min(shortest, follow(shortest));
-    }
+    if (uint32_t place; least < NEAR_SPACINGS * near && take_parts_within(least, ways))
+        shortest = measure(place);
+    else
+        for (const uint32_t sample : find_candidates(index_, patch, ways, least + largest_spacing())) {
+            const auto length = [&](uint32_t over) { return lengths_[over]; };
+            take_parts(sample, part_near(index_, patch, ways_near(index_, patch, sample, length)));
+            shortest = std::min(shortest, follow(shortest));
+        }
     return shortest <= least * (1 + SAMPLES_ROUNDING) ? shortest : least;
 }
 
+// Of the borders that the ways cross.
+float OverlaySssd::largest_spacing() const {
+    float largest = 0;
+    for (const End* end : {&from_, &to_})
+        for (const uint32_t patch : end->ascent.patches)
+            largest = std::max(largest, index_.pairs.samples.spacing[patch]);
+    return largest;
+}
+
 // Takes the parts of both ends that a way no longer than this can cross. From the meeting border on, it has
-// at least as far to go as from there to the other end. Returns whether the parts are small enough to be
-// measured.
+// at least as far to go as from there to the other end; that is less than to any sample by half of a segment
+// at most, besides what MOST_LONGER allows. Returns whether the parts are small enough to be measured.
 bool OverlaySssd::take_parts_within(float length, const WaysOverSamples& ways) {
-    to_.take_parts_within(index_, length - std::ranges::min(ways.from));
     const uint32_t patch = meeting_patch();
+    const auto way_on = [&](std::span<const float> to_samples) {
+        return std::max(0.f, std::ranges::min(to_samples) - index_.longest_segment[patch] / 2);
+    };
+    to_.take_parts_within(index_, length - way_on(ways.from));
     to_.parts.back() =
         part_within(index_, patch, lengths_, length + MOST_LONGER * index_.pairs.samples.spacing[patch]);
     size_t pairs = to_.pairs_between_parts();
     if (!from_.is_at_top()) {
-        from_.take_parts_within(index_, length - std::ranges::min(ways.to));
+        from_.take_parts_within(index_, length - way_on(ways.to));
         pairs += from_.pairs_between_parts() + size_t{from_.parts.back().size()} * to_.parts.back().size();
     }
     return pairs <= MOST_NEAR_PAIRS;

@@ -63,6 +63,7 @@ private:
     void measure_ways(std::span<const float> from, std::span<const float> to);
     void take_parts(uint32_t sample, const BorderPart& of_meeting_border);
     bool take_parts_within(float length, const WaysOverSamples& ways);
+    float largest_spacing() const;
     float follow(float other_way);
     bool move_parts(uint32_t place);
     float measure(uint32_t& place);
