@@ -8,11 +8,12 @@
 
 namespace geodesic {
 
-// Geodesic distances to within some percent, in the time of a search along the edges (Kimmel and Sethian
-// 1998). A front passes the vertices from the nearest on. From two vertices of a face whose distances are
-// known, the third one gets that of the point in the plane from which both are as far, if the straight way
-// from there crosses the edge between them, and otherwise that of a way along an edge. No distance is longer
-// than the shortest one along edges.
+// Rough geodesic distances in the time of a search along the edges (Kimmel and Sethian 1998). A front passes
+// the vertices from the nearest on. From two vertices of a face whose distances are known, the third one gets
+// that of the point in the plane from which both are as far, if the straight way from there crosses the edge
+// between them, and otherwise that of a way along an edge. On meshes of even triangles distances are some
+// percent too long or too short; where triangles are obtuse, they are those along edges, than which no
+// distance is longer.
 class FastMarchingMetric final : public Metric {
 public:
     // lengths[e] of every edge of the mesh, finite and not negative.

@@ -28,7 +28,8 @@ public:
     // OUT_OF_MEMORY when not even one thread can be started.
     void run(size_t count, const std::function<void(FieldSolver&, size_t)>& task);
 
-    // Makes a solver of another metric, that a task has made, end with the work when this is cancelled.
+    // From now on a solver of another metric, which a task uses, throws as theirs do once the work is
+    // cancelled.
     void end_when_cancelled(FieldSolver& solver) const { solver.cancel_when(cancelled_); }
 
     // For long tasks: throws when the work was cancelled.

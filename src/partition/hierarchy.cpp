@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <utility>
 
 #include "geoidx.h"
 
@@ -30,6 +32,41 @@ uint32_t levels_named(std::span<const uint32_t> given) {
     while (count > 0 && given[count - 1] == 0) --count;
     return count;
 }
+
+// Solvers of another metric than that of the workers, no more of them than threads ask for at once.
+class OtherSolvers {
+public:
+    OtherSolvers(const Metric* metric, const Workers& workers) : metric_(metric), workers_(workers) {}
+
+    // Calls task(solver) with one that no other thread uses meanwhile.
+    template <class Task>
+    void use(const Task& task) {
+        auto solver = take();
+        task(*solver);
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(std::move(solver));
+    }
+
+private:
+    std::unique_ptr<FieldSolver> take() {
+        {
+            const std::lock_guard lock(mutex_);
+            if (!idle_.empty()) {
+                auto solver = std::move(idle_.back());
+                idle_.pop_back();
+                return solver;
+            }
+        }
+        auto solver = metric_->make_solver();
+        workers_.end_when_cancelled(*solver);
+        return solver;
+    }
+
+    const Metric* const metric_;
+    const Workers& workers_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<FieldSolver>> idle_;
+};
 
 }
 
@@ -71,6 +108,7 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
         options.edge_lengths.empty() ? edge_lengths(mesh) : options.edge_lengths;
     std::vector<std::vector<uint32_t>> patches(1); // faces of the patches of the latest level
     for (uint32_t f = 0; f < mesh.face_count(); ++f) patches[0].push_back(f);
+    OtherSolvers rough(options.rough_metric.get(), workers);
 
     for (uint32_t level = 0; level < options.split.size(); ++level) {
         const uint32_t first = hierarchy.level_begin[hierarchy.level_begin.size() - 2];
@@ -79,11 +117,14 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
             Random random(seed_of_patch(options.seed, first + static_cast<uint32_t>(i)));
             const double share = static_cast<double>(patches[i].size()) / mesh.face_count();
             const uint32_t count = child_count(options, level, share);
-            const bool is_rough = options.rough_metric && patches[i].size() > HierarchyOptions::LARGE_PATCH;
-            const auto rough = is_rough ? options.rough_metric->make_solver() : nullptr;
-            if (rough) workers.end_when_cancelled(*rough);
-            children[i] = split_patch(mesh, lengths, patches[i], count, options.lloyd_iterations,
-                                      rough ? *rough : solver, random);
+            const auto split = [&](FieldSolver& by) {
+                children[i] =
+                    split_patch(mesh, lengths, patches[i], count, options.lloyd_iterations, by, random);
+            };
+            if (options.rough_metric && patches[i].size() > HierarchyOptions::LARGE_PATCH)
+                rough.use(split);
+            else
+                split(solver);
         });
         std::vector<std::vector<uint32_t>> next;
         for (uint32_t i = 0; i < children.size(); ++i) {

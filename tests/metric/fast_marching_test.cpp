@@ -50,19 +50,6 @@ TEST_CASE("fast marching: some percent from the exact distance, and never longer
     }
 }
 
-TEST_CASE("fast marching: over a plane of right angles, a straight front stays straight") {
-    const uint32_t n = 20;
-    const Mesh mesh = mesh_of(grid(n, n, 1, 1));
-    std::vector<uint32_t> side;
-    for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
-        if (mesh.positions[v].x() == 0) side.push_back(v);
-    REQUIRE(side.size() == n + 1);
-    const auto solver = marching_over(mesh);
-    const auto d = field(mesh, *solver, side);
-    for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
-        CHECK(d[v] == doctest::Approx(mesh.positions[v].x()).epsilon(0.05));
-}
-
 TEST_CASE("fast marching: the nearest of several sources") {
     for (const Soup& soup : kinds()) {
         const Mesh mesh = mesh_of(soup);
@@ -113,7 +100,7 @@ TEST_CASE("fast marching: targets, radius, other components, lengths of nothing"
     const auto with_zeros = field(mesh, *FastMarchingMetric(mesh, lengths).make_solver(), {&source, 1});
     const auto along_edges = plain_dijkstra(mesh.vertex_count(), mesh.edges, lengths, {&source, 1});
     for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-        CHECK(with_zeros[v] >= 0);
+        CHECK((with_zeros[v] > 0) == (along_edges[v] > 0));
         CHECK((with_zeros[v] <= along_edges[v] * (1 + 1e-12)));
     }
 }

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numeric>
 #include <set>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -198,33 +202,73 @@ TEST_CASE("hierarchy: other metrics split, too, also with edges of no length") {
 }
 
 TEST_CASE("hierarchy: a cancelled build ends with CANCELLED") {
-    const Mesh mesh = mesh_of(grid(60, 50, 3, 1));
+    const Mesh mesh = mesh_of(bumpy_sphere(3, 1));
     const ExactMetric metric(mesh);
-    const auto rough = std::make_shared<FastMarchingMetric>(mesh, edge_lengths(mesh));
-    REQUIRE(mesh.face_count() > HierarchyOptions::LARGE_PATCH);
-    for (const auto& of_large_patches :
-         {std::shared_ptr<const Metric>(), std::shared_ptr<const Metric>(rough)}) {
-        Workers workers(metric, 2, [](double, const char*) { return false; });
-        CHECK(failure_of([&] {
-                  build_hierarchy(mesh, {{8, 4}, 4, 1, {}, {}, of_large_patches}, workers);
-              }) == GEOIDX_ERROR_CANCELLED);
-    }
+    Workers workers(metric, 2, [](double, const char*) { return false; });
+    CHECK(failure_of([&] { build_hierarchy(mesh, {{8, 4}, 4, 1}, workers); }) == GEOIDX_ERROR_CANCELLED);
 }
 
-// A metric that counts its solves, and is the edge graph otherwise.
+// The edge graph, with the numbers of its solvers and of their solves; before each solve it calls a function.
 class CountedMetric final : public Metric {
 public:
-    explicit CountedMetric(const Mesh& mesh) : edges_(mesh, edge_lengths(mesh)) {}
+    explicit CountedMetric(
+        const Mesh& mesh, std::function<void()> before_solve = [] {})
+        : edges_(mesh, edge_lengths(mesh)), vertex_count_(mesh.vertex_count()),
+          before_solve_(std::move(before_solve)) {}
     std::unique_ptr<FieldSolver> make_solver() const override {
         ++solvers;
-        return edges_.make_solver();
+        return std::make_unique<Solver>(*this);
     }
 
-    mutable std::atomic<int> solvers = 0;
+    mutable std::atomic<int> solvers = 0, solves = 0;
 
 private:
-    EdgeGraphMetric edges_;
+    class Solver final : public FieldSolver {
+    public:
+        explicit Solver(const CountedMetric& metric)
+            : FieldSolver(metric.vertex_count_), metric_(metric), edges_(metric.edges_.make_solver()) {}
+
+    private:
+        void run(const FieldRequest& request) override {
+            ++metric_.solves;
+            metric_.before_solve_();
+            edges_->solve(request);
+            for (const uint32_t v : edges_->reached()) improve(v, edges_->distance(v), edges_->nearest(v));
+        }
+
+        const CountedMetric& metric_;
+        std::unique_ptr<FieldSolver> edges_;
+    };
+
+    const EdgeGraphMetric edges_;
+    const uint32_t vertex_count_;
+    const std::function<void()> before_solve_;
 };
+
+TEST_CASE("hierarchy: what splits large patches ends when the build is cancelled") {
+    const Mesh mesh = mesh_of(grid(60, 50, 3, 1));
+    REQUIRE(mesh.face_count() > HierarchyOptions::LARGE_PATCH);
+    const ExactMetric metric(mesh);
+    const auto solves = [&](const ProgressFunction& progress, std::function<void()> before_solve) {
+        const auto rough = std::make_shared<CountedMetric>(mesh, std::move(before_solve));
+        Workers workers(metric, 1, progress);
+        const auto failure = failure_of([&] {
+            build_hierarchy(mesh, {{8, 4}, 4, 1, {}, {}, rough}, workers);
+        });
+        CHECK(failure == (progress ? GEOIDX_ERROR_CANCELLED : GEOIDX_OK));
+        return rough->solves.load();
+    };
+    const int all = solves({}, [] {});
+    REQUIRE(all > 10);
+    // Solves wait for a progress function that says no, and a little longer, so that workers know it.
+    std::atomic<bool> is_refused = false;
+    const auto refuse = [&](double, const char*) { return !(is_refused = true); };
+    const auto wait = [&] {
+        while (!is_refused) std::this_thread::yield();
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    };
+    CHECK(solves(refuse, wait) < all / 2);
+}
 
 TEST_CASE("hierarchy: rough distances split large patches, and no others") {
     for (const Soup& soup : {bumpy_sphere(5, 1), torus(80, 40, 2, 0.8), grid(60, 50, 3, 1)}) {
