@@ -57,7 +57,7 @@ private:
 
     std::vector<Cell> cells_; // a power of two, at least half of them without a number
     size_t free_ = 0;         // numbers that there is room for without more cells
-    size_t last_ = 0;         // cell
+    size_t last_ = 0;         // the number of the last cell
     int shift_ = 0;
 };
 

@@ -44,8 +44,8 @@ private:
         double expected = UNREACHABLE;
         uint32_t node = NONE;
 
-        // Of two that are expected to be as long, the one that was opened first. There are no jumps, which
-        // processors would mispredict.
+        // Of two that are expected to be as long, the one that was opened first. It is told
+        // without branches, which processors would mispredict.
         bool operator<(const Entry& other) const {
             return (expected < other.expected) | ((expected == other.expected) & (node < other.node));
         }

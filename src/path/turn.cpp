@@ -97,15 +97,15 @@ bool ClosedFan::read_sectors(uint32_t first_face) {
     return true;
 }
 
-// Each one is followed by the only one of those not in order yet that has its edge; the last one has the edge
-// that the first one began with.
+// Each one is followed by the only one, of those that are not in order yet, at the edge where it ends; the
+// last one ends at the edge where the first one begins.
 bool ClosedFan::put_in_order() {
     for (size_t i = 1; i < count_; ++i) {
         const uint32_t end = sectors_[i - 1].ends[1];
         size_t next = 0, found = 0;
         for (size_t k = i; k < count_; ++k) {
             const auto [a, b] = sectors_[k].ends;
-            const bool is_next = (a == end) | (b == end); // without a jump
+            const bool is_next = (a == end) | (b == end); // without a branch
             next = is_next ? k : next;
             found += is_next;
         }

@@ -26,6 +26,7 @@ TEST_CASE("angles: a sum is that of the angles one by one, over several turns") 
             sum.add(a * 1e-40, b * 1e30);
             expected += angle_between(a, b);
             CHECK(sum.value() == doctest::Approx(expected).epsilon(1e-13));
+            CHECK(sum.is_half_turn() == (expected >= std::numbers::pi));
         }
     }
 }
@@ -37,5 +38,6 @@ TEST_CASE("angles: a sum of straight, right and no angles") {
          {std::pair<Eigen::Vector3d, double>(x, 0), {-x, 1}, {-x, 2}, {y, 2.5}, {x, 2.5}, {y, 3}}) {
         sum.add(x, to);
         CHECK(sum.value() == doctest::Approx(angle * std::numbers::pi).epsilon(1e-14));
+        CHECK(sum.is_half_turn() == (angle >= 1));
     }
 }
