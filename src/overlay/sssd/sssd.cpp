@@ -74,6 +74,13 @@ BorderPart part_before(const OverlayIndex& index, uint32_t patch_before, const S
     return part_near(index, patch_before, ways_near(index, patch_before, before, length));
 }
 
+// The part of a border that ways no longer than `length` can cross. `values` are the lengths of the ways over
+// its samples, or of their beginnings up to there.
+BorderPart part_of_ways(const OverlayIndex& index, uint32_t patch, std::span<const float> values,
+                        float length) {
+    return part_within(index, patch, values, length + MOST_LONGER * index.pairs.samples.spacing[patch]);
+}
+
 // The index of the place that has the least sum of the distances from both ends.
 uint32_t index_of_least_sum(const float* from, const float* to, uint32_t count) {
     float least = INFINITE;
@@ -136,14 +143,11 @@ void OverlaySssd::End::take_parts(const OverlayIndex& index, uint32_t sample, co
         }
 }
 
-// Takes the parts that a way no longer than this can cross.
-void OverlaySssd::End::take_parts_within(const OverlayIndex& index, float length) {
+// Takes the parts of the first borders, so many of them, that a way no longer than this can cross.
+void OverlaySssd::End::take_parts_within(const OverlayIndex& index, float length, size_t borders) {
     parts.clear();
-    for (size_t b = 0; b < ascent.patches.size(); ++b) {
-        const uint32_t patch = ascent.patches[b];
-        parts.push_back(part_within(index, patch, sampled.distances(b),
-                                    length + MOST_LONGER * index.pairs.samples.spacing[patch]));
-    }
+    for (size_t b = 0; b < borders; ++b)
+        parts.push_back(part_of_ways(index, ascent.patches[b], sampled.distances(b), length));
 }
 
 size_t OverlaySssd::End::pairs_between_parts() const {
@@ -263,12 +267,11 @@ bool OverlaySssd::take_parts_within(float length, const WaysOverSamples& ways) {
     const auto way_on = [&](std::span<const float> to_samples) {
         return std::max(0.f, std::ranges::min(to_samples) - index_.longest_segment[patch] / 2);
     };
-    to_.take_parts_within(index_, length - way_on(ways.from));
-    to_.parts.back() =
-        part_within(index_, patch, lengths_, length + MOST_LONGER * index_.pairs.samples.spacing[patch]);
+    to_.take_parts_within(index_, length - way_on(ways.from), to_.ascent.patches.size() - 1);
+    to_.parts.push_back(part_of_ways(index_, patch, ways.lengths, length));
     size_t pairs = to_.pairs_between_parts();
     if (!from_.is_at_top()) {
-        from_.take_parts_within(index_, length - way_on(ways.to));
+        from_.take_parts_within(index_, length - way_on(ways.to), from_.ascent.patches.size());
         pairs += from_.pairs_between_parts() + size_t{from_.parts.back().size()} * to_.parts.back().size();
     }
     return pairs <= MOST_NEAR_PAIRS;

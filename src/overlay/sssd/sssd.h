@@ -41,7 +41,7 @@ private:
         bool crosses_segments(const OverlayIndex& index) const;
         bool take_whole_borders(const OverlayIndex& index);
         void take_parts(const OverlayIndex& index, uint32_t sample, const BorderPart& last_part);
-        void take_parts_within(const OverlayIndex& index, float length);
+        void take_parts_within(const OverlayIndex& index, float length, size_t borders);
         size_t pairs_between_parts() const;
         bool move_parts(const OverlayIndex& index, uint32_t place_of_last);
 
