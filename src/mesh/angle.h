@@ -22,7 +22,8 @@ public:
         const double along = a.dot(b), across = a.cross(b).norm();
         const double x = x_ * along - y_ * across, y = x_ * across + y_ * along;
         const double size = std::abs(x) + std::abs(y);
-        if (!(size > 0 && size <= std::numeric_limits<double>::max())) return; // no direction
+        if (!(size > 0 && size <= std::numeric_limits<double>::max()))
+            return; // no direction, or one too long to tell
         x_ = x / size;
         y_ = y / size;
         const bool was_past_half = std::exchange(is_past_half_, y_ < 0 || (y_ == 0 && x_ < 0));
