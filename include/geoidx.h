@@ -179,8 +179,8 @@ enum {
      * may be a little below the metric's. Building takes time linear in the vertices.
      * With GEOIDX_METRIC_EXACT, delta 0 and no edge_lengths, an index also holds the metric's own distances
      * of those pairs, of each vertex and the 640 nearest ones, of which tables are off by more than a
-     * hundredth, at most four for each vertex: SSSD and MSAD from one vertex answer these, MSAD from several
-     * ones only if they are shorter. Points within triangles and sources with offsets have none. On meshes of
+     * hundredth, at most four for each vertex: all queries from vertices answer these, MSAD from several ones
+     * source by source. Points within triangles and sources with offsets have none. On meshes of
      * more than 600,000 vertices fewer are compared. Building takes some 5 KB of memory a vertex for that. */
     GEOIDX_ENGINE_OVERLAY = 1
 };

@@ -4,6 +4,13 @@
 
 namespace geodesic {
 
+std::span<const MeasuredPairs::Other> MeasuredPairs::of(uint32_t key, uint32_t first, uint32_t end) const {
+    if (size_t{key} + 1 >= begin.size()) return {};
+    const auto all = of(key);
+    const auto from = std::ranges::lower_bound(all, first, {}, &Other::number);
+    return {from, std::ranges::lower_bound(from, all.end(), end, {}, &Other::number)};
+}
+
 const float* MeasuredPairs::distance(uint32_t first, uint32_t second) const {
     const auto pairs = of(first);
     if (pairs.empty()) return nullptr;

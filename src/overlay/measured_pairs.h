@@ -32,6 +32,10 @@ struct MeasuredPairs {
         return {others.data() + begin[number], others.data() + begin[number + 1]};
     }
 
+    // Those whose other vertex has a number in first .. end - 1. A point of a face, whose key follows the
+    // numbers of all vertices, has none.
+    std::span<const Other> of(uint32_t key, uint32_t first, uint32_t end) const;
+
     // The distance of a pair, NULL if it is not one of these.
     const float* distance(uint32_t first, uint32_t second) const;
 };

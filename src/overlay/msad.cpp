@@ -9,7 +9,8 @@ namespace geodesic {
 namespace {
 
 // Lowers the distances of vertices, which begin at `first`, to those from one source.
-void lower(const OverlayMsad::Field& field, uint32_t first, std::span<const float> found, uint32_t source) {
+void lower_to(const OverlayMsad::Field& field, uint32_t first, std::span<const float> found,
+              uint32_t source) {
     float* const known = field.distance.data() + first;
     if (field.source.empty()) {
         for (size_t i = 0; i < found.size(); ++i) known[i] = std::min(known[i], found[i]);
@@ -50,6 +51,7 @@ void OverlayMsad::sweep(const Sources& sources, float radius, const Field& field
                        [&](uint32_t patch, Scratch& scratch) { hop_down(patch, radius, field, scratch); });
     if (!field.source.empty())
         for (uint32_t v = 0; v < numbering_.border_vertex_count(); ++v) field.source[v] = nearest_.nearest(v);
+    take_measured(field);
 }
 
 // Takes the ways that need no hop. Those to border vertices are kept source by source.
@@ -62,6 +64,41 @@ void OverlayMsad::begin(const Field& field) {
             lower(field, number, {&way, 1}, source);
             if (numbering_.is_border(number)) add_way(number, way, source);
         });
+}
+
+// Lowers the distances of inner vertices of a patch, which begin at `first`, to those from one source. Those
+// of border vertices are read by hops, which go on with what tables say.
+void OverlayMsad::lower(const Field& field, uint32_t first, std::span<const float> found,
+                        uint32_t source) const {
+    if (numbering_.is_border(first)) return lower_to(field, first, found, source);
+    uint32_t next = first;
+    const uint32_t end = first + static_cast<uint32_t>(found.size());
+    for (const auto& [number, measured] : index_.measured.of(source, first, end)) {
+        lower_to(field, next, found.subspan(next - first, number - next), source);
+        lower_to(field, number, {&measured, 1}, source);
+        next = number + 1;
+    }
+    lower_to(field, next, found.subspan(next - first), source);
+}
+
+// Of border vertices, when no hop reads their distances any more, and of those that no hop has led to.
+void OverlayMsad::take_measured(const Field& field) const {
+    const uint32_t vertices = numbering_.vertex_count();
+    for (const uint32_t source : sources_.keys)
+        for (const auto& pair : index_.measured.of(source, 0, numbering_.border_vertex_count()))
+            take_measured(field, pair.number);
+    for (const uint32_t source : sources_.keys)
+        for (const auto& [number, measured] : index_.measured.of(source, 0, vertices))
+            lower_to(field, number, {&measured, 1}, source);
+}
+
+void OverlayMsad::take_measured(const Field& field, uint32_t border_vertex) const {
+    field.distance[border_vertex] = INFINITE;
+    for (const auto& [way, source] : nearest_.of(border_vertex)) {
+        const auto measured = index_.measured.of(source, border_vertex, border_vertex + 1);
+        const float distance = measured.empty() ? way : measured.front().distance;
+        lower_to(field, border_vertex, {&distance, 1}, source);
+    }
 }
 
 bool OverlayMsad::is_within(uint32_t source, uint32_t patch) const {

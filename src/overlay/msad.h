@@ -13,7 +13,8 @@ namespace geodesic {
 
 // Distances to the nearest of multiple sources, for all destinations over overlay tables, by one sweep up
 // from all sources and one sweep down to all leaves. Each source crosses by itself the borders on which it
-// may be the nearest one. Vertices are given by their numbers.
+// may be the nearest one. What was measured counts instead of what tables say, source by source. Vertices are
+// given by their numbers.
 class OverlayMsad {
 public:
     OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory);
@@ -41,6 +42,9 @@ private:
 
     bool is_within(uint32_t source, uint32_t patch) const;
     void begin(const Field& field);
+    void lower(const Field& field, uint32_t first, std::span<const float> found, uint32_t source) const;
+    void take_measured(const Field& field) const;
+    void take_measured(const Field& field, uint32_t border_vertex) const;
     void hop_up(uint32_t child, std::span<float> distance);
     void hop_down(uint32_t patch, float radius, const Field& field, Scratch& scratch);
     void add_way(uint32_t border_vertex, float distance, uint32_t source);

@@ -34,25 +34,17 @@ float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, const FacePoint
 
 }
 
-// A source alone, which may be given several times, has its own measured distances, whatever tables say.
+// A source alone may be given several times.
 void OverlayQuery::msad(const Sources& sources, float radius, const OverlayMsad::Field& field) {
     const auto is_first = [&](uint32_t key) { return key == sources.keys.front(); };
-    const bool is_alone = !sources.keys.empty() && std::ranges::all_of(sources.keys, is_first);
-    if (is_alone) {
-        field_.sweep({sources.keys.first(1), sources.points}, radius, field.distance);
-        for (size_t v = 0; v < field.source.size(); ++v)
-            field.source[v] = field.distance[v] < INFINITE ? sources.keys.front() : NONE;
-    } else {
-        nearest_.sweep(sources, radius, field);
-    }
-    for (const uint32_t source : sources.keys) {
-        if (source >= index_.numbering.vertex_count()) continue; // a point
-        for (const auto& [number, measured] : index_.measured.of(source)) {
-            if (!is_alone && !(measured < field.distance[number])) continue;
-            field.distance[number] = measured;
-            if (!field.source.empty()) field.source[number] = source;
-        }
-    }
+    if (sources.keys.empty() || !std::ranges::all_of(sources.keys, is_first))
+        return nearest_.sweep(sources, radius, field);
+    const uint32_t source = sources.keys.front();
+    field_.sweep({sources.keys.first(1), sources.points}, radius, field.distance);
+    for (const auto& [number, measured] : index_.measured.of(source, 0, index_.numbering.vertex_count()))
+        field.distance[number] = measured;
+    for (size_t v = 0; v < field.source.size(); ++v)
+        field.source[v] = field.distance[v] < INFINITE ? source : NONE;
 }
 
 PathEnd OverlayQuery::end_of(const FacePoint& point, PointRow& row) const {

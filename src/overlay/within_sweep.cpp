@@ -29,10 +29,8 @@ std::span<const WithinSweep::Found> WithinSweep::sweep(const Sources& source, fl
     return found_;
 }
 
-// Of a source that is a vertex.
 void WithinSweep::take_measured(uint32_t source) {
-    if (source >= numbering_.vertex_count()) return;
-    for (const auto& [number, measured] : index_.measured.of(source)) {
+    for (const auto& [number, measured] : index_.measured.of(source, 0, numbering_.vertex_count())) {
         if (distance_[number] == INFINITE) seen_.push_back(number);
         distance_[number] = measured;
     }

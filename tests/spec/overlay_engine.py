@@ -214,14 +214,11 @@ class OverlayEngine:
         return distance
 
     def msad(self, sources):
-        if len(sources) == 1:
-            distance = self.ssad(sources[0])
-        else:
-            distance = SeveralSources(self, sources).msad()
-        for source in sources:
-            for other, measured in self.index.measured.get(source, {}).items():
-                if len(sources) == 1 or measured < distance[other]:
-                    distance[other] = measured
+        if len(sources) > 1:
+            return SeveralSources(self, sources).msad()
+        distance = self.ssad(sources[0])
+        for other, measured in self.index.measured.get(sources[0], {}).items():
+            distance[other] = measured
         return distance
 
     # ---- SSSD

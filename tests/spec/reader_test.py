@@ -186,6 +186,27 @@ class ReaderTest(unittest.TestCase):
     def test_graph_engine(self):
         self.procedural("graph", "--engine", "graph")
 
+    def test_measured_pairs(self):
+        """A sheet so rough that tables are wrong for many near pairs. Those that they have too short, and one more source."""
+        points, triangles = sheet(26, 0.0)
+        points[:, 2] = numpy.random.default_rng(2).random(len(points)) / 4
+        mesh = FOLDER / "rough.off"
+        write_off(mesh, points, triangles)
+        index = self.check(mesh, "rough", "--target-error", "0")
+        subject, id_of = Subject(mesh, "rough", "--target-error", "0"), numpy.argsort(index.number_of_id)
+        checked = {True: 0, False: 0}
+        for source in index.measured:
+            field = subject.engine.ssad(source)
+            too_short = [b for b, measured in index.measured[source].items() if field[b] < 0.99 * measured]
+            for number in too_short:
+                is_border = index.is_border(number)
+                checked[is_border] += 1
+                if checked[is_border] <= 8:
+                    several = [int(id_of[source]), int(id_of[numpy.argmax(field)])]
+                    off = excess(subject.msad_by_library(several), subject.msad_by_reader(several))
+                    self.assertLessEqual(numpy.abs(off).max(initial=0), TOLERANCE)
+        self.assertGreater(min(checked.values()), 8)
+
     def test_large_overlays(self):
         """Of these, a mapped file has distances among owned vertices once."""
         x, y = numpy.meshgrid(numpy.arange(330) / 20, numpy.arange(14))

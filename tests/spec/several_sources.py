@@ -24,9 +24,25 @@ class SeveralSources:
         for patch in range(1, self.index.patch_count):
             if inside[patch] < len(self.sources) and len(self.index.inside[patch]):
                 self.descend(patch)
+        self.take_measured()
         return self.distance
 
+    def measured(self, source):
+        return self.index.measured.get(source, {})
+
+    def take_measured(self):
+        for number in {n for source in self.sources for n in self.measured(source) if self.index.is_border(n)}:
+            self.distance[number] = min((self.measured(source).get(number, distance)
+                                         for source, distance in self.known[number].items()), default=INFINITE)
+        for source in self.sources:
+            for number, distance in self.measured(source).items():
+                self.distance[number] = min(self.distance[number], distance)
+
     def take(self, numbers, distances, source):
+        measured = self.measured(source)
+        if measured:
+            distances = numpy.array([distance if self.index.is_border(number) else measured.get(number, distance)
+                                     for number, distance in zip(numbers.tolist(), distances)], INFINITE.dtype)
         self.distance[numbers] = numpy.minimum(self.distance[numbers], distances)
         for number, distance in zip(numbers, distances):
             if self.index.is_border(number) and distance < INFINITE:
