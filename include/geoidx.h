@@ -178,10 +178,11 @@ enum {
      * between two vertices, the tables are calibrated so that such paths are right on average, and distances
      * may be a little below the metric's. Building takes time linear in the vertices.
      * With GEOIDX_METRIC_EXACT, delta 0 and no edge_lengths, an index also holds the metric's own distances
-     * of those pairs, of each vertex and the 640 nearest ones, of which tables are off by more than a
+     * of those pairs, of each vertex and the 480 nearest ones, of which tables are off by more than a
      * hundredth, at most four for each vertex: all queries from vertices answer these, MSAD from several ones
-     * source by source. Points within triangles and sources with offsets have none. On meshes of
-     * more than 600,000 vertices fewer are compared. Building takes some 5 KB of memory a vertex for that. */
+     * source by source. Around such pairs up to 1,920 vertices are compared. Points within triangles and
+     * sources with offsets have none. On meshes of more than 400,000 vertices fewer are compared. Building
+     * takes some 4 KB of memory a vertex for that, up to 8 KB where many pairs are wrong. */
     GEOIDX_ENGINE_OVERLAY = 1
 };
 

@@ -34,7 +34,7 @@ public:
     std::vector<const ExactFields*> solved_fields() const;
 
     // What fill() found near each vertex, if the metric is one for which that is kept.
-    const std::optional<NearDistances>& near_distances() const { return near_; }
+    std::optional<NearDistances>& near_distances() { return near_; }
 
     // The number of table entries that fill() would make.
     uint64_t count_entries(const SplitSurface& surface, Workers& workers) const;

@@ -10,7 +10,10 @@ namespace geodesic {
 // Makes an index of the overlay engine hold the metric's own distances of near vertices that it is wrong for:
 // where MSAD is off by more than a hundredth, or SSSD is and MSAD by more than half of that; and of two
 // neighbours between which MSAD would change by more than 1.05 times the length of their edge, the one that
-// is worse. If these are more than four for each vertex, a larger error is let pass. No query may be running.
-void hold_wrong_pairs(const Intake& intake, const NearDistances& near, Workers& workers, Index& index);
+// is worse. Where a pair is wrong that is nearly as long as what is known around its ends, or around their
+// neighbours, these are looked at farther, as long as that takes no more work than the first look at all
+// vertices. If there are more than four pairs for each vertex, a larger error is let pass. No query may be
+// running.
+void hold_wrong_pairs(const Intake& intake, NearDistances& near, Workers& workers, Index& index);
 
 }

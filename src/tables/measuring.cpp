@@ -18,7 +18,7 @@ float measured_distance(const FieldSolver& solver, uint32_t vertex) {
 void solve_for_tables(const uint32_t& vertex, std::span<const uint32_t> targets, const NearDistances* near,
                       FieldSolver& solver) {
     if (near)
-        solver.solve(near->with_near({&vertex, 1}, targets));
+        solver.solve(near->with_near(vertex, targets));
     else
         solver.solve({&vertex, 1}, targets);
 }

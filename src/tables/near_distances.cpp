@@ -10,14 +10,24 @@ void NearDistances::take(uint32_t vertex, const FieldSolver& solver) {
     std::vector<Near> near;
     for (const uint32_t other : solver.reached())
         if (const auto distance = static_cast<float>(solver.distance(other));
-            other < near_.size() && distance > 0 && solver.distance(other) <= solver.final_up_to())
+            other < vertex_count() && distance > 0 && solver.distance(other) <= solver.final_up_to())
             near.push_back({other, distance});
-    if (near.size() > most_) {
-        std::ranges::nth_element(near, near.begin() + most_, {},
+    Around& around = around_[vertex];
+    around.reach = solver.final_up_to();
+    if (near.size() > around.count) {
+        const auto last = near.begin() + around.count - 1;
+        std::ranges::nth_element(near, last, {},
                                  [](const Near& n) { return std::pair(n.distance, n.vertex); });
-        near.resize(most_);
+        around.reach = double{last->distance};
+        near.resize(around.count);
     }
-    near_[vertex].assign(near.begin(), near.end());
+    around.near.assign(near.begin(), near.end());
+}
+
+void NearDistances::widen(uint32_t vertex, FieldSolver& solver) {
+    around_[vertex].count = wider_count(vertex);
+    solver.solve(with_near(vertex, {&vertex, 1}));
+    take(vertex, solver);
 }
 
 }

@@ -17,13 +17,15 @@ public:
         float distance;
     };
 
-    NearDistances(uint32_t vertex_count, uint32_t most) : near_(vertex_count), most_(most) {}
+    // `nearest`: how many vertices around each one, at first.
+    NearDistances(uint32_t vertex_count, uint32_t nearest)
+        : around_(vertex_count, {{}, 0, nearest}), nearest_(nearest) {}
 
-    uint32_t vertex_count() const { return static_cast<uint32_t>(near_.size()); }
+    uint32_t vertex_count() const { return static_cast<uint32_t>(around_.size()); }
 
-    // The request for these targets, and for what is near the only source.
-    FieldRequest with_near(std::span<const uint32_t> source, std::span<const uint32_t> targets) const {
-        return {source, targets, {}, {}, UNREACHABLE, most_};
+    // The request for these targets, and for what is near the source.
+    FieldRequest with_near(const uint32_t& source, std::span<const uint32_t> targets) const {
+        return {{&source, 1}, targets, {}, {}, UNREACHABLE, around_[source].count};
     }
 
     // Takes what the latest solve, from this vertex alone, found near it. Different threads may take
@@ -31,14 +33,32 @@ public:
     void take(uint32_t vertex, const FieldSolver& solver);
 
     // Whether anything has been taken for a vertex.
-    bool has(uint32_t vertex) const { return !near_[vertex].empty(); }
+    bool has(uint32_t vertex) const { return !around_[vertex].near.empty(); }
 
     // The vertices that are near this one and not at the same place, in no particular order.
-    std::span<const Near> of(uint32_t vertex) const { return near_[vertex]; }
+    std::span<const Near> of(uint32_t vertex) const { return around_[vertex].near; }
+    // All vertices that are nearer than this are among them.
+    double reach(uint32_t vertex) const { return around_[vertex].reach; }
+
+    // How many vertices around this one a wider look would find, 0 where it is wide enough already.
+    uint32_t wider_count(uint32_t vertex) const {
+        const uint32_t wider = 2 * around_[vertex].count;
+        return wider <= WIDEST * nearest_ ? wider : 0;
+    }
+    // Finds that many. Different threads may widen different vertices at once.
+    void widen(uint32_t vertex, FieldSolver& solver);
 
 private:
-    std::vector<std::vector<Near>> near_;
-    uint32_t most_;
+    static constexpr uint32_t WIDEST = 4; // times as many as at first
+
+    struct Around {
+        std::vector<Near> near;
+        double reach;
+        uint32_t count; // that `near` has, unless fewer can be reached
+    };
+
+    std::vector<Around> around_; // by vertex
+    uint32_t nearest_;
 };
 
 }

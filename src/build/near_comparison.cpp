@@ -1,0 +1,93 @@
+#include "src/build/near_comparison.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace geodesic {
+
+namespace {
+
+// Along an edge, distances change by no more than its length. Answers may by this much more.
+constexpr double STEEPEST = 1.05;
+constexpr float LOOKED_AT = 1.1f; // times as far as near vertices: what is beyond is off by more than that
+
+// Rounded to 13 bits, which changes it far less than what is let pass, so that files have fewer of them.
+constexpr float ROUNDING = 1.f / (1 << 13);
+float rounded(float distance) {
+    constexpr uint32_t DROPPED = (1 << 11) - 1;
+    const auto bits = std::bit_cast<uint32_t>(distance);
+    return std::bit_cast<float>((bits + DROPPED / 2 + 1) & ~DROPPED);
+}
+
+}
+
+void NearComparison::compare(uint32_t source, std::vector<WrongPair>& wrong) {
+    source_ = source;
+    wrong_ = &wrong;
+    fill_field();
+    for (const auto& near : near_.of(source))
+        if (const double error = largest_error(near.vertex); error > limit_) correct(near.vertex, error);
+    open_.clear();
+    for (const auto& near : near_.of(source)) open_.push_back(near.vertex);
+    while (!open_.empty()) {
+        const uint32_t vertex = open_.back();
+        open_.pop_back();
+        make_less_steep(vertex);
+    }
+    for (const auto& near : near_.of(source)) field_[near.vertex] = {0, 0};
+}
+
+// With the answers of MSAD.
+void NearComparison::fill_field() {
+    const uint32_t id = id_of(source_);
+    float farthest = 0;
+    for (const auto& near : near_.of(source_)) farthest = std::max(farthest, near.distance);
+    const float radius = std::min(LOOKED_AT * farthest, std::numeric_limits<float>::max());
+    const auto found = query_.within({&id, 1}, radius);
+    for (const auto& [distance, other] : found) answer_[other] = distance;
+    for (const auto& [vertex, distance] : near_.of(source_))
+        field_[vertex] = {distance, answer_[id_of(vertex)]};
+    for (const auto& [distance, other] : found) answer_[other] = INFINITE;
+}
+
+double NearComparison::largest_error(uint32_t vertex) {
+    const Distances& distances = field_[vertex];
+    const double of_field = distances.error();
+    const double suspicious = limit_ / 2; // what makes one of MSAD and SSSD wrong makes both
+    if (of_field <= suspicious || of_field > limit_) return of_field;
+    return std::max(of_field, relative_error(distances.exact, query_.sssd(id_of(source_), id_of(vertex))));
+}
+
+void NearComparison::correct(uint32_t vertex, double error) {
+    Distances& distances = field_[vertex];
+    const auto number = [&](uint32_t v) { return index_.number_of_id[id_of(v)]; };
+    const auto [first, second] = std::minmax({number(source_), number(vertex)});
+    distances.answer = distances.exact;
+    const float distance = rounded(distances.exact);
+    if (distance > 0 && distance < INFINITE) wrong_->push_back({{first, second, distance}, error});
+}
+
+// Where an edge of a near vertex leads to another one and is too steep, the worse end is corrected.
+void NearComparison::make_less_steep(uint32_t vertex) {
+    const auto is_near = [&](uint32_t v) { return field_[v].exact > 0 || v == source_; };
+    for (const uint32_t end : edge_ends_[vertex]) {
+        const uint32_t other = intake_.mesh.edges[end / 2][1 - end % 2];
+        if (!is_near(other) || !is_too_steep(vertex, other)) continue;
+        const uint32_t worse = deviation(vertex) < deviation(other) ? other : vertex;
+        if (!(deviation(worse) > ROUNDING * field_[worse].exact)) continue;
+        correct(worse, field_[worse].error());
+        open_.push_back(worse);
+    }
+}
+bool NearComparison::is_too_steep(uint32_t a, uint32_t b) const {
+    const double length = (intake_.mesh.positions[a] - intake_.mesh.positions[b]).norm();
+    return std::abs(field_[a].answer - field_[b].answer) > STEEPEST * length;
+}
+float NearComparison::deviation(uint32_t vertex) const {
+    return std::abs(field_[vertex].answer - field_[vertex].exact);
+}
+
+}
