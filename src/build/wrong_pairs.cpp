@@ -18,6 +18,7 @@ constexpr double RAISE = 1.5;          // by which a larger error is let pass th
 // Wrong pairs are seldom alone. So what is known around their ends, and around the neighbours of these, must
 // reach farther than they are long by this.
 constexpr double REACH = 1.06;
+constexpr uint64_t WORK = 2; // that this may take at most, times that of the first look at all vertices
 constexpr uint32_t MOST_PASSES = 4;
 constexpr size_t FEWEST_AT_ONCE = 64, MOST_TASKS = 256; // sources of a task share a query
 
@@ -40,7 +41,7 @@ public:
           vertex_of_number_(index.numbering().vertex_count(), NONE) {
         for (uint32_t v = 0; v < near.vertex_count(); ++v) {
             vertex_of_number_[number_of(v)] = v;
-            work_left_ += near.of(v).size();
+            work_left_ += WORK * near.of(v).size();
         }
     }
 
