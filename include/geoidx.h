@@ -182,7 +182,7 @@ enum {
      * hundredth, at most four for each vertex: all queries from vertices answer these, MSAD from several ones
      * source by source. Around such pairs up to 1,920 vertices are compared. Points within triangles and
      * sources with offsets have none. On meshes of more than 400,000 vertices fewer are compared. Building
-     * takes some 4 KB of memory a vertex for that, up to 12 KB where many pairs are wrong. */
+     * takes some 4 KB of memory a vertex for that, up to 8 KB where many pairs are wrong. */
     GEOIDX_ENGINE_OVERLAY = 1
 };
 

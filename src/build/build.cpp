@@ -19,7 +19,7 @@ namespace geodesic {
 
 namespace {
 
-constexpr double FILLING_END = 0.95; // the share of the whole work; looking for large errors is the rest
+constexpr double FILLING_END = 0.85; // the share of the whole work; looking for large errors is the rest
 
 void check_options(const geoidx_build_options& options) {
     if (!(options.delta >= 0 && options.delta <= 100))

@@ -19,10 +19,10 @@ constexpr double TABLES_END = 0.91; // the share of the work that is done when a
 
 // With how many vertices around each one answers are compared at first: as far as wrong ones are frequent,
 // which is some ten edges on scans. On very large meshes they are fewer, so that they take no more than 1.5
-// GB, and three times that where hold_wrong_pairs() looks much farther.
+// GB, and twice that where hold_wrong_pairs() looks much farther.
 uint32_t compared_around(uint32_t vertex_count) {
-    constexpr uint32_t MOST = 480, VERTICES = 400000;
-    return vertex_count <= VERTICES ? MOST : static_cast<uint32_t>(uint64_t{MOST} * VERTICES / vertex_count);
+    constexpr uint64_t MOST = 480, VERTICES = 400000;
+    return static_cast<uint32_t>(std::clamp<uint64_t>(MOST * VERTICES / vertex_count, 1, MOST));
 }
 
 }

@@ -7,13 +7,11 @@
 
 namespace geodesic {
 
-// Makes an index of the overlay engine hold the metric's own distances of near vertices that it is wrong for:
-// where MSAD is off by more than a hundredth, or SSSD is and MSAD by more than half of that; and of two
-// neighbours between which MSAD would change by more than 1.05 times the length of their edge, the one that
-// is worse. Where a pair is wrong that is nearly as long as what is known around its ends, or around their
-// neighbours, these are looked at farther, as long as that takes no more than twice the work of the first
-// look at all vertices. If there are more than four pairs for each vertex, a larger error is let pass. No query may be
-// running.
+// Makes an index of the overlay engine hold the metric's own distances of near vertices that it is wrong for,
+// as NearComparison tells them. Where a pair is wrong that is nearly as long as what is known around its
+// ends, or around their neighbours, these are looked at farther, as long as that takes no more than twice the
+// work of the first look at all vertices. If there are more than four pairs for each vertex, a larger error
+// than a hundredth is let pass. No query may be running.
 void hold_wrong_pairs(const Intake& intake, NearDistances& near, Workers& workers, Index& index);
 
 }

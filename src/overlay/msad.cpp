@@ -9,8 +9,7 @@ namespace geodesic {
 namespace {
 
 // Lowers the distances of vertices, which begin at `first`, to those from one source.
-void lower_to(const OverlayMsad::Field& field, uint32_t first, std::span<const float> found,
-              uint32_t source) {
+void lower(const OverlayMsad::Field& field, uint32_t first, std::span<const float> found, uint32_t source) {
     float* const known = field.distance.data() + first;
     if (field.source.empty()) {
         for (size_t i = 0; i < found.size(); ++i) known[i] = std::min(known[i], found[i]);
@@ -61,43 +60,45 @@ void OverlayMsad::begin(const Field& field) {
     std::ranges::fill(field.source, NONE);
     for (const uint32_t source : sources_.keys)
         sources_.for_each_way(index_, source, [&](uint32_t number, float way) {
-            lower(field, number, {&way, 1}, source);
+            lower_corrected(field, number, {&way, 1}, source);
             if (numbering_.is_border(number)) add_way(number, way, source);
         });
 }
 
-// Lowers the distances of inner vertices of a patch, which begin at `first`, to those from one source. Those
-// of border vertices are read by hops, which go on with what tables say.
-void OverlayMsad::lower(const Field& field, uint32_t first, std::span<const float> found,
-                        uint32_t source) const {
-    if (numbering_.is_border(first)) return lower_to(field, first, found, source);
+// Lowers the distances of inner vertices of a patch, which begin at `first`, to those from one source: what
+// was measured where it was, and `found` elsewhere. Border vertices are corrected in the end, since hops read
+// their distances and go on with what tables say.
+void OverlayMsad::lower_corrected(const Field& field, uint32_t first, std::span<const float> found,
+                                  uint32_t source) const {
+    if (numbering_.is_border(first)) return lower(field, first, found, source);
     uint32_t next = first;
     const uint32_t end = first + static_cast<uint32_t>(found.size());
     for (const auto& [number, measured] : index_.measured.of(source, first, end)) {
-        lower_to(field, next, found.subspan(next - first, number - next), source);
-        lower_to(field, number, {&measured, 1}, source);
+        lower(field, next, found.subspan(next - first, number - next), source);
+        lower(field, number, {&measured, 1}, source);
         next = number + 1;
     }
-    lower_to(field, next, found.subspan(next - first), source);
+    lower(field, next, found.subspan(next - first), source);
 }
 
-// Of border vertices, when no hop reads their distances any more, and of those that no hop has led to.
+// Corrects border vertices, when no hop reads their distances any more. Then measured distances lower all
+// others, too, since hops may not have led to them from the same source.
 void OverlayMsad::take_measured(const Field& field) const {
     const uint32_t vertices = numbering_.vertex_count();
     for (const uint32_t source : sources_.keys)
         for (const auto& pair : index_.measured.of(source, 0, numbering_.border_vertex_count()))
-            take_measured(field, pair.number);
+            correct_border_vertex(field, pair.number);
     for (const uint32_t source : sources_.keys)
         for (const auto& [number, measured] : index_.measured.of(source, 0, vertices))
-            lower_to(field, number, {&measured, 1}, source);
+            lower(field, number, {&measured, 1}, source);
 }
 
-void OverlayMsad::take_measured(const Field& field, uint32_t border_vertex) const {
+void OverlayMsad::correct_border_vertex(const Field& field, uint32_t border_vertex) const {
     field.distance[border_vertex] = INFINITE;
     for (const auto& [way, source] : nearest_.of(border_vertex)) {
         const auto measured = index_.measured.of(source, border_vertex, border_vertex + 1);
         const float distance = measured.empty() ? way : measured.front().distance;
-        lower_to(field, border_vertex, {&distance, 1}, source);
+        lower(field, border_vertex, {&distance, 1}, source);
     }
 }
 
@@ -130,7 +131,7 @@ void OverlayMsad::hop_down(uint32_t patch, float radius, const Field& field, Scr
     const auto hop = [&](const float* from, uint32_t source) {
         if (!scratch.sweep.begin(patch, from, radius)) return;
         const std::span<const float> found = scratch.sweep.cross();
-        lower(field, first, found, source);
+        lower_corrected(field, first, found, source);
         if (patch >= numbering_.first_leaf()) return;
         for (uint32_t r = 0; r < found.size(); ++r) add_way(first + r, found[r], source);
     };

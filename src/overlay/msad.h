@@ -28,7 +28,8 @@ public:
         std::span<float> distance;
         std::span<uint32_t> source{};
     };
-    // Patches whose whole border is farther than `radius` are skipped, and their vertices stay at infinity.
+    // Patches whose whole border is farther than `radius` are skipped, and their vertices stay at infinity,
+    // but for those with measured distances.
     void sweep(const Sources& sources, float radius, const Field& field);
 
 private:
@@ -42,9 +43,10 @@ private:
 
     bool is_within(uint32_t source, uint32_t patch) const;
     void begin(const Field& field);
-    void lower(const Field& field, uint32_t first, std::span<const float> found, uint32_t source) const;
+    void lower_corrected(const Field& field, uint32_t first, std::span<const float> found,
+                         uint32_t source) const;
     void take_measured(const Field& field) const;
-    void take_measured(const Field& field, uint32_t border_vertex) const;
+    void correct_border_vertex(const Field& field, uint32_t border_vertex) const;
     void hop_up(uint32_t child, std::span<float> distance);
     void hop_down(uint32_t patch, float radius, const Field& field, Scratch& scratch);
     void add_way(uint32_t border_vertex, float distance, uint32_t source);

@@ -17,15 +17,16 @@ public:
         float distance;
     };
 
-    // `nearest`: how many vertices around each one, at first.
+    // `nearest`: how many vertices around each one, at first; at least 1.
     NearDistances(uint32_t vertex_count, uint32_t nearest)
         : around_(vertex_count, {{}, 0, nearest}), nearest_(nearest) {}
 
     uint32_t vertex_count() const { return static_cast<uint32_t>(around_.size()); }
 
-    // The request for these targets, and for what is near the source.
+    // The request for these targets, and for what is near the source, which counts among what is final. Both
+    // must outlive the request.
     FieldRequest with_near(const uint32_t& source, std::span<const uint32_t> targets) const {
-        return {{&source, 1}, targets, {}, {}, UNREACHABLE, around_[source].count};
+        return {{&source, 1}, targets, {}, {}, UNREACHABLE, around_[source].count + 1};
     }
 
     // Takes what the latest solve, from this vertex alone, found near it. Different threads may take

@@ -236,9 +236,18 @@ TEST_CASE("measured pairs: several sources have the least of what each of them h
     for (const auto& [a, b, distance] : planted()) {
         const uint32_t sources[] = {at(SIDE - 1, 0), a};
         const float other = msad(index.get(), sources[0], count)[b], least = std::min(other, distance);
-        CHECK(msad(index.get(), sources, count)[b] == least);
         std::vector<uint32_t> nearest(count);
         std::vector<float> field(count);
+        for (const uint32_t threads : {1u, 3u}) {
+            require_success(geoidx_query_set_threads(query.get(), threads));
+            require_success(geoidx_query_msad(query.get(), sources, 2, field.data(), count));
+            CHECK(field[b] == least);
+            for (const float share : {0.9f, 1.1f}) {
+                require_success(
+                    geoidx_query_msad_within(query.get(), sources, 2, share * least, field.data(), count));
+                CHECK(field[b] == (share < 1 ? FAR : least));
+            }
+        }
         require_success(
             geoidx_query_nearest_sources(query.get(), sources, 2, nearest.data(), field.data(), count));
         CHECK(field[b] == least);
