@@ -19,8 +19,8 @@ struct FilesArguments {
     ReportArguments report;
 };
 
-constexpr std::array COLUMNS{"META", "HIER", "VERT", "POSI", "BORD", "QUAN",   "SEGM",
-                             "PAIR", "OVOV", "BVIV", "IVIV", "HOPS", "tables", "file"};
+constexpr std::array COLUMNS{"META", "HIER", "VERT", "POSI", "BORD", "QUAN",   "SEGM", "PAIR",
+                             "EDGE", "OVOV", "BVIV", "IVIV", "HOPS", "tables", "file"};
 constexpr std::array TABLE_SECTIONS{"OVOV", "BVIV", "IVIV", "HOPS"};
 
 using Sizes = std::map<std::string, uint64_t>; // bytes by column

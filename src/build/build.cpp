@@ -8,6 +8,7 @@
 #include "src/build/metric_options.h"
 #include "src/build/rounds.h"
 #include "src/build/stated_errors.h"
+#include "src/build/steep_search.h"
 #include "src/build/wrong_pairs.h"
 #include "src/file/kept_mesh.h"
 #include "src/index/stored.h"
@@ -20,6 +21,7 @@ namespace geodesic {
 namespace {
 
 constexpr double FILLING_END = 0.85; // the share of the whole work; looking for large errors is the rest
+constexpr double WRONG_PAIRS_END = 0.6, STEEP_EDGES_END = 0.7; // shares of that rest
 
 void check_options(const geoidx_build_options& options) {
     if (!(options.delta >= 0 && options.delta <= 100))
@@ -112,8 +114,11 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
         Rounds(options, filling_progress, filling, index)
             .run({intake.mesh, hierarchy}, *metric, std::move(stored));
     Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
-    stating.begin_stage("accuracy", 0.5);
-    if (filling.near_distances()) hold_wrong_pairs(intake, *filling.near_distances(), stating, index);
+    if (filling.near_distances()) {
+        hold_wrong_pairs(intake, *filling.near_distances(), stating, index, WRONG_PAIRS_END);
+        stating.begin_stage("accuracy", STEEP_EDGES_END);
+        hold_steep_edges(intake, stating, index);
+    }
     stating.begin_stage("accuracy", 1);
     state_errors(intake, filling.solved_fields(), stating, index);
     if (options.store_mesh) keep_mesh(pack_mesh(mesh).view(), index);

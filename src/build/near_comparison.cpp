@@ -1,26 +1,18 @@
 #include "src/build/near_comparison.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "src/base/rounded.h"
+#include "src/build/steep_search.h"
 
 namespace geodesic {
 
 namespace {
 
-// Along an edge, distances change by no more than its length. Answers may by this much more.
-constexpr double STEEPEST = 1.05;
 constexpr float LOOKED_AT = 1.1f; // times as far as near vertices: what is beyond is off by more than that
-
-// Rounded to 13 bits, which changes it far less than what is let pass, so that files have fewer of them.
-constexpr float ROUNDING = 1.f / (1 << 13);
-float rounded(float distance) {
-    constexpr uint32_t DROPPED = (1 << 11) - 1;
-    const auto bits = std::bit_cast<uint32_t>(distance);
-    return std::bit_cast<float>((bits + DROPPED / 2 + 1) & ~DROPPED);
-}
 
 }
 

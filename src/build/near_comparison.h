@@ -13,8 +13,8 @@
 namespace geodesic {
 
 struct WrongPair {
-    MeasuredPair pair; // by number
-    double error;      // of what is answered, relative to the distance
+    VertexPair pair; // by number
+    double error;    // of what is answered, relative to the distance
 };
 
 // One thread's answers compared with the metric near vertices, from one of them at a time.
@@ -29,7 +29,7 @@ public:
 
     // Adds the wrong pairs of this source: those of which MSAD is off by more than the limit, or SSSD is and
     // MSAD by more than half of it; and of two neighbours between which MSAD, with these put right, would
-    // change by more than 1.05 times the length of their edge, the one that is worse.
+    // change by more than STEEPEST times the length of their edge, the one that is worse.
     void compare(uint32_t source, std::vector<WrongPair>& wrong);
 
 private:

@@ -19,6 +19,7 @@ constexpr double RAISE = 1.5;          // by which a larger error is let pass th
 // reach farther than they are long by this.
 constexpr double REACH = 1.06;
 constexpr uint64_t WORK = 2; // that this may take at most, times that of the first look at all vertices
+constexpr double FIRST_LOOK_END = 0.2; // the share of the progress; looking farther is the rest
 constexpr uint32_t MOST_PASSES = 4;
 constexpr size_t FEWEST_AT_ONCE = 64, MOST_TASKS = 256; // sources of a task share a query
 
@@ -35,17 +36,19 @@ void keep_different(std::vector<WrongPair>& wrong) {
 
 class Search {
 public:
-    Search(const Intake& intake, NearDistances& near, Workers& workers, Index& index)
-        : intake_(intake), near_(near), workers_(workers), index_(index),
+    Search(const Intake& intake, NearDistances& near, Workers& workers, Index& index, double end_fraction)
+        : intake_(intake), near_(near), workers_(workers), end_fraction_(end_fraction), index_(index),
           edge_ends_(edge_ends_at_vertices(intake.mesh)), average_edge_(mean_edge(intake.mesh)),
           vertex_of_number_(index.numbering().vertex_count(), NONE) {
         for (uint32_t v = 0; v < near.vertex_count(); ++v) {
             vertex_of_number_[number_of(v)] = v;
-            work_left_ += WORK * near.of(v).size();
+            most_work_ += WORK * near.of(v).size();
         }
+        work_left_ = most_work_;
     }
 
     void run() {
+        workers_.begin_stage("accuracy", FIRST_LOOK_END * end_fraction_);
         for (double limit = LARGEST_ERROR; !hold_all(limit) && limit < 1;) limit *= RAISE;
         if (held_.size() > most()) keep_worst();
     }
@@ -107,10 +110,17 @@ private:
         while (held_.size() <= most() / 2) {
             const auto sources = choose_to_widen(limit);
             if (sources.empty()) return;
+            begin_stage_of_widening();
             workers_.run(sources.size(),
                          [&](FieldSolver& solver, size_t i) { near_.widen(sources[i], solver); });
             find(limit, sources);
         }
+    }
+
+    // It ends at the share of the work that was done or will be done in it.
+    void begin_stage_of_widening() {
+        const double share = most_work_ ? 1 - double(work_left_) / double(most_work_) : 1;
+        workers_.begin_stage("accuracy", (FIRST_LOOK_END + (1 - FIRST_LOOK_END) * share) * end_fraction_);
     }
 
     // Chooses the vertices around which more is to be known, as many of them as there is work left for.
@@ -144,7 +154,7 @@ private:
     uint32_t number_of(uint32_t vertex) const { return index_.number_of_id[intake_.id_of_vertex[vertex]]; }
 
     void hold() {
-        std::vector<MeasuredPair> pairs;
+        std::vector<VertexPair> pairs;
         measured().largest_errors.fill(0);
         for (const WrongPair& wrong : held_) {
             pairs.push_back(wrong.pair);
@@ -166,18 +176,21 @@ private:
     const Intake& intake_;
     NearDistances& near_;
     Workers& workers_;
+    const double end_fraction_;
     Index& index_;
     const ListOfLists<uint32_t> edge_ends_;
     const double average_edge_;
     std::vector<uint32_t> vertex_of_number_; // NONE of added vertices
-    uint64_t work_left_ = 0;                 // so many vertices may yet be found by looking farther
+    uint64_t most_work_ = 0;                 // so many vertices may be found by looking farther
+    uint64_t work_left_ = 0;                 // of these
     std::vector<WrongPair> held_;            // in ascending order, each once
 };
 
 }
 
-void hold_wrong_pairs(const Intake& intake, NearDistances& near, Workers& workers, Index& index) {
-    Search(intake, near, workers, index).run();
+void hold_wrong_pairs(const Intake& intake, NearDistances& near, Workers& workers, Index& index,
+                      double end_fraction) {
+    Search(intake, near, workers, index, end_fraction).run();
 }
 
 }

@@ -29,6 +29,7 @@ constexpr std::pair<uint32_t, uint32_t> NUMBER_OF_TAG[]{
     {TAG_HOP_CODES, GEOIDX_ISSUE_HOPS},
     {TAG_MESH, GEOIDX_ISSUE_MESH},
     {TAG_MEASURED_PAIRS, GEOIDX_ISSUE_PAIR},
+    {TAG_STEEP_EDGES, GEOIDX_ISSUE_EDGE},
 };
 
 uint32_t number_of(const Error& error) {

@@ -27,7 +27,7 @@ void check_tags(const format::Container& container, const StoredIndex& stored) {
     expect({TAG_OVERLAY_TABLES}, overlay && !mapped);
     expect({TAG_BORDER_INTERNAL_TABLES, TAG_INTERNAL_TABLES}, !mapped);
     expect({TAG_HOP_CODES}, mapped);
-    if (!overlay) expect({TAG_MEASURED_PAIRS}, false);
+    if (!overlay) expect({TAG_MEASURED_PAIRS, TAG_STEEP_EDGES}, false);
 }
 
 }

@@ -43,6 +43,10 @@ void read_mapped_tables(const format::Container& container, StoredIndex& stored)
 void write_mesh(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_mesh(const format::Container& container, StoredIndex& stored);
 
+// PAIR and EDGE, each of which is there if it holds any.
+void write_vertex_pairs(const StoredIndex& stored, format::ContainerWriter& writer);
+void read_vertex_pairs(const format::Container& container, StoredIndex& stored);
+
 void write_overlay(const StoredIndex& stored, format::ContainerWriter& writer);
 void read_overlay(const format::Container& container, const ReadOptions& options, StoredIndex& stored);
 

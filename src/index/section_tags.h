@@ -21,6 +21,7 @@ inline constexpr uint32_t TAG_INTERNAL_TABLES = format::make_tag("IVIV");
 inline constexpr uint32_t TAG_QUANTA = format::make_tag("QUAN");
 inline constexpr uint32_t TAG_SEGMENTS = format::make_tag("SEGM");
 inline constexpr uint32_t TAG_MEASURED_PAIRS = format::make_tag("PAIR"); // only if there are any
+inline constexpr uint32_t TAG_STEEP_EDGES = format::make_tag("EDGE");    // only if there are any
 inline constexpr uint32_t TAG_OVERLAY_TABLES = format::make_tag("OVOV");
 inline constexpr uint32_t TAG_HOP_CODES = format::make_tag("HOPS");
 
@@ -38,6 +39,7 @@ inline constexpr std::array INDEX_TAGS{TAG_META,
                                        TAG_QUANTA,
                                        TAG_SEGMENTS,
                                        TAG_MEASURED_PAIRS,
+                                       TAG_STEEP_EDGES,
                                        TAG_OVERLAY_TABLES,
                                        TAG_HOP_CODES,
                                        TAG_MESH};

@@ -14,8 +14,8 @@ namespace geodesic {
 // precision.
 constexpr int32_t MOST_STEPS = (1 << 23) - 1;
 
-// Two vertices, by their numbers, for which the metric's own distance is stored.
-struct MeasuredPair {
+// Two vertices, by their numbers, and a distance of theirs.
+struct VertexPair {
     uint32_t first, second; // first < second
     float distance;
 };
@@ -60,7 +60,9 @@ struct StoredIndex {
     std::vector<float> segment_length; // SEGM: per element of `border`
     // PAIR: the largest of what tables say of these pairs, by the classes of their distances
     std::array<float, DISTANCE_CLASSES> errors_of_measured{};
-    std::vector<MeasuredPair> measured_pairs;    // PAIR: in ascending order, each once
+    std::vector<VertexPair> measured_pairs;      // PAIR: by the metric; in ascending order, each once
+    std::vector<VertexPair> steep_edges;         // EDGE: what the distances of both ends may differ by, at
+                                                 // most; in ascending order, each once
     std::vector<uint16_t> overlay_codes;         // OVOV: of every inner patch, owned x border, then owned x
                                                  // owned below the diagonal
     std::vector<uint16_t> border_internal_codes; // BVIV: of every leaf, a row for each border vertex

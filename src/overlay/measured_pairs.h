@@ -41,9 +41,9 @@ struct MeasuredPairs {
 };
 
 // Replaces all pairs by these, which are in ascending order. The largest errors stay as they are.
-void take_measured_pairs(std::span<const MeasuredPair> pairs, uint32_t vertex_count, MeasuredPairs& measured);
+void take_measured_pairs(std::span<const VertexPair> pairs, uint32_t vertex_count, MeasuredPairs& measured);
 
 // The pairs that were taken.
-std::vector<MeasuredPair> restore_measured_pairs(const MeasuredPairs& measured);
+std::vector<VertexPair> restore_measured_pairs(const MeasuredPairs& measured);
 
 }

@@ -173,6 +173,7 @@ void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
     make_inner_bounds(index);
     index.measured.largest_errors = stored.errors_of_measured;
     take_measured_pairs(stored.measured_pairs, index.numbering.vertex_count(), index.measured);
+    take_steep_edges(stored.steep_edges, index.numbering.vertex_count(), index.steep);
 }
 
 void restore_overlay(const OverlayIndex& index, StoredIndex& stored) {
@@ -199,6 +200,7 @@ void restore_overlay(const OverlayIndex& index, StoredIndex& stored) {
     stored.hop_codes = index.hops.codes;
     stored.errors_of_measured = index.measured.largest_errors;
     stored.measured_pairs = restore_measured_pairs(index.measured);
+    stored.steep_edges = restore_steep_edges(index.steep);
 }
 
 }

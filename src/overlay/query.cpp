@@ -43,6 +43,7 @@ void OverlayQuery::msad(const Sources& sources, float radius, const OverlayMsad:
     field_.sweep({sources.keys.first(1), sources.points}, radius, field.distance);
     for (const auto& [number, measured] : index_.measured.of(source, 0, index_.numbering.vertex_count()))
         field.distance[number] = measured;
+    lowering_.lower(field.distance);
     for (size_t v = 0; v < field.source.size(); ++v)
         field.source[v] = field.distance[v] < INFINITE ? source : NONE;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "src/overlay/field_lowering.h"
 #include "src/overlay/msad.h"
 #include "src/overlay/pair_tables.h"
 #include "src/overlay/point_ways.h"
@@ -21,7 +22,7 @@ class OverlayQuery {
 public:
     OverlayQuery(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : index_(index), memory_(memory), field_(index, memory), nearest_(index, memory),
-          batch_(index, memory, FIELDS_AT_ONCE),
+          batch_(index, memory, FIELDS_AT_ONCE), lowering_(index.steep, memory),
           prepared_(index, memory), rows_{PointRow(memory), PointRow(memory)}, points_(memory), keys_(memory),
           position_of_key_(memory), ends_{PreparedSource(index, memory), PreparedSource(index, memory)} {}
 
@@ -93,11 +94,13 @@ public:
     // Fills distances[number * FIELDS_AT_ONCE + i] with the distance from the i-th of FIELDS_AT_ONCE sources.
     // For fewer than FEWEST_AT_ONCE different ones it is faster to call msad() for each.
     static constexpr size_t FIELDS_AT_ONCE = OverlaySsad::MOST_FIELDS, FEWEST_AT_ONCE = 8;
+    static_assert(FIELDS_AT_ONCE == FieldLowering::FIELDS_AT_ONCE);
     void ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
         batch_.sweep(sources, INFINITE, distances);
         for (size_t i = 0; i < sources.size(); ++i)
             for (const auto& [number, measured] : index_.measured.of(sources[i]))
                 distances[number * FIELDS_AT_ONCE + i] = measured;
+        lowering_.lower_each(distances);
     }
 
 private:
@@ -123,6 +126,7 @@ private:
     OverlaySsad field_;
     OverlayMsad nearest_;
     OverlaySsad batch_;
+    FieldLowering lowering_; // of these two kinds of fields
     PreparedSource prepared_;
     uint32_t prepared_source_ = NONE;
     std::array<PointRow, 2> rows_; // of the points of a pair

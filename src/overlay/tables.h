@@ -16,6 +16,7 @@
 #include "src/overlay/half_table.h"
 #include "src/overlay/measured_pairs.h"
 #include "src/overlay/rings.h"
+#include "src/overlay/steep_edges.h"
 
 namespace geodesic {
 
@@ -161,7 +162,7 @@ struct PairTables {
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
         : numbering(memory), quantum(memory), shift(memory), rings(memory), longest_segment(memory),
-          is_large(memory), hops(memory), bounds(memory), measured(memory), pairs(memory) {}
+          is_large(memory), hops(memory), bounds(memory), measured(memory), steep(memory), pairs(memory) {}
 
     Numbering numbering;
     Array<float> quantum; // per patch: the distance of one step of its codes
@@ -172,6 +173,7 @@ struct OverlayIndex {
     HopTables hops;
     InnerBounds bounds;
     MeasuredPairs measured; // answers of all queries from vertices
+    SteepEdges steep;       // along which fields are lowered
     mutable PairTables pairs;
 
     float distance(uint16_t code, uint32_t patch) const { return TableCode::distance(code, quantum[patch]); }

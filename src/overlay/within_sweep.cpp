@@ -8,7 +8,8 @@ namespace geodesic {
 
 WithinSweep::WithinSweep(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), up_(index, memory), down_(index, 1, memory),
-      distance_(index.numbering.vertex_count(), INFINITE, memory), seen_(memory), found_(memory) {}
+      lowering_(index.steep, memory), distance_(index.numbering.vertex_count(), INFINITE, memory),
+      seen_(memory), found_(memory) {}
 
 // The overlay of a patch on the way up is known once the hop from its child has been made, so that the way
 // down into its other children begins there.
@@ -25,6 +26,7 @@ std::span<const WithinSweep::Found> WithinSweep::sweep(const Sources& source, fl
         patch = numbering_.parent[patch];
     }
     take_measured(key);
+    lower_along_steep_edges();
     collect();
     return found_;
 }
@@ -34,6 +36,12 @@ void WithinSweep::take_measured(uint32_t source) {
         if (distance_[number] == INFINITE) seen_.push_back(number);
         distance_[number] = measured;
     }
+}
+
+void WithinSweep::lower_along_steep_edges() {
+    lowering_.lower_within(
+        radius_, seen_, [&](uint32_t number) { return distance_[number]; },
+        [&](uint32_t to, float way, uint32_t) { lower(to, way); });
 }
 
 // Also clears what an earlier sweep left when memory ran out.

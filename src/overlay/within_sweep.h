@@ -4,6 +4,7 @@
 #include <span>
 
 #include "src/overlay/ascend.h"
+#include "src/overlay/field_lowering.h"
 #include "src/overlay/inner_sweep.h"
 #include "src/overlay/outer_crossing.h"
 #include "src/overlay/tables.h"
@@ -23,7 +24,7 @@ public:
     WithinSweep(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
     // Finds the vertices that are no farther than `radius` from the only one of the sources, in no particular
-    // order, with the bits that OverlaySsad gives. They stay valid until the next call.
+    // order, with the bits that a whole field has. They stay valid until the next call.
     std::span<const Found> sweep(const Sources& source, float radius);
 
     // The distance of one of them; infinite for other vertices.
@@ -43,12 +44,14 @@ private:
     void hop_down_to_children(uint32_t patch, uint32_t left_out);
     void hop_down(uint32_t patch);
     void take_measured(uint32_t source);
+    void lower_along_steep_edges();
     void collect();
 
     const OverlayIndex& index_;
     const Numbering& numbering_;
     OuterCrossing up_;
     InnerSweep down_;
+    FieldLowering lowering_;
     float radius_ = 0;
     Array<float> distance_; // by number; infinite but for those of `seen_`
     Array<uint32_t> seen_;  // numbers, each once

@@ -1,11 +1,8 @@
 // That near vertices are right, all of them, on surfaces where tables alone are not: against the metric.
 #include <algorithm>
 #include <cmath>
-#include <random>
 
-#include "format/container.h"
-#include "src/index/section_tags.h"
-#include "tests/capi/calls.h"
+#include "tests/query/planted_pairs.h"
 #include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
@@ -17,31 +14,10 @@ constexpr double LARGEST_ERROR = 0.01, STEEPEST = 1.05;
 constexpr double ROUNDING = 2e-4; // of measured distances, and of what they are compared with
 constexpr size_t NEAREST = 480;   // vertices around each one, as geoidx.h has it
 
-// Random heights: nearly no two triangles lie in a plane.
-TestMesh rough(uint32_t side, double height) {
-    TestMesh mesh = grid(side, side);
-    std::mt19937 random(5);
-    for (size_t i = 2; i < mesh.positions.size(); i += 3)
-        mesh.positions[i] = height * static_cast<double>(random() % 1000) / 1000;
-    return mesh;
-}
-
-geoidx_build_options default_options(uint32_t threads = 2) {
-    geoidx_build_options options;
-    geoidx_build_options_init(&options);
-    options.threads = threads;
-    return options;
-}
-
-// The same index without its measured pairs.
+// The same index without its measured pairs, and with its steep edges left steep.
 IndexHandle tables_only(const geoidx* index) {
-    const Bytes file = save(index);
-    const auto container = format::Container::parse(file, geodesic::INDEX_TAGS);
-    format::ContainerWriter writer(container.mesh_fingerprint());
-    for (const format::Section& section : container.sections())
-        if (section.tag != geodesic::TAG_MEASURED_PAIRS)
-            writer.add_bytes(section.tag, container.read_bytes(section.tag, UINT64_MAX));
-    return open(writer.finish());
+    const Bytes tables = without_section(save(index), geodesic::TAG_MEASURED_PAIRS);
+    return open(without_section(tables, geodesic::TAG_STEEP_EDGES));
 }
 
 struct Counts {
@@ -75,7 +51,7 @@ Counts count_wrong(const geoidx* index, const TestMesh& mesh, uint32_t step, siz
 }
 
 TEST_CASE("wrong pairs: no answer for near vertices is off by more than a hundredth") {
-    for (const TestMesh& mesh : {rough(24, 4), hills(30, 20), lattice(4)}) {
+    for (const TestMesh& mesh : {rough_sheet(24, 4), hills(30, 20), lattice(4)}) {
         const auto index = build(mesh, default_options());
         const Counts counts = count_wrong(index.get(), mesh, sparse(1));
         CHECK(counts.wrong == 0);
@@ -83,7 +59,7 @@ TEST_CASE("wrong pairs: no answer for near vertices is off by more than a hundre
 }
 
 TEST_CASE("wrong pairs: a rough surface has some by its tables alone, and steep edges") {
-    const TestMesh mesh = rough(24, 16);
+    const TestMesh mesh = rough_sheet(24, 16);
     const auto index = build(mesh, default_options());
     const Counts before = count_wrong(tables_only(index.get()).get(), mesh, 3),
                  now = count_wrong(index.get(), mesh, 3);
@@ -94,7 +70,7 @@ TEST_CASE("wrong pairs: a rough surface has some by its tables alone, and steep 
 }
 
 TEST_CASE("wrong pairs: around them, farther ones are found") {
-    const TestMesh mesh = rough(40, 16);
+    const TestMesh mesh = rough_sheet(40, 16);
     const auto index = build(mesh, default_options());
     constexpr uint32_t STEP = 11;
     const Counts before = count_wrong(tables_only(index.get()).get(), mesh, STEP, NEAREST, 4 * NEAREST),
@@ -104,7 +80,7 @@ TEST_CASE("wrong pairs: around them, farther ones are found") {
 }
 
 TEST_CASE("wrong pairs: threads change no bit of the file") {
-    const TestMesh mesh = rough(26, 16); // of more vertices than are compared at first
+    const TestMesh mesh = rough_sheet(26, 16); // of more vertices than are compared at first
     const Bytes one = save(build(mesh, default_options(1)).get());
     REQUIRE(format::Container::parse(one, geodesic::INDEX_TAGS).has(geodesic::TAG_MEASURED_PAIRS));
     CHECK(save(build(mesh, default_options(4)).get()) == one);

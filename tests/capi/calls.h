@@ -32,6 +32,14 @@ inline geoidx_build_options build_options(uint32_t metric = GEOIDX_METRIC_EXACT,
     return options;
 }
 
+// Those of a user, on two threads or so many.
+inline geoidx_build_options default_options(uint32_t threads = 2) {
+    geoidx_build_options options;
+    geoidx_build_options_init(&options);
+    options.threads = threads;
+    return options;
+}
+
 inline void require_success(geoidx_status status) {
     INFO("status: ", std::string(geoidx_status_string(status)),
          ", detail: ", std::string(geoidx_last_error()));

@@ -119,6 +119,15 @@ inline TestMesh hills(uint32_t columns, uint32_t rows) {
 }
 
 // `around` x `along` vertices on a torus of the radii 3 and 1.
+// Random heights: nearly no two triangles lie in a plane.
+inline TestMesh rough_sheet(uint32_t side, double height) {
+    TestMesh mesh = grid(side, side);
+    std::mt19937 random(5);
+    for (size_t i = 2; i < mesh.positions.size(); i += 3)
+        mesh.positions[i] = height * static_cast<double>(random() % 1000) / 1000;
+    return mesh;
+}
+
 inline TestMesh torus(uint32_t around, uint32_t along) {
     constexpr double TURN = 6.283185307179586;
     TestMesh mesh;

@@ -407,6 +407,12 @@ TEST_CASE("a section that is too long or too short is told by its number") {
     check_told(with([](TakenApart& parts) { parts.border.pop_back(); }), 105, "BORD");
 }
 
+TEST_CASE("sections that only the overlay engine has are refused with the graph engine") {
+    check_told(with([](TakenApart& parts) { parts.extra_bytes[TAG_MEASURED_PAIRS] = Bytes(20); }), 114,
+               "PAIR");
+    check_told(with([](TakenApart& parts) { parts.extra_bytes[TAG_STEEP_EDGES] = Bytes(8); }), 115, "EDGE");
+}
+
 TEST_CASE("borders that contradict the hierarchy are told by the number of BORD") {
     // The last border vertex belongs to the last inner patch, so that it cannot be on the border of patch 1.
     const TakenApart& good = original().parts;

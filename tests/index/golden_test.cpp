@@ -1,6 +1,6 @@
 // Golden files: one of each form, one of rounded distances, one with added vertices, two without positions,
-// one with the mesh and one with measured pairs, which every later version of the library must open (SPEC.md,
-// "Versions").
+// one with the mesh, one with measured pairs and one with these and steep edges, which every later version of
+// the library must open (SPEC.md, "Versions").
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -35,7 +35,8 @@ constexpr Golden GOLDEN[] = {
     {"no_positions", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, GEOIDX_SAVE_NO_POSITIONS},
     {"added_no_positions", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, GEOIDX_SAVE_NO_POSITIONS, 1e-4},
     {"with_mesh", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, 0, 0, true},
-    {"measured_pairs", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, 0, 0, false, 16}};
+    {"measured_pairs", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 15, 0, 0, false, 16},
+    {"steep_edges", GEOIDX_ENGINE_OVERLAY, GEOIDX_CODEC_PACKED, 34, 0, 0, false, 16}};
 
 std::string path_of(const Golden& golden) {
     return std::string(GEOIDX_GOLDEN_FOLDER "/") + golden.name + ".geoidx";
@@ -124,6 +125,7 @@ TEST_CASE("golden files: they open, belong to their mesh and answer near the tru
         CHECK((info.has_mesh == 1) == golden.keeps_mesh);
         const auto container = format::Container::parse(file, INDEX_TAGS);
         CHECK(container.has(TAG_MEASURED_PAIRS) == (golden.height > 1));
+        CHECK(container.has(TAG_STEEP_EDGES) == (golden.height > 1 && golden.columns > 30));
         if (golden.keeps_mesh) check_surface(index.get(), view);
         CHECK((golden.columns > 30) == (info.table_entries >= 65536)); // distances are rounded
         double sum = 0;

@@ -39,7 +39,7 @@ struct TakenApart {
     std::vector<uint32_t> owned, internal, border_sizes, border;
     std::map<uint32_t, std::vector<float>> tables; // by tag, the matrices back to back
     uint32_t missing_tag = 0;                      // a section to leave out
-    std::map<uint32_t, Bytes> extra_bytes;         // appended to the section's bytes
+    std::map<uint32_t, Bytes> extra_bytes; // appended to the section's bytes; of PAIR and EDGE, all bytes
 
     uint32_t leaf_count() const { return static_cast<uint32_t>(internal.size()); }
 };
@@ -180,6 +180,11 @@ inline Bytes put_together(const TakenApart& parts, const TakenApart& shapes, uin
         bytes.u32_array(*numbers);
     bytes.u32_planes(parts.border);
     add(TAG_BORDERS, bytes);
+    for (const uint32_t tag : {TAG_MEASURED_PAIRS, TAG_STEEP_EDGES})
+        if (parts.extra_bytes.contains(tag)) {
+            bytes.take();
+            add(tag, bytes);
+        }
     for (uint32_t tag : {TAG_BORDER_TABLES, TAG_BORDER_INTERNAL_TABLES, TAG_INTERNAL_TABLES}) {
         if (tag == parts.missing_tag) continue;
         std::vector<format::MatrixView> matrices;

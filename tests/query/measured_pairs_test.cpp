@@ -4,25 +4,18 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <map>
 
-#include "format/bytes.h"
-#include "tests/capi/calls.h"
-#include "tests/index/changed_section.h"
+#include "tests/query/planted_pairs.h"
 
 using namespace geodesic::test;
+using geodesic::TAG_MEASURED_PAIRS;
+using geodesic::TAG_STEEP_EDGES;
 namespace format = geodesic::format;
 
 namespace {
 
 constexpr float FAR = std::numeric_limits<float>::infinity();
 constexpr uint32_t SIDE = 40;
-
-// Vertices of the caller's and a distance that no table gives.
-struct Planted {
-    uint32_t a, b;
-    float distance;
-};
 
 uint32_t at(uint32_t x, uint32_t y) { return x + y * SIDE; }
 
@@ -35,7 +28,7 @@ const Bytes& plain_file() {
     static const Bytes file = [] {
         auto options = build_options();
         options.engine = GEOIDX_ENGINE_OVERLAY;
-        return save(build(mesh(), options).get());
+        return without_section(save(build(mesh(), options).get()), TAG_STEEP_EDGES);
     }();
     return file;
 }
@@ -55,51 +48,20 @@ const std::vector<Planted>& planted() {
     return pairs;
 }
 
-std::vector<uint32_t> numbers_of_ids(const format::Container& container) {
-    const auto bytes = container.read_bytes(geodesic::TAG_VERTICES, UINT64_MAX);
-    format::ByteReader reader(bytes, "VERT");
-    reader.u64();
-    std::vector<uint32_t> numbers(mesh().vertex_count());
-    reader.u32_planes(numbers);
-    return numbers;
-}
-
-// The section as format/SPEC.md has it.
-Bytes section_of(std::span<const Planted> pairs, std::span<const uint32_t> number_of_id) {
-    std::multimap<std::pair<uint32_t, uint32_t>, float> distance_of;
-    for (const auto& [a, b, distance] : pairs)
-        distance_of.emplace(std::minmax(number_of_id[a], number_of_id[b]), distance);
-    std::vector<uint32_t> steps, apart, distances;
-    uint32_t before = 0;
-    for (const auto& [numbers, distance] : distance_of) {
-        steps.push_back(numbers.first - before);
-        apart.push_back(numbers.second - numbers.first);
-        distances.push_back(std::bit_cast<uint32_t>(distance));
-        before = numbers.first;
-    }
+Bytes section_of(std::span<const Planted> pairs) {
     format::ByteWriter writer;
     writer.u64(pairs.size());
     for (const float error : {0.5f, 0.25f, 0.0f}) writer.f32(error);
-    for (const auto* planes : {&steps, &apart, &distances}) writer.u32_planes(*planes);
+    write_planted(pairs, numbers_of_ids(plain_file(), mesh().vertex_count()), writer);
     return writer.take();
 }
 
-// The file with these pairs instead of those that it has.
 Bytes with_section(const Bytes& section) {
-    const auto container = format::Container::parse(plain_file(), geodesic::INDEX_TAGS);
-    format::ContainerWriter writer(container.mesh_fingerprint());
-    for (const format::Section& s : container.sections())
-        if (s.tag != geodesic::TAG_MEASURED_PAIRS)
-            writer.add_bytes(s.tag, container.read_bytes(s.tag, UINT64_MAX));
-    writer.add_bytes(geodesic::TAG_MEASURED_PAIRS, section);
-    return writer.finish();
+    return geodesic::test::with_section(plain_file(), TAG_MEASURED_PAIRS, section);
 }
 
 const Bytes& file_with_pairs() {
-    static const Bytes file = [] {
-        const auto container = format::Container::parse(plain_file(), geodesic::INDEX_TAGS);
-        return with_section(section_of(planted(), numbers_of_ids(container)));
-    }();
+    static const Bytes file = with_section(section_of(planted()));
     return file;
 }
 
@@ -257,26 +219,15 @@ TEST_CASE("measured pairs: several sources have the least of what each of them h
 }
 
 TEST_CASE("measured pairs: a section that breaks a rule is refused") {
-    const auto container = format::Container::parse(plain_file(), geodesic::INDEX_TAGS);
-    const auto good = section_of(planted(), numbers_of_ids(container));
+    constexpr size_t BEGIN = 20; // of the pairs
+    const Bytes good = section_of(planted());
     REQUIRE(open_status(with_section(good)) == GEOIDX_OK);
-    REQUIRE(open_status(with_section(Bytes(20))) == GEOIDX_OK); // no pair at all
-    const size_t pairs = planted().size();
+    REQUIRE(open_status(with_section(Bytes(BEGIN))) == GEOIDX_OK); // no pair at all
     const auto refused = [&](const char* what, size_t plane, size_t pair, uint32_t value) {
         CAPTURE(what);
-        Bytes section = good; // u32 in planes: the lowest byte of each, then the second one
-        for (size_t byte = 0; byte < 4; ++byte)
-            section[20 + plane * 4 * pairs + byte * pairs + pair] =
-                static_cast<std::byte>(value >> 8 * byte & 0xff);
-        const Bytes file = with_section(section);
+        const Bytes file = with_section(with_value(good, BEGIN, plane, pair, value));
         CHECK(open_status(file) == GEOIDX_ERROR_CORRUPT);
-        uint32_t number = 0;
-        const auto note = [](void* user, const geoidx_issue* issue) {
-            *static_cast<uint32_t*>(user) = issue->number;
-            return 1;
-        };
-        CHECK(geoidx_verify(file.data(), file.size(), note, &number) == GEOIDX_ERROR_CORRUPT);
-        CHECK(number == 114);
+        CHECK(issue_number(file) == GEOIDX_ISSUE_PAIR);
     };
     refused("a vertex and itself", 1, 0, 0);
     refused("a second vertex that is not there", 1, 0, 1 << 20);
@@ -285,7 +236,7 @@ TEST_CASE("measured pairs: a section that breaks a rule is refused") {
     for (const float distance : {0.0f, -1.0f, FAR, std::numeric_limits<float>::quiet_NaN()})
         refused("distance", 2, 2, std::bit_cast<uint32_t>(distance));
     const std::vector<Planted> twice{planted()[0], planted()[0]};
-    CHECK(open_status(with_section(section_of(twice, numbers_of_ids(container)))) == GEOIDX_ERROR_CORRUPT);
+    CHECK(open_status(with_section(section_of(twice))) == GEOIDX_ERROR_CORRUPT);
     for (const float error : {-1.0f, FAR, std::numeric_limits<float>::quiet_NaN()}) {
         Bytes section = good;
         std::memcpy(section.data() + 8, &error, sizeof error);
@@ -294,6 +245,6 @@ TEST_CASE("measured pairs: a section that breaks a rule is refused") {
     Bytes longer = good, shorter = good;
     longer.push_back(std::byte{0});
     shorter.pop_back();
-    for (const Bytes& section : {longer, shorter, Bytes(19)})
+    for (const Bytes& section : {longer, shorter, Bytes(BEGIN - 1)})
         CHECK(open_status(with_section(section)) == GEOIDX_ERROR_CORRUPT);
 }

@@ -215,10 +215,21 @@ class OverlayEngine:
 
     def msad(self, sources):
         if len(sources) > 1:
-            return SeveralSources(self, sources).msad()
+            return self.lowered(SeveralSources(self, sources).msad())
         distance = self.ssad(sources[0])
         for other, measured in self.index.measured.get(sources[0], {}).items():
             distance[other] = measured
+        return self.lowered(distance)
+
+    def lowered(self, distance):
+        """The field with no steep edge left."""
+        ends = list(self.index.steep)
+        while ends:
+            end = ends.pop()
+            for other, most in self.index.steep[end].items():
+                if distance[end] + most < distance[other]:
+                    distance[other] = distance[end] + most
+                    ends.append(other)
         return distance
 
     # ---- SSSD

@@ -354,22 +354,25 @@ class Index:
         begin = self.border_begin
         self.segment_end = [ends[a:b] for a, b in zip(begin, begin[1:])]
         self.segment_length = [lengths[a:b] for a, b in zip(begin, begin[1:])]
-        self._read_pairs()
+        self.measured = self._read_pairs("PAIR", 3)
+        self.steep = self._read_pairs("EDGE", 0)
 
-    def _read_pairs(self):
-        self.measured = {}  # per vertex number: the distances of others
-        if "PAIR" not in self.sections:
-            return
-        fields = Fields(self.sections["PAIR"].bytes())
-        count, errors = int(fields.take("<u8", 1)[0]), fields.take("<f4", 3)
+    def _read_pairs(self, tag, error_count):
+        """Per vertex number: the distances of others."""
+        distances = {}
+        if tag not in self.sections:
+            return distances
+        fields = Fields(self.sections[tag].bytes())
+        count, errors = int(fields.take("<u8", 1)[0]), fields.take("<f4", error_count)
         require(((0 <= errors) & (errors < numpy.inf)).all(), "errors that cannot be")
         first = fields.planes(count).cumsum(dtype="u4")
         second, distance = first + fields.planes(count), fields.planes(count).view("<f4")
-        require(fields.at == len(fields.content), "PAIR is longer than its pairs")
+        require(fields.at == len(fields.content), "a section of pairs is longer than these")
         for a, b, d in zip(first.tolist(), second.tolist(), distance):
             require(a < b < self.vertex_count and 0 < d < numpy.inf, "no pair")
-            self.measured.setdefault(a, {})[b] = d
-            self.measured.setdefault(b, {})[a] = d
+            distances.setdefault(a, {})[b] = d
+            distances.setdefault(b, {})[a] = d
+        return distances
 
     def _read_packed(self):
         """The tables of a packed index; of triangles, both halves."""

@@ -188,10 +188,7 @@ class ReaderTest(unittest.TestCase):
 
     def test_measured_pairs(self):
         """A sheet so rough that tables are wrong for many near pairs. Those that they have too short, and one more source."""
-        points, triangles = sheet(26, 0.0)
-        points[:, 2] = numpy.random.default_rng(2).random(len(points)) / 4
-        mesh = FOLDER / "rough.off"
-        write_off(mesh, points, triangles)
+        mesh = self.rough_sheet(26)
         index = self.check(mesh, "rough", "--target-error", "0")
         subject, id_of = Subject(mesh, "rough", "--target-error", "0"), numpy.argsort(index.number_of_id)
         checked = {True: 0, False: 0}
@@ -206,6 +203,32 @@ class ReaderTest(unittest.TestCase):
                     off = excess(subject.msad_by_library(several), subject.msad_by_reader(several))
                     self.assertLessEqual(numpy.abs(off).max(initial=0), TOLERANCE)
         self.assertGreater(min(checked.values()), 8)
+
+    def test_steep_edges(self):
+        """Sources of which fields are lowered, and two of them together."""
+        subject = Subject(self.rough_sheet(38), "steep", "--target-error", "0")
+        id_of = numpy.argsort(subject.index.number_of_id)
+        lowered = [source for source in range(0, subject.index.vertex_count, 5) if self.is_lowered(subject, source)]
+        self.assertGreater(len(lowered), 8)
+        for sources in [[source] for source in lowered[:8]] + [[lowered[0], lowered[-1]]]:
+            ids = [int(id_of[source]) for source in sources]
+            off = excess(subject.msad_by_library(ids), subject.msad_by_reader(ids))
+            self.assertLessEqual(numpy.abs(off).max(initial=0), TOLERANCE)
+
+    def is_lowered(self, subject, source):
+        steep = dict(subject.index.steep)
+        field = subject.engine.msad([source])
+        subject.index.steep.clear()
+        before = subject.engine.msad([source])
+        subject.index.steep.update(steep)
+        return (before != field).any()
+
+    def rough_sheet(self, side):
+        points, triangles = sheet(side, 0.0)
+        points[:, 2] = numpy.random.default_rng(2).random(len(points)) / 4
+        mesh = FOLDER / f"rough{side}.off"
+        write_off(mesh, points, triangles)
+        return mesh
 
     def test_large_overlays(self):
         """Of these, a mapped file has distances among owned vertices once."""

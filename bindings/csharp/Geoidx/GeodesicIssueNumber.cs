@@ -107,6 +107,9 @@ namespace Geoidx
         /// <summary>The content of section PAIR: measured pairs.</summary>
         Pair = 114,
 
+        /// <summary>The content of section EDGE: edges along which fields are lowered.</summary>
+        Edge = 115,
+
         /// <summary>No single section is at fault: the index is over a limit, or out of proportion to its file.</summary>
         WholeIndex = 200,
     }

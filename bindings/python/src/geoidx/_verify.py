@@ -53,6 +53,7 @@ class IssueNumber(IntEnum):
     HOPS = 112
     MESH = 113
     PAIR = 114
+    EDGE = 115
     WHOLE_INDEX = 200
 
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace geodesic {
+
+// A positive number, rounded to 13 bits: by a share of 1/8192 at most. Files hold few bytes of such numbers.
+inline constexpr float ROUNDING = 1.f / (1 << 13);
+inline float rounded(float number) {
+    constexpr uint32_t DROPPED = (1 << 11) - 1;
+    const auto bits = std::bit_cast<uint32_t>(number);
+    return std::bit_cast<float>((bits + DROPPED / 2 + 1) & ~DROPPED);
+}
+
+}

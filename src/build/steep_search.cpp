@@ -1,0 +1,114 @@
+#include "src/build/steep_search.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "src/base/rounded.h"
+#include "src/overlay/query.h"
+
+namespace geodesic {
+
+namespace {
+
+constexpr uint64_t MOST_DISTANCES = uint64_t{1} << 32; // in all fields that are looked at
+constexpr size_t AT_ONCE = FieldLowering::FIELDS_AT_ONCE;
+constexpr size_t FEWEST_OF_TASK = 4, MOST_TASKS = 256; // batches of a task share a query
+
+// By the numbers of their ends, each with what the distances of both may differ by.
+std::vector<VertexPair> edges_by_number(const Intake& intake, const Index& index) {
+    std::vector<VertexPair> edges;
+    const auto number = [&](uint32_t vertex) { return index.number_of_id[intake.id_of_vertex[vertex]]; };
+    for (const auto& [a, b] : intake.mesh.edges) {
+        const double length = (intake.mesh.positions[a] - intake.mesh.positions[b]).norm();
+        const auto [first, second] = std::minmax({number(a), number(b)});
+        if (const float most = rounded(static_cast<float>(STEEPEST * length)); first != second && most > 0)
+            edges.push_back({first, second, most});
+    }
+    std::ranges::sort(edges, {}, [](const VertexPair& edge) { return std::tuple(edge.first, edge.second); });
+    return edges;
+}
+
+class Search {
+public:
+    Search(const Intake& intake, Workers& workers, OverlayIndex& index, std::vector<VertexPair> edges)
+        : intake_(intake), workers_(workers), index_(index), edges_(std::move(edges)),
+          is_found_(edges_.size()) {}
+
+    void run(const Index& index) {
+        std::vector<uint32_t> sources = look_from(choose_sources(index));
+        while (hold_found()) look_from(sources);
+    }
+
+private:
+    // Evenly spread by the numbers of the mesh, which are in a spatial order.
+    std::vector<uint32_t> choose_sources(const Index& index) const {
+        const uint64_t vertices = intake_.mesh.vertex_count(),
+                       count = std::min(vertices, MOST_DISTANCES / vertices);
+        std::vector<uint32_t> sources;
+        for (uint64_t i = 0; i < count; ++i)
+            sources.push_back(index.number_of_id[intake_.id_of_vertex[i * vertices / count]]);
+        return sources;
+    }
+
+    // Notes the edges along which fields from these sources are steep. Returns the sources that have any.
+    std::vector<uint32_t> look_from(const std::vector<uint32_t>& sources) {
+        const size_t batches = (sources.size() + AT_ONCE - 1) / AT_ONCE,
+                     of_task = std::max(FEWEST_OF_TASK, batches / MOST_TASKS + 1);
+        std::vector<uint8_t> has_steep_edges(batches * AT_ONCE, 0);
+        workers_.run((batches + of_task - 1) / of_task, [&](FieldSolver&, size_t task) {
+            OverlayQuery query(index_, std::pmr::get_default_resource());
+            std::vector<float> fields(AT_ONCE * index_.numbering.vertex_count());
+            for (size_t b = task * of_task; b < std::min((task + 1) * of_task, batches); ++b) {
+                workers_.check_cancelled();
+                std::array<uint32_t, AT_ONCE> batch; // the last source is repeated
+                for (size_t i = 0; i < AT_ONCE; ++i)
+                    batch[i] = sources[std::min(b * AT_ONCE + i, sources.size() - 1)];
+                query.ssad_each(batch, fields);
+                note_steep_edges(fields, has_steep_edges.data() + b * AT_ONCE);
+            }
+        });
+        std::vector<uint32_t> with_steep_edges;
+        for (size_t i = 0; i < sources.size(); ++i)
+            if (has_steep_edges[i]) with_steep_edges.push_back(sources[i]);
+        return with_steep_edges;
+    }
+
+    void note_steep_edges(const std::vector<float>& fields, uint8_t* has_steep_edges) {
+        for (size_t e = 0; e < edges_.size(); ++e) {
+            const auto& [first, second, most] = edges_[e];
+            const float *a = fields.data() + first * AT_ONCE, *b = fields.data() + second * AT_ONCE;
+            if (!FieldLowering::is_steep(a, b, most)) continue;
+            is_found_[e].store(true, std::memory_order_relaxed);
+            for (size_t i = 0; i < AT_ONCE; ++i)
+                if (a[i] + most < b[i] || b[i] + most < a[i]) has_steep_edges[i] = 1;
+        }
+    }
+
+    // Returns whether any edge is new.
+    bool hold_found() {
+        std::vector<VertexPair> found;
+        for (size_t e = 0; e < edges_.size(); ++e)
+            if (is_found_[e]) found.push_back(edges_[e]);
+        if (found.size() == index_.steep.edges.size()) return false;
+        take_steep_edges(found, index_.numbering.vertex_count(), index_.steep);
+        return true;
+    }
+
+    const Intake& intake_;
+    Workers& workers_;
+    OverlayIndex& index_;
+    const std::vector<VertexPair> edges_;
+    std::vector<std::atomic<bool>> is_found_; // per edge
+};
+
+}
+
+void hold_steep_edges(const Intake& intake, Workers& workers, Index& index) {
+    Search(intake, workers, std::get<OverlayIndex>(index.engine), edges_by_number(intake, index)).run(index);
+}
+
+}

@@ -1,0 +1,66 @@
+// That in no field the distances of neighbours differ by more than 1.05 times the length of their edge.
+#include <cmath>
+
+#include "tests/query/planted_pairs.h"
+#include "tests/support/sanitized.h"
+
+using namespace geodesic::test;
+using geodesic::TAG_STEEP_EDGES;
+
+namespace {
+
+constexpr double STEEPEST = 1.05;
+
+// Two parts, a vertex that nothing uses, a triangle without area and one that is there twice.
+TestMesh dirty() {
+    TestMesh mesh = rough_sheet(26, 16);
+    append(mesh, rough_sheet(13, 5), 60);
+    const uint32_t alone = mesh.add_vertex(1, 2, 3);
+    mesh.add_triangle(4, 4, 5);
+    mesh.add_triangle(mesh.triangles[0], mesh.triangles[1], mesh.triangles[2]);
+    REQUIRE(alone > 0);
+    return mesh;
+}
+
+// Of the fields of all vertices, or of every step-th one.
+uint64_t count_steep(const geoidx* index, const TestMesh& mesh, uint32_t step) {
+    const auto edges = edges_of(mesh);
+    uint64_t steep = 0;
+    for (uint32_t source = 0; source < mesh.vertex_count(); source += step) {
+        const auto field = msad(index, source, mesh.vertex_count());
+        for (const auto& [a, b] : edges)
+            steep += std::abs(double{field[a]} - double{field[b]}) > STEEPEST * mesh.straight(a, b);
+    }
+    return steep;
+}
+
+}
+
+TEST_CASE("steep search: no field has a steep edge") {
+    for (const TestMesh& mesh : {rough_sheet(24, 16), hills(30, 20), lattice(4), dirty()}) {
+        const auto index = build(mesh, default_options());
+        CHECK(count_steep(index.get(), mesh, sparse(1)) == 0);
+    }
+}
+
+TEST_CASE("steep search: there are some where fields are not lowered") {
+    const TestMesh mesh = rough_sheet(40, 16); // so large that most vertices are not near each other
+    const Bytes file = save(build(mesh, default_options()).get());
+    CHECK(count_steep(open(without_section(file, TAG_STEEP_EDGES)).get(), mesh, 3) > 20);
+    CHECK(count_steep(open(file).get(), mesh, 3) == 0);
+}
+
+TEST_CASE("steep search: threads change no bit of the file") {
+    const TestMesh mesh = rough_sheet(40, 16);
+    const Bytes one = save(build(mesh, default_options(1)).get());
+    REQUIRE(geodesic::format::Container::parse(one, geodesic::INDEX_TAGS).has(TAG_STEEP_EDGES));
+    CHECK(save(build(mesh, default_options(4)).get()) == one);
+}
+
+TEST_CASE("steep search: where distances are no lengths of ways over triangles, nothing is lowered") {
+    const TestMesh mesh = rough_sheet(24, 16);
+    auto options = default_options();
+    options.metric = GEOIDX_METRIC_EDGES;
+    const Bytes file = save(build(mesh, options).get());
+    CHECK(!geodesic::format::Container::parse(file, geodesic::INDEX_TAGS).has(TAG_STEEP_EDGES));
+}

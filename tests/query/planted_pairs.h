@@ -1,0 +1,84 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "format/bytes.h"
+#include "format/container.h"
+#include "src/index/section_tags.h"
+#include "tests/capi/calls.h"
+
+namespace geodesic::test {
+
+// Two vertices of the caller's and a distance of theirs, to be put into a file by a test.
+struct Planted {
+    uint32_t a, b;
+    float distance;
+};
+
+inline std::vector<uint32_t> numbers_of_ids(std::span<const std::byte> file, uint32_t id_count) {
+    const auto bytes = format::Container::parse(file, INDEX_TAGS).read_bytes(TAG_VERTICES, UINT64_MAX);
+    format::ByteReader reader(bytes, "VERT");
+    reader.u64();
+    std::vector<uint32_t> numbers(id_count);
+    reader.u32_planes(numbers);
+    return numbers;
+}
+
+// What the sections PAIR and EDGE have of their pairs, as format/SPEC.md has it.
+inline void write_planted(std::span<const Planted> pairs, std::span<const uint32_t> number_of_id,
+                          format::ByteWriter& writer) {
+    std::multimap<std::pair<uint32_t, uint32_t>, float> distance_of;
+    for (const auto& [a, b, distance] : pairs)
+        distance_of.emplace(std::minmax(number_of_id[a], number_of_id[b]), distance);
+    std::vector<uint32_t> steps, apart, distances;
+    uint32_t before = 0;
+    for (const auto& [numbers, distance] : distance_of) {
+        steps.push_back(numbers.first - before);
+        apart.push_back(numbers.second - numbers.first);
+        distances.push_back(std::bit_cast<uint32_t>(distance));
+        before = numbers.first;
+    }
+    for (const auto* planes : {&steps, &apart, &distances}) writer.u32_planes(*planes);
+}
+
+// The section with one value of a pair changed, if `pairs_begin` bytes precede the pairs: plane 0 is that of
+// the steps, 1 how far numbers are apart, 2 the distances.
+inline Bytes with_value(Bytes section, size_t pairs_begin, size_t plane, size_t pair, uint32_t value) {
+    const size_t pairs = (section.size() - pairs_begin) / 12;
+    for (size_t byte = 0; byte < 4; ++byte)
+        section[pairs_begin + (plane * 4 + byte) * pairs + pair] =
+            static_cast<std::byte>(value >> 8 * byte & 0xff);
+    return section;
+}
+
+inline Bytes without_section(std::span<const std::byte> file, uint32_t tag, const Bytes* instead = nullptr) {
+    const auto container = format::Container::parse(file, INDEX_TAGS);
+    format::ContainerWriter writer(container.mesh_fingerprint());
+    for (const format::Section& section : container.sections())
+        if (section.tag != tag) writer.add_bytes(section.tag, container.read_bytes(section.tag, UINT64_MAX));
+    if (instead) writer.add_bytes(tag, *instead);
+    return writer.finish();
+}
+
+// The file with this section instead of the one that it may have.
+inline Bytes with_section(std::span<const std::byte> file, uint32_t tag, const Bytes& section) {
+    return without_section(file, tag, &section);
+}
+
+// Of the first issue, 0 if there is none.
+inline uint32_t issue_number(const Bytes& file) {
+    uint32_t number = 0;
+    const auto note = [](void* user, const geoidx_issue* issue) {
+        *static_cast<uint32_t*>(user) = issue->number;
+        return 1;
+    };
+    geoidx_verify(file.data(), file.size(), note, &number);
+    return number;
+}
+
+}

@@ -1,0 +1,228 @@
+// Edges along which fields are lowered: every query that gives distances of a field does so, against a plain
+// rendering of the rule in format/SPEC.md.
+#include <limits>
+
+#include "tests/query/planted_pairs.h"
+
+using namespace geodesic::test;
+using geodesic::TAG_STEEP_EDGES;
+namespace format = geodesic::format;
+
+namespace {
+
+constexpr float FAR = std::numeric_limits<float>::infinity();
+constexpr uint32_t SIDE = 40;
+
+// Two sheets, so that some vertices are in no reach of a source.
+const TestMesh& mesh() {
+    static const TestMesh made = [] {
+        TestMesh both = hills(SIDE, SIDE);
+        append(both, hills(7, 6), 2 * SIDE);
+        return both;
+    }();
+    return made;
+}
+
+const Bytes& plain_file() {
+    static const Bytes file = without_section(save(build(mesh(), default_options()).get()), TAG_STEEP_EDGES);
+    return file;
+}
+
+// Edges all over the mesh, and a chain of them, along which most fields change by more than they say.
+const std::vector<Planted>& planted() {
+    static const std::vector<Planted> edges = [] {
+        std::vector<Planted> made;
+        uint32_t i = 0;
+        for (const auto& [a, b] : edges_of(mesh())) {
+            const bool is_of_chain = b == a + 1 && a / SIDE == 20 && a % SIDE < 12;
+            if (i++ % 23 == 0 || is_of_chain)
+                made.push_back({a, b, 0.6f * static_cast<float>(mesh().straight(a, b))});
+        }
+        return made;
+    }();
+    return edges;
+}
+
+Bytes section_of(std::span<const Planted> edges) {
+    format::ByteWriter writer;
+    writer.u64(edges.size());
+    write_planted(edges, numbers_of_ids(plain_file(), mesh().vertex_count()), writer);
+    return writer.take();
+}
+
+const Bytes& file_with_edges() {
+    static const Bytes file = with_section(plain_file(), TAG_STEEP_EDGES, section_of(planted()));
+    return file;
+}
+
+struct Field {
+    std::vector<float> distance;
+    std::vector<uint32_t> source{};
+};
+
+// Until no edge is steep, the end of one that is farther is lowered.
+void lower(Field& field) {
+    for (bool is_lowered = true; is_lowered;) {
+        is_lowered = false;
+        for (const auto& [a, b, most] : planted())
+            for (const auto& [from, to] : {std::pair{a, b}, {b, a}})
+                if (const float way = field.distance[from] + most; way < field.distance[to]) {
+                    field.distance[to] = way;
+                    if (!field.source.empty()) field.source[to] = field.source[from];
+                    is_lowered = true;
+                }
+    }
+}
+
+std::vector<float> lowered(std::vector<float> distance) {
+    Field field{std::move(distance)};
+    lower(field);
+    return field.distance;
+}
+
+std::vector<float> within(std::vector<float> field, float radius) {
+    for (float& distance : field)
+        if (distance > radius) distance = FAR;
+    return field;
+}
+
+// As geoidx_query_within finds them, infinite elsewhere.
+std::vector<float> found_within(geoidx_query* query, uint32_t source, float radius) {
+    std::vector<uint32_t> vertices(mesh().vertex_count());
+    std::vector<float> distances(vertices.size()), field(vertices.size(), FAR);
+    uint32_t count = 0;
+    require_success(geoidx_query_within(query, &source, 1, radius, vertices.data(), distances.data(),
+                                        static_cast<uint32_t>(vertices.size()), &count));
+    for (uint32_t i = 0; i < count; ++i) field[vertices[i]] = distances[i];
+    return field;
+}
+
+std::vector<uint32_t> some_sources() {
+    std::vector<uint32_t> sources;
+    for (uint32_t v = 3; v < mesh().vertex_count(); v += 97) sources.push_back(v);
+    sources.push_back(mesh().vertex_count() - 1); // on the other sheet
+    return sources;
+}
+
+}
+
+TEST_CASE("steep edges: fields are lowered along them, from every form of file") {
+    const auto plain = open(plain_file());
+    const uint32_t count = mesh().vertex_count();
+    Bytes file = file_with_edges();
+    for (const uint32_t codec :
+         {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_MAPPED, GEOIDX_CODEC_LOSSLESS, GEOIDX_CODEC_PACKED}) {
+        CAPTURE(codec);
+        file = save(open(file).get(), codec);
+        const auto index = open(file);
+        for (const uint32_t source : some_sources()) {
+            const auto before = msad(plain.get(), source, count);
+            CHECK(msad(index.get(), source, count) == lowered(before));
+            CHECK(lowered(before) != before);
+        }
+    }
+    CHECK(file == save(open(file_with_edges()).get()));
+}
+
+TEST_CASE("steep edges: a batch has the bits of single fields") {
+    const auto index = open(file_with_edges());
+    const auto query = query_of(index.get());
+    const uint32_t count = mesh().vertex_count();
+    const auto sources = some_sources();
+    REQUIRE(sources.size() > 16);
+    std::vector<float> batch(sources.size() * count);
+    require_success(geoidx_query_ssad_batch(
+        query.get(), sources.data(), static_cast<uint32_t>(sources.size()), batch.data(), batch.size()));
+    for (size_t i = 0; i < sources.size(); ++i) {
+        const auto begin = batch.begin() + static_cast<std::ptrdiff_t>(i * count);
+        CHECK(std::vector(begin, begin + count) == msad(index.get(), sources[i], count));
+    }
+}
+
+TEST_CASE("steep edges: within a radius are the bits of a whole field") {
+    const auto index = open(file_with_edges());
+    const auto query = query_of(index.get());
+    const uint32_t count = mesh().vertex_count();
+    for (const uint32_t source : some_sources()) {
+        const auto field = msad(index.get(), source, count);
+        for (const float radius : {0.0f, 1.5f, 4.0f, 11.0f, 30.0f, FAR}) {
+            CAPTURE(radius);
+            CHECK(found_within(query.get(), source, radius) == within(field, radius));
+            std::vector<float> found(count);
+            require_success(geoidx_query_msad_within(query.get(), &source, 1, radius, found.data(), count));
+            CHECK(found == within(field, radius));
+        }
+    }
+}
+
+TEST_CASE("steep edges: several sources, and which of them is the nearest") {
+    const auto plain = open(plain_file()), index = open(file_with_edges());
+    const auto query = query_of(index.get()), plain_query = query_of(plain.get());
+    const uint32_t count = mesh().vertex_count();
+    const std::vector<uint32_t> sources{5, 700, 1111, 1599};
+    Field expected{std::vector<float>(count), std::vector<uint32_t>(count)}, found = expected;
+    const auto ask = [&](geoidx_query* of, Field& field) {
+        require_success(geoidx_query_nearest_sources(of, sources.data(), 4, field.source.data(),
+                                                     field.distance.data(), count));
+    };
+    ask(plain_query.get(), expected);
+    const Field before = expected;
+    lower(expected);
+    CHECK(before.distance != expected.distance);
+    CHECK(before.source != expected.source);
+    for (const uint32_t threads : {1u, 3u}) {
+        require_success(geoidx_query_set_threads(query.get(), threads));
+        ask(query.get(), found);
+        CHECK(found.distance == expected.distance);
+        CHECK(found.source == expected.source);
+        CHECK(msad(index.get(), sources, count) == expected.distance);
+    }
+}
+
+TEST_CASE("steep edges: fields of points are lowered, pairs of vertices are not") {
+    const auto plain = open(plain_file()), index = open(file_with_edges());
+    const auto query = query_of(index.get()), plain_query = query_of(plain.get());
+    const uint32_t count = mesh().vertex_count();
+    const geoidx_mesh view = mesh().view();
+    geoidx_surface* made = nullptr;
+    require_success(geoidx_surface_create(&view, nullptr, &made));
+    const SurfaceHandle surface(made);
+    const geoidx_surface_point point{100, 0, {0.5, 0.25, 0.25}};
+    std::vector<float> before(count), after(count);
+    require_success(
+        geoidx_query_point_msad(plain_query.get(), made, &point, 1, nullptr, before.data(), count));
+    require_success(geoidx_query_point_msad(query.get(), made, &point, 1, nullptr, after.data(), count));
+    CHECK(after != before);
+    const auto expected = lowered(before);
+    for (uint32_t v = 0; v < count; ++v) {
+        CHECK(after[v] <= before[v]);
+        if (before[v] > 5) CHECK(after[v] == expected[v]); // nearer ones are known by other ways, too
+    }
+    for (uint32_t v = 0; v < count; v += 13) CHECK(sssd(index.get(), 800, v) == sssd(plain.get(), 800, v));
+}
+
+TEST_CASE("steep edges: a section that breaks a rule is refused") {
+    constexpr size_t BEGIN = 8; // of the edges
+    const Bytes good = section_of(planted());
+    const auto file_with = [](const Bytes& section) {
+        return with_section(plain_file(), TAG_STEEP_EDGES, section);
+    };
+    REQUIRE(open_status(file_with(good)) == GEOIDX_OK);
+    REQUIRE(open_status(file_with(Bytes(BEGIN))) == GEOIDX_OK); // no edge at all
+    const auto refused = [&](const char* what, const Bytes& section) {
+        CAPTURE(what);
+        CHECK(open_status(file_with(section)) == GEOIDX_ERROR_CORRUPT);
+        CHECK(issue_number(file_with(section)) == GEOIDX_ISSUE_EDGE);
+    };
+    refused("a vertex and itself", with_value(good, BEGIN, 1, 0, 0));
+    refused("a second vertex that is not there", with_value(good, BEGIN, 1, 0, 1 << 20));
+    refused("a first vertex that is not there", with_value(good, BEGIN, 0, 1, UINT32_MAX - 5));
+    refused("descending order", with_value(good, BEGIN, 0, 1, UINT32_MAX));
+    for (const float most : {0.0f, -1.0f, FAR, std::numeric_limits<float>::quiet_NaN()})
+        refused("what ends may differ by", with_value(good, BEGIN, 2, 2, std::bit_cast<uint32_t>(most)));
+    refused("an edge twice", section_of(std::vector<Planted>{planted()[0], planted()[0]}));
+    Bytes longer = good, shorter = good;
+    longer.push_back(std::byte{0});
+    shorter.pop_back();
+    for (const Bytes& section : {longer, shorter, Bytes(BEGIN - 1)}) refused("size", section);
+}
