@@ -184,9 +184,10 @@ enum {
      * sources with offsets have none. On meshes of more than 400,000 vertices fewer are compared. Building
      * takes some 4 KB of memory a vertex for that, up to 8 KB where many pairs are wrong.
      * Then, too, an index holds the edges along which MSAD would change by more than they are long, and
-     * lowers the farther end of these: from one vertex, the distances of the ends of any edge differ by no
-     * more than 1.05 times its length, on meshes of up to 65,536 vertices. On larger ones, from several
-     * sources and from points, an edge in many millions may be steeper. */
+     * lowers the farther ends of these, measured distances included: from one vertex, the distances of the
+     * ends of any edge of the welded mesh differ by no more than 1.05 times its length and the rounding of a
+     * float, on meshes of up to 65,536 vertices. On larger ones, from several sources and from points, an
+     * edge in a million may be steeper. */
     GEOIDX_ENGINE_OVERLAY = 1
 };
 

@@ -21,7 +21,7 @@ namespace geodesic {
 namespace {
 
 constexpr double FILLING_END = 0.85; // the share of the whole work; looking for large errors is the rest
-constexpr double WRONG_PAIRS_END = 0.6, STEEP_EDGES_END = 0.7; // shares of that rest
+constexpr double WRONG_PAIRS_END = 0.5, STEEP_EDGES_END = 0.8; // shares of that rest
 
 void check_options(const geoidx_build_options& options) {
     if (!(options.delta >= 0 && options.delta <= 100))
@@ -116,8 +116,8 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
     if (filling.near_distances()) {
         hold_wrong_pairs(intake, *filling.near_distances(), stating, index, WRONG_PAIRS_END);
-        stating.begin_stage("accuracy", STEEP_EDGES_END);
-        hold_steep_edges(intake, stating, index);
+        filling.near_distances().reset();
+        hold_steep_edges(intake, stating, index, STEEP_EDGES_END);
     }
     stating.begin_stage("accuracy", 1);
     state_errors(intake, filling.solved_fields(), stating, index);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <numeric>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -20,12 +20,14 @@ constexpr size_t FEWEST_OF_TASK = 4, MOST_TASKS = 256; // batches of a task shar
 
 // By the numbers of their ends, each with what the distances of both may differ by.
 std::vector<VertexPair> edges_by_number(const Intake& intake, const Index& index) {
+    constexpr double MOST = std::numeric_limits<float>::max() / 2;
     std::vector<VertexPair> edges;
     const auto number = [&](uint32_t vertex) { return index.number_of_id[intake.id_of_vertex[vertex]]; };
     for (const auto& [a, b] : intake.mesh.edges) {
         const double length = (intake.mesh.positions[a] - intake.mesh.positions[b]).norm();
         const auto [first, second] = std::minmax({number(a), number(b)});
-        if (const float most = rounded(static_cast<float>(STEEPEST * length)); first != second && most > 0)
+        if (const float most = rounded(static_cast<float>(std::min(STEEPEST * length, MOST)));
+            first != second && most > 0)
             edges.push_back({first, second, most});
     }
     std::ranges::sort(edges, {}, [](const VertexPair& edge) { return std::tuple(edge.first, edge.second); });
@@ -34,13 +36,18 @@ std::vector<VertexPair> edges_by_number(const Intake& intake, const Index& index
 
 class Search {
 public:
-    Search(const Intake& intake, Workers& workers, OverlayIndex& index, std::vector<VertexPair> edges)
-        : intake_(intake), workers_(workers), index_(index), edges_(std::move(edges)),
-          is_found_(edges_.size()) {}
+    Search(const Intake& intake, Workers& workers, double end_fraction, OverlayIndex& index,
+           std::vector<VertexPair> edges)
+        : intake_(intake), workers_(workers), end_fraction_(end_fraction), index_(index),
+          edges_(std::move(edges)), is_found_(edges_.size()) {}
 
     void run(const Index& index) {
-        std::vector<uint32_t> sources = look_from(choose_sources(index));
-        while (hold_found()) look_from(sources);
+        workers_.begin_half_of_stage("accuracy", end_fraction_);
+        const std::vector<uint32_t> sources = look_from(choose_sources(index));
+        while (hold_found()) {
+            workers_.begin_half_of_stage("accuracy", end_fraction_);
+            look_from(sources);
+        }
     }
 
 private:
@@ -100,6 +107,7 @@ private:
 
     const Intake& intake_;
     Workers& workers_;
+    const double end_fraction_;
     OverlayIndex& index_;
     const std::vector<VertexPair> edges_;
     std::vector<std::atomic<bool>> is_found_; // per edge
@@ -107,8 +115,10 @@ private:
 
 }
 
-void hold_steep_edges(const Intake& intake, Workers& workers, Index& index) {
-    Search(intake, workers, std::get<OverlayIndex>(index.engine), edges_by_number(intake, index)).run(index);
+void hold_steep_edges(const Intake& intake, Workers& workers, Index& index, double end_fraction) {
+    Search(intake, workers, end_fraction, std::get<OverlayIndex>(index.engine),
+           edges_by_number(intake, index))
+        .run(index);
 }
 
 }

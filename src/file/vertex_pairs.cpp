@@ -52,9 +52,9 @@ uint64_t most_pairs(const StoredIndex& stored) {
 
 // The pairs are what is left of the section. Their numbers are added up modulo 2^32, so that what a file with
 // other numbers makes is refused afterwards.
-std::vector<VertexPair> read_pairs(const char* section, uint64_t count, const StoredIndex& stored,
-                                   format::ByteReader& reader) {
-    if (count > most_pairs(stored) || reader.remaining() != count * BYTES_OF_PAIR)
+std::vector<VertexPair> read_pairs(const char* section, uint64_t count, uint64_t most,
+                                   const StoredIndex& stored, format::ByteReader& reader) {
+    if (count > most || reader.remaining() != count * BYTES_OF_PAIR)
         refuse_as_corrupt(std::string("section ") + section + " does not hold " + std::to_string(count) +
                           " pairs");
     std::vector<uint32_t> steps(count), apart(count), distances(count);
@@ -88,7 +88,7 @@ void read_measured(const format::Container& container, StoredIndex& stored) {
     for (const float error : stored.errors_of_measured)
         if (!(error >= 0) || !std::isfinite(error))
             refuse_as_corrupt("section PAIR: the error " + std::to_string(error));
-    stored.measured_pairs = read_pairs("PAIR", count, stored, reader);
+    stored.measured_pairs = read_pairs("PAIR", count, most_pairs(stored), stored, reader);
 }
 
 std::vector<std::byte> steep_bytes(const StoredIndex& stored) {
@@ -99,11 +99,11 @@ std::vector<std::byte> steep_bytes(const StoredIndex& stored) {
 }
 
 void read_steep(const format::Container& container, StoredIndex& stored) {
-    const auto bytes =
-        container.read_bytes(TAG_STEEP_EDGES, sizeof(uint64_t) + most_pairs(stored) * BYTES_OF_PAIR);
+    const uint64_t most = std::min(most_pairs(stored), 3 * stored.description.triangle_count);
+    const auto bytes = container.read_bytes(TAG_STEEP_EDGES, sizeof(uint64_t) + most * BYTES_OF_PAIR);
     format::ByteReader reader(bytes, "section EDGE");
     const uint64_t count = reader.u64();
-    stored.steep_edges = read_pairs("EDGE", count, stored, reader);
+    stored.steep_edges = read_pairs("EDGE", count, most, stored, reader);
 }
 
 }

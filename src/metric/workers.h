@@ -22,6 +22,12 @@ public:
     // says how many tasks they have together.
     void begin_stage(const char* name, double end_fraction, size_t task_count = 0);
 
+    // The same for one of several stages in a row, of which nobody knows how many there will be: it has half
+    // of the work that is left until the last one ends.
+    void begin_half_of_stage(const char* name, double last_end_fraction) {
+        begin_stage(name, (stage_end_ + last_end_fraction) / 2);
+    }
+
     // Calls task(solver, i) for i in 0 .. count - 1 on all threads, in no particular order. Meanwhile the
     // calling thread reports progress. Rethrows the error of the task with the smallest number that failed;
     // throws Error CANCELLED when the progress function says so, and

@@ -1,6 +1,5 @@
 #include "src/overlay/field_lowering.h"
 
-#include "src/base/numbers.h"
 #include "src/overlay/kernels/lanes.h"
 
 namespace geodesic {

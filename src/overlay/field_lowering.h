@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "src/base/array.h"
+#include "src/base/numbers.h"
 #include "src/overlay/steep_edges.h"
 
 namespace geodesic {
@@ -31,17 +32,18 @@ public:
     // all of them.
     static bool is_steep(const float* first, const float* second, float most);
 
-    // Lowers a field as far as a radius, if all vertices that are no farther are among these numbers.
+    // // Lowers a field as far as a radius, if all vertices that are no farther are among these numbers.
     // known(number) is the distance of any vertex, and lower(number, way, from) makes it less, by an edge
-    // from another vertex.
+    // from another vertex. Returns the least distance beyond the radius to which another one would be
+    // lowered, infinity if there is none.
     template <class Known, class Lower>
-    void lower_within(float radius, std::span<const uint32_t> numbers, const Known& known,
-                      const Lower& lower) {
+    float lower_within(float radius, std::span<const uint32_t> numbers, const Known& known,
+                       const Lower& lower) {
         ways_.clear();
-        if (steep_.edges.empty()) return;
+        if (steep_.edges.empty()) return INFINITE;
         for (const uint32_t number : numbers)
             if (known(number) <= radius) add_ways_from(number, known);
-        lower_all(radius, known, lower);
+        return lower_all(radius, known, lower);
     }
 
 private:
@@ -68,20 +70,21 @@ private:
     }
     template <class Known>
     void add_ways_from(uint32_t from, const Known& known) {
-        for (const auto& [number, other, most] : steep_.near(from))
+        for (const auto& [number, other, most] : steep_.in_block_of(from))
             if (number == from) add_way(from, other, most, known);
     }
     template <class Known, class Lower>
-    void lower_all(float radius, const Known& known, const Lower& lower) {
+    float lower_all(float radius, const Known& known, const Lower& lower) {
         while (!ways_.empty()) {
             std::ranges::pop_heap(ways_, LONGER);
             const Way least = ways_.back();
             ways_.pop_back();
             if (!(least.length < known(least.to))) continue;
-            if (least.length > radius) return;
+            if (least.length > radius) return least.length;
             lower(least.to, least.length, least.from);
             add_ways_from(least.to, known);
         }
+        return INFINITE;
     }
 
     const SteepEdges& steep_;

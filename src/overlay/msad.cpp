@@ -29,7 +29,7 @@ OverlayMsad::Scratch::Scratch(const OverlayIndex& index, std::pmr::memory_resour
 
 OverlayMsad::OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), up_(index, memory), top_(index, memory), of_thread_(memory),
-      sources_inside_(memory), nearest_(index.numbering, memory), lowering_(index.steep, memory) {
+      sources_inside_(memory), nearest_(index.numbering, memory) {
     set_threads(1);
 }
 
@@ -51,7 +51,6 @@ void OverlayMsad::sweep(const Sources& sources, float radius, const Field& field
     if (!field.source.empty())
         for (uint32_t v = 0; v < numbering_.border_vertex_count(); ++v) field.source[v] = nearest_.nearest(v);
     take_measured(field);
-    lowering_.lower(field.distance, field.source);
 }
 
 // Takes the ways that need no hop. Those to border vertices are kept source by source.

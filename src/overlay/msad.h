@@ -3,7 +3,6 @@
 #include <span>
 
 #include "src/overlay/ascend.h"
-#include "src/overlay/field_lowering.h"
 #include "src/overlay/inner_sweep.h"
 #include "src/overlay/nearest_sources.h"
 #include "src/overlay/outer_crossing.h"
@@ -14,8 +13,8 @@ namespace geodesic {
 
 // Distances to the nearest of multiple sources, for all destinations over overlay tables, by one sweep up
 // from all sources and one sweep down to all leaves. Each source crosses by itself the borders on which it
-// may be the nearest one. What was measured counts instead of what tables say, source by source, and the
-// whole field is lowered along steep edges in the end. Vertices are given by their numbers.
+// may be the nearest one. What was measured counts instead of what tables say, source by source.
+// Vertices are given by their numbers.
 class OverlayMsad {
 public:
     OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory);
@@ -59,7 +58,6 @@ private:
     Array<Scratch> of_thread_;
     Array<uint32_t> sources_inside_; // per patch: how many
     NearestSources nearest_;
-    FieldLowering lowering_;
     Sources sources_{}; // of the sweep that runs
 };
 

@@ -37,13 +37,18 @@ float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, const FacePoint
 // A source alone may be given several times.
 void OverlayQuery::msad(const Sources& sources, float radius, const OverlayMsad::Field& field) {
     const auto is_first = [&](uint32_t key) { return key == sources.keys.front(); };
-    if (sources.keys.empty() || !std::ranges::all_of(sources.keys, is_first))
-        return nearest_.sweep(sources, radius, field);
+    if (!sources.keys.empty() && std::ranges::all_of(sources.keys, is_first))
+        msad_from_one(sources, radius, field);
+    else
+        nearest_.sweep(sources, radius, field);
+    lowering_.lower(field.distance, field.source);
+}
+
+void OverlayQuery::msad_from_one(const Sources& sources, float radius, const OverlayMsad::Field& field) {
     const uint32_t source = sources.keys.front();
     field_.sweep({sources.keys.first(1), sources.points}, radius, field.distance);
     for (const auto& [number, measured] : index_.measured.of(source, 0, index_.numbering.vertex_count()))
         field.distance[number] = measured;
-    lowering_.lower(field.distance);
     for (size_t v = 0; v < field.source.size(); ++v)
         field.source[v] = field.distance[v] < INFINITE ? source : NONE;
 }

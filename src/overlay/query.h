@@ -105,6 +105,7 @@ public:
 
 private:
     void msad(const Sources& sources, float radius, const OverlayMsad::Field& field);
+    void msad_from_one(const Sources& sources, float radius, const OverlayMsad::Field& field);
     PathEnd end_of(const FacePoint& point, PointRow& row) const;
     void take_points(std::span<const FacePoint> points, std::span<const float> offsets);
     void add_point(const FacePoint& point, float offset);
@@ -126,7 +127,7 @@ private:
     OverlaySsad field_;
     OverlayMsad nearest_;
     OverlaySsad batch_;
-    FieldLowering lowering_; // of these two kinds of fields
+    FieldLowering lowering_; // of all three kinds of fields
     PreparedSource prepared_;
     uint32_t prepared_source_ = NONE;
     std::array<PointRow, 2> rows_; // of the points of a pair

@@ -28,8 +28,8 @@ struct SteepEdges {
     Array<uint32_t> begin; // per block, and the end of the last one; empty if there are no edges
 
     static uint32_t block_of(uint32_t number) { return number / 16; }
-    // Those of a vertex, and of others in its block.
-    std::span<const End> near(uint32_t number) const {
+    // Those of a vertex, and of the others in its block.
+    std::span<const End> in_block_of(uint32_t number) const {
         const uint32_t* const at = begin.data() + block_of(number);
         return {ends.data() + at[0], ends.data() + at[1]};
     }

@@ -172,7 +172,7 @@ struct OverlayIndex {
     Array<uint8_t> is_large;      // per inner patch: whether its owned table has each distance once
     HopTables hops;
     InnerBounds bounds;
-    MeasuredPairs measured; // answers of all queries from vertices
+    MeasuredPairs measured; // answers of all queries from vertices, unless a field is lowered
     SteepEdges steep;       // along which fields are lowered
     mutable PairTables pairs;
 

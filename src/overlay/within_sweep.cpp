@@ -39,7 +39,7 @@ void WithinSweep::take_measured(uint32_t source) {
 }
 
 void WithinSweep::lower_along_steep_edges() {
-    lowering_.lower_within(
+    nearest_beyond_ = lowering_.lower_within(
         radius_, seen_, [&](uint32_t number) { return distance_[number]; },
         [&](uint32_t to, float way, uint32_t) { lower(to, way); });
 }
@@ -92,7 +92,6 @@ void WithinSweep::hop_down(uint32_t patch) {
 
 void WithinSweep::collect() {
     found_.clear();
-    nearest_beyond_ = INFINITE;
     for (const uint32_t number : seen_)
         if (distance_[number] <= radius_)
             found_.push_back({number, distance_[number]});

@@ -61,6 +61,19 @@ TEST_CASE("progress never falls, ends at 1 and comes on the calling thread") {
         }
 }
 
+TEST_CASE("progress goes on while large errors are looked for") {
+    constexpr float LOOKING_BEGINS = 0.86f; // not before, with the default options
+    Log log;
+    auto options = default_options();
+    options.progress = Log::record;
+    options.progress_user = &log;
+    build(rough_sheet(40, 16), options);
+    CHECK(std::ranges::is_sorted(log.fractions));
+    CHECK(log.fractions.back() == 1);
+    const std::set<float> different(log.fractions.begin(), log.fractions.end());
+    CHECK(std::ranges::count_if(different, [](float fraction) { return fraction > LOOKING_BEGINS; }) >= 8);
+}
+
 namespace {
 
 void build_or_cancel(const TestMesh& mesh, uint32_t engine, Log& log) {

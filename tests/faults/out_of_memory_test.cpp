@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "tests/faults/faults.h"
+#include "tests/query/planted_pairs.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/temporary_directory.h"
 
@@ -50,8 +51,13 @@ void for_each_kind(const std::function<void(const TestMesh&, uint32_t engine)>& 
 }
 
 void for_each_file(const std::function<void(const Bytes& file)>& test) {
-    for_each_kind(
-        [&](const TestMesh& mesh, uint32_t engine) { test(save(build(mesh, options_of(engine)).get())); });
+    for_each_kind([&](const TestMesh& mesh, uint32_t engine) {
+        const Bytes file = save(build(mesh, options_of(engine)).get());
+        if (engine == GEOIDX_ENGINE_GRAPH) return test(file);
+        const auto numbers = numbers_of_ids(file, mesh.vertex_count());
+        const Bytes steep = steep_section(planted_edges(mesh, 7), numbers);
+        test(save(open(with_section(file, geodesic::TAG_STEEP_EDGES, steep)).get()));
+    });
 }
 
 geoidx_open_options opening_with(const geoidx_allocator& allocator) {

@@ -46,6 +46,23 @@ inline void write_planted(std::span<const Planted> pairs, std::span<const uint32
     for (const auto* planes : {&steps, &apart, &distances}) writer.u32_planes(*planes);
 }
 
+// The section EDGE of these.
+inline Bytes steep_section(std::span<const Planted> edges, std::span<const uint32_t> number_of_id) {
+    format::ByteWriter writer;
+    writer.u64(edges.size());
+    write_planted(edges, number_of_id, writer);
+    return writer.take();
+}
+
+// Every so many-th edge of a mesh, along which most fields change by more than it says.
+inline std::vector<Planted> planted_edges(const TestMesh& mesh, uint32_t step) {
+    std::vector<Planted> planted;
+    uint32_t i = 0;
+    for (const auto& [a, b] : edges_of(mesh))
+        if (i++ % step == 0) planted.push_back({a, b, 0.6f * static_cast<float>(mesh.straight(a, b))});
+    return planted;
+}
+
 // The section with one value of a pair changed, if `pairs_begin` bytes precede the pairs: plane 0 is that of
 // the steps, 1 how far numbers are apart, 2 the distances.
 inline Bytes with_value(Bytes section, size_t pairs_begin, size_t plane, size_t pair, uint32_t value) {

@@ -5,6 +5,7 @@
 #include "tests/query/planted_pairs.h"
 
 using namespace geodesic::test;
+using geodesic::TAG_MEASURED_PAIRS;
 using geodesic::TAG_STEEP_EDGES;
 namespace format = geodesic::format;
 
@@ -23,6 +24,8 @@ const TestMesh& mesh() {
     return made;
 }
 
+uint32_t at(uint32_t x, uint32_t y) { return x + y * SIDE; }
+
 const Bytes& plain_file() {
     static const Bytes file = without_section(save(build(mesh(), default_options()).get()), TAG_STEEP_EDGES);
     return file;
@@ -31,23 +34,19 @@ const Bytes& plain_file() {
 // Edges all over the mesh, and a chain of them, along which most fields change by more than they say.
 const std::vector<Planted>& planted() {
     static const std::vector<Planted> edges = [] {
-        std::vector<Planted> made;
-        uint32_t i = 0;
-        for (const auto& [a, b] : edges_of(mesh())) {
-            const bool is_of_chain = b == a + 1 && a / SIDE == 20 && a % SIDE < 12;
-            if (i++ % 23 == 0 || is_of_chain)
-                made.push_back({a, b, 0.6f * static_cast<float>(mesh().straight(a, b))});
-        }
+        std::vector<Planted> made = planted_edges(mesh(), 23);
+        for (uint32_t x = 0; x < 12; ++x) made.push_back({at(x, 20), at(x + 1, 20), 0.5f});
+        const auto ends = [](const Planted& edge) { return std::pair(edge.a, edge.b); };
+        std::ranges::stable_sort(made, {}, ends);
+        const auto again = std::ranges::unique(made, {}, ends);
+        made.erase(again.begin(), again.end());
         return made;
     }();
     return edges;
 }
 
 Bytes section_of(std::span<const Planted> edges) {
-    format::ByteWriter writer;
-    writer.u64(edges.size());
-    write_planted(edges, numbers_of_ids(plain_file(), mesh().vertex_count()), writer);
-    return writer.take();
+    return steep_section(edges, numbers_of_ids(plain_file(), mesh().vertex_count()));
 }
 
 const Bytes& file_with_edges() {
@@ -199,6 +198,42 @@ TEST_CASE("steep edges: fields of points are lowered, pairs of vertices are not"
         if (before[v] > 5) CHECK(after[v] == expected[v]); // nearer ones are known by other ways, too
     }
     for (uint32_t v = 0; v < count; v += 13) CHECK(sssd(index.get(), 800, v) == sssd(plain.get(), 800, v));
+}
+
+TEST_CASE("steep edges: measured distances are lowered, too, but not those of pairs") {
+    const std::vector<Planted> measured{{at(4, 20), at(30, 33), 60}, {at(4, 20), at(5, 20), 7}};
+    format::ByteWriter writer;
+    writer.u64(measured.size());
+    for (uint32_t i = 0; i < 3; ++i) writer.f32(0);
+    write_planted(measured, numbers_of_ids(plain_file(), mesh().vertex_count()), writer);
+    const Bytes section = writer.take();
+    const auto plain = open(with_section(plain_file(), TAG_MEASURED_PAIRS, section)),
+               index = open(with_section(file_with_edges(), TAG_MEASURED_PAIRS, section));
+    const auto query = query_of(index.get());
+    const uint32_t count = mesh().vertex_count();
+    for (const auto& [a, b, distance] : measured)
+        for (const uint32_t source : {a, b}) {
+            const auto before = msad(plain.get(), source, count), field = msad(index.get(), source, count);
+            CHECK(field == lowered(before));
+            CHECK(found_within(query.get(), source, 9) == within(field, 9));
+            CHECK(sssd(index.get(), a, b) == distance);
+        }
+    CHECK(msad(index.get(), at(4, 20), count)[at(5, 20)] < 1); // of 7
+}
+
+TEST_CASE("steep edges: what nothing but such an edge leads to is found, however far it is") {
+    const uint32_t count = mesh().vertex_count(), other = SIDE * SIDE + 3;
+    const std::vector<Planted> bridge{{at(7, 7), other, 500}};
+    const auto index = open(with_section(plain_file(), TAG_STEEP_EDGES, section_of(bridge)));
+    const auto query = query_of(index.get());
+    std::vector<uint32_t> targets(800, other), positions(800);
+    std::vector<float> distances(800);
+    uint32_t found = 0;
+    require_success(geoidx_query_nearest_targets(query.get(), at(7, 7), targets.data(), 800, positions.data(),
+                                                 distances.data(), 800, &found));
+    CHECK(found == 800);
+    CHECK(distances[0] == 500);
+    CHECK(msad(index.get(), at(7, 7), count)[other] == 500);
 }
 
 TEST_CASE("steep edges: a section that breaks a rule is refused") {
