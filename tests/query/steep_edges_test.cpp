@@ -38,8 +38,8 @@ const std::vector<Planted>& planted() {
         for (uint32_t x = 0; x < 12; ++x) made.push_back({at(x, 20), at(x + 1, 20), 0.5f});
         const auto ends = [](const Planted& edge) { return std::pair(edge.a, edge.b); };
         std::ranges::stable_sort(made, {}, ends);
-        const auto again = std::ranges::unique(made, {}, ends);
-        made.erase(again.begin(), again.end());
+        const auto are_same = [&](const Planted& a, const Planted& b) { return ends(a) == ends(b); };
+        made.erase(std::unique(made.begin(), made.end(), are_same), made.end());
         return made;
     }();
     return edges;
