@@ -5,8 +5,8 @@
 
 namespace geodesic {
 
-// A positive normal number, rounded to 13 bits: by a share of 1/8192 at most. Files hold few bytes of such
-// numbers.
+// A positive normal number, rounded to 13 significant bits: by a share of 1/8192 at most. The other bits are
+// 0, so that such numbers take few bytes in a file.
 inline constexpr float ROUNDING = 1.f / (1 << 13);
 inline float rounded(float number) {
     constexpr uint32_t DROPPED = (1 << 11) - 1;

@@ -18,7 +18,8 @@ constexpr uint64_t MOST_DISTANCES = uint64_t{1} << 32; // in all fields that are
 constexpr size_t AT_ONCE = FieldLowering::FIELDS_AT_ONCE;
 constexpr size_t FEWEST_OF_TASK = 4, MOST_TASKS = 256; // batches of a task share a query
 
-// By the numbers of their ends, each with what the distances of both may differ by.
+// All edges of the mesh by the numbers of their ends, in ascending order, each with its limit. Those of no
+// length, or too short for a float, have none and are left out.
 std::vector<VertexPair> edges_by_number(const Intake& intake, const Index& index) {
     constexpr double MOST = std::numeric_limits<float>::max() / 2;
     std::vector<VertexPair> edges;
@@ -26,9 +27,9 @@ std::vector<VertexPair> edges_by_number(const Intake& intake, const Index& index
     for (const auto& [a, b] : intake.mesh.edges) {
         const double length = (intake.mesh.positions[a] - intake.mesh.positions[b]).norm();
         const auto [first, second] = std::minmax({number(a), number(b)});
-        if (const float most = rounded(static_cast<float>(std::min(STEEPEST * length, MOST)));
-            first != second && most > 0)
-            edges.push_back({first, second, most});
+        if (const float limit = rounded(static_cast<float>(std::min(STEEPEST * length, MOST)));
+            first != second && limit > 0)
+            edges.push_back({first, second, limit});
     }
     std::ranges::sort(edges, {}, [](const VertexPair& edge) { return std::tuple(edge.first, edge.second); });
     return edges;
@@ -86,12 +87,12 @@ private:
 
     void note_steep_edges(const std::vector<float>& fields, uint8_t* has_steep_edges) {
         for (size_t e = 0; e < edges_.size(); ++e) {
-            const auto& [first, second, most] = edges_[e];
+            const auto& [first, second, limit] = edges_[e];
             const float *a = fields.data() + first * AT_ONCE, *b = fields.data() + second * AT_ONCE;
-            if (!FieldLowering::is_steep(a, b, most)) continue;
+            if (!FieldLowering::is_steep(a, b, limit)) continue;
             is_found_[e].store(true, std::memory_order_relaxed);
             for (size_t i = 0; i < AT_ONCE; ++i)
-                if (a[i] + most < b[i] || b[i] + most < a[i]) has_steep_edges[i] = 1;
+                if (a[i] + limit < b[i] || b[i] + limit < a[i]) has_steep_edges[i] = 1;
         }
     }
 

@@ -12,18 +12,21 @@ namespace geodesic {
 
 namespace {
 
-constexpr double LARGEST_ERROR = 0.01; // that is let pass, unless too many pairs are off by more
-constexpr size_t MOST_PAIRS = 4;       // for each vertex, on average
-constexpr double RAISE = 1.5;          // by which a larger error is let pass then
+// Pairs with no larger error than this are not held. If more than so many for each vertex, on average, have a
+// larger one, what is let pass is raised by this factor.
+constexpr double LARGEST_ERROR = 0.01;
+constexpr size_t MOST_PAIRS = 4;
+constexpr double RAISE = 1.5;
 // Wrong pairs are seldom alone. So what is known around their ends, and around the neighbours of these, must
-// reach farther than they are long by this.
+// reach so many times as far as they are long. Looking farther may find at most so many times the vertices of
+// the first look.
 constexpr double REACH = 1.06;
-constexpr uint64_t WORK = 2; // that this may take at most, times that of the first look at all vertices
+constexpr uint64_t WORK = 2;
 constexpr double FIRST_LOOK_END = 0.2; // the share of the progress; looking farther is the rest
 constexpr uint32_t MOST_PASSES = 4;
 constexpr size_t FEWEST_AT_ONCE = 64, MOST_TASKS = 256; // sources of a task share a query
 
-// Keeps each pair once. Errors and distances of both directions may differ.
+// Keeps each pair once, with the larger error of its two directions.
 void keep_different(std::vector<WrongPair>& wrong) {
     std::ranges::sort(wrong, {}, [](const WrongPair& w) {
         return std::tuple(w.pair.first, w.pair.second, -w.error, w.pair.distance);
@@ -104,8 +107,8 @@ private:
         return held_.size() > before;
     }
 
-    // Widens what is known around wrong pairs until no more are found at its rim. Where nearly all vertices
-    // have some, more would not be held.
+    // Widens what is known around wrong pairs until no more are found at its rim, or half as many are held as
+    // may be: then more would soon be too many.
     void look_farther(double limit) {
         while (held_.size() <= most() / 2) {
             const auto sources = choose_to_widen(limit);
@@ -127,7 +130,7 @@ private:
     std::vector<uint32_t> choose_to_widen(double limit) {
         std::vector<uint8_t> is_wanted(near_.vertex_count(), 0);
         for (const auto& [pair, error] : held_) {
-            if (!(error > limit)) continue; // held beside a right one
+            if (!(error > limit)) continue; // held because its edge was steep
             const double wanted = REACH * double{pair.distance};
             for (const uint32_t number : {pair.first, pair.second})
                 for_each_around(vertex_of_number_[number], [&](uint32_t v) {

@@ -50,8 +50,8 @@ uint64_t most_pairs(const StoredIndex& stored) {
     return std::min(MOST_PAIRS, vertices * vertices / 2);
 }
 
-// The pairs are what is left of the section. Their numbers are added up modulo 2^32, so that what a file with
-// other numbers makes is refused afterwards.
+// The pairs are what is left of the section. Sums of numbers of a corrupt file may wrap around; what comes of
+// them is checked in the end.
 std::vector<VertexPair> read_pairs(const char* section, uint64_t count, uint64_t most,
                                    const StoredIndex& stored, format::ByteReader& reader) {
     if (count > most || reader.remaining() != count * BYTES_OF_PAIR)

@@ -12,14 +12,14 @@
 
 namespace geodesic {
 
-// Lowers fields along steep edges, after all else. Of the distances of both ends of an edge, the larger one
-// becomes the lesser one and what the edge allows, where it was more, until no edge is left along which one
-// would be lowered. A lowered distance was too long, or its neighbour's is too short, and then it becomes too
+// Lowers fields along steep edges, after all else. Where the larger one of the distances of an edge's two
+// ends is more than the lesser one plus the edge's limit, it becomes that sum, until this is so for no edge.
+// Then a lowered distance was too long, or that of the other end is too short, and the lowered one is too
 // short by no larger share. What is nearest is lowered first, so that each vertex is lowered once.
 class FieldLowering {
 public:
     FieldLowering(const SteepEdges& steep, std::pmr::memory_resource* memory)
-        : steep_(steep), ways_(memory), steep_ones_(memory) {}
+        : steep_(steep), ways_(memory), edges_of_batch_(memory) {}
 
     // Where `source`, which may be empty, says of each vertex which source its distance comes from, a lowered
     // one has the source of the vertex at the other end.
@@ -30,12 +30,12 @@ public:
     void lower_each(std::span<float> distances);
     // Whether any of the fields is to be lowered at either end of an edge, by the distances of both ends in
     // all of them.
-    static bool is_steep(const float* first, const float* second, float most);
+    static bool is_steep(const float* first, const float* second, float limit);
 
-    // // Lowers a field as far as a radius, if all vertices that are no farther are among these numbers.
-    // known(number) is the distance of any vertex, and lower(number, way, from) makes it less, by an edge
-    // from another vertex. Returns the least distance beyond the radius to which another one would be
-    // lowered, infinity if there is none.
+    // Lowers those distances of a field that become no more than `radius`. All vertices whose distances are
+    // no more than it must be among the numbers. known(number) is the distance of any vertex, and
+    // lower(number, distance, from) makes it less, by an edge from another vertex. Returns the least distance
+    // beyond the radius that one would be lowered to, infinity if there is none.
     template <class Known, class Lower>
     float lower_within(float radius, std::span<const uint32_t> numbers, const Known& known,
                        const Lower& lower) {
@@ -60,8 +60,8 @@ private:
         std::ranges::push_heap(ways_, LONGER);
     }
     template <class Known>
-    void add_way(uint32_t from, uint32_t to, float most, const Known& known) {
-        if (known(from) + most < known(to)) add({known(from) + most, to, from});
+    void add_way(uint32_t from, uint32_t to, float limit, const Known& known) {
+        if (known(from) + limit < known(to)) add({known(from) + limit, to, from});
     }
     template <class Known>
     void add_ways_along(const VertexPair& edge, const Known& known) {
@@ -70,8 +70,8 @@ private:
     }
     template <class Known>
     void add_ways_from(uint32_t from, const Known& known) {
-        for (const auto& [number, other, most] : steep_.in_block_of(from))
-            if (number == from) add_way(from, other, most, known);
+        for (const auto& [number, other, limit] : steep_.in_block_of(from))
+            if (number == from) add_way(from, other, limit, known);
     }
     template <class Known, class Lower>
     float lower_all(float radius, const Known& known, const Lower& lower) {
@@ -88,8 +88,8 @@ private:
     }
 
     const SteepEdges& steep_;
-    Array<Way> ways_;            // a heap, the shortest one first
-    Array<uint32_t> steep_ones_; // edges that are steep in some of several fields
+    Array<Way> ways_;                // a heap, the shortest one first
+    Array<uint32_t> edges_of_batch_; // edges that are steep in some of several fields
 };
 
 }

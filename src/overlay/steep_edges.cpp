@@ -16,9 +16,9 @@ void take_steep_edges(std::span<const VertexPair> edges, uint32_t vertex_count, 
     for (size_t b = 1; b < steep.begin.size(); ++b) steep.begin[b] += steep.begin[b - 1];
     steep.ends.resize(2 * edges.size());
     std::vector<uint32_t> next(steep.begin.begin(), steep.begin.end() - 1);
-    for (const auto& [first, second, most] : edges) {
-        steep.ends[next[SteepEdges::block_of(first)]++] = {first, second, most};
-        steep.ends[next[SteepEdges::block_of(second)]++] = {second, first, most};
+    for (const auto& [first, second, limit] : edges) {
+        steep.ends[next[SteepEdges::block_of(first)]++] = {first, second, limit};
+        steep.ends[next[SteepEdges::block_of(second)]++] = {second, first, limit};
     }
 }
 
