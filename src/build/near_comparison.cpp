@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/base/rounded.h"
+#include "src/build/number_of_vertex.h"
 #include "src/build/steep_search.h"
 
 namespace geodesic {
@@ -55,8 +56,8 @@ double NearComparison::largest_error(uint32_t vertex) {
 
 void NearComparison::correct(uint32_t vertex, double error) {
     Distances& distances = field_[vertex];
-    const auto number = [&](uint32_t v) { return index_.number_of_id[id_of(v)]; };
-    const auto [first, second] = std::minmax({number(source_), number(vertex)});
+    const auto [first, second] =
+        std::minmax({number_of_vertex(index_, intake_, source_), number_of_vertex(index_, intake_, vertex)});
     distances.answer = distances.exact;
     const float distance = rounded(distances.exact);
     if (distance > 0 && distance < INFINITE) wrong_->push_back({{first, second, distance}, error});

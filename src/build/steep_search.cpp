@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "src/base/rounded.h"
+#include "src/build/number_of_vertex.h"
 #include "src/overlay/query.h"
 
 namespace geodesic {
@@ -23,10 +24,10 @@ constexpr size_t FEWEST_BATCHES_OF_TASK = 4, MOST_TASKS_OF_LOOK = 256; // batche
 std::vector<VertexPair> edges_by_number(const Intake& intake, const Index& index) {
     constexpr double MOST = std::numeric_limits<float>::max() / 2;
     std::vector<VertexPair> edges;
-    const auto number = [&](uint32_t vertex) { return index.number_of_id[intake.id_of_vertex[vertex]]; };
     for (const auto& [a, b] : intake.mesh.edges) {
         const double length = (intake.mesh.positions[a] - intake.mesh.positions[b]).norm();
-        const auto [first, second] = std::minmax({number(a), number(b)});
+        const auto [first, second] =
+            std::minmax({number_of_vertex(index, intake, a), number_of_vertex(index, intake, b)});
         if (const float limit = rounded(static_cast<float>(std::min(STEEPEST * length, MOST)));
             first != second && limit > 0)
             edges.push_back({first, second, limit});
@@ -43,12 +44,8 @@ public:
           edges_(std::move(edges)), is_found_(edges_.size()) {}
 
     void run(const Index& index) {
-        workers_.begin_half_of_stage("accuracy", end_fraction_);
         const std::vector<uint32_t> sources = look_from(choose_sources(index));
-        while (hold_found()) {
-            workers_.begin_half_of_stage("accuracy", end_fraction_);
-            look_from(sources);
-        }
+        while (hold_found()) look_from(sources);
     }
 
 private:
@@ -58,7 +55,7 @@ private:
                        count = std::min(vertices, MOST_DISTANCES / vertices);
         std::vector<uint32_t> sources;
         for (uint64_t i = 0; i < count; ++i)
-            sources.push_back(index.number_of_id[intake_.id_of_vertex[i * vertices / count]]);
+            sources.push_back(number_of_vertex(index, intake_, static_cast<uint32_t>(i * vertices / count)));
         return sources;
     }
 
@@ -67,6 +64,7 @@ private:
         const size_t batches = (sources.size() + FIELDS_OF_LOOK - 1) / FIELDS_OF_LOOK,
                      of_task = std::max(FEWEST_BATCHES_OF_TASK, batches / MOST_TASKS_OF_LOOK + 1);
         std::vector<uint8_t> has_steep_edges(batches * FIELDS_OF_LOOK, 0);
+        workers_.begin_half_of_stage("accuracy", end_fraction_);
         workers_.run((batches + of_task - 1) / of_task, [&](FieldSolver&, size_t task) {
             OverlayQuery query(index_, std::pmr::get_default_resource());
             std::vector<float> fields(FIELDS_OF_LOOK * index_.numbering.vertex_count());

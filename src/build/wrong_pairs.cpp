@@ -7,6 +7,7 @@
 
 #include "src/build/errors_by_distance.h"
 #include "src/build/near_comparison.h"
+#include "src/build/number_of_vertex.h"
 
 namespace geodesic {
 
@@ -154,7 +155,7 @@ private:
         for (const uint32_t end : edge_ends_[vertex]) function(intake_.mesh.edges[end / 2][1 - end % 2]);
     }
 
-    uint32_t number_of(uint32_t vertex) const { return index_.number_of_id[intake_.id_of_vertex[vertex]]; }
+    uint32_t number_of(uint32_t vertex) const { return number_of_vertex(index_, intake_, vertex); }
 
     void hold() {
         std::vector<VertexPair> pairs;
@@ -164,7 +165,7 @@ private:
             float& largest = measured().largest_errors[distance_class(wrong.pair.distance / average_edge_)];
             largest = std::max(largest, static_cast<float>(std::min(wrong.error, 1.0)));
         }
-        take_measured_pairs(pairs, index_.numbering().vertex_count(), measured());
+        take_pairs(pairs, index_.numbering().vertex_count(), measured());
     }
 
     void keep_worst() {

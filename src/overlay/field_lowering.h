@@ -70,8 +70,7 @@ private:
     }
     template <class Known>
     void add_ways_from(uint32_t from, const Known& known) {
-        for (const auto& [number, other, limit] : steep_.in_block_of(from))
-            if (number == from) add_way(from, other, limit, known);
+        for (const auto& [other, limit] : steep_.of(from)) add_way(from, other, limit, known);
     }
     template <class Known, class Lower>
     float lower_all(float radius, const Known& known, const Lower& lower) {

@@ -13,8 +13,8 @@ namespace geodesic {
 
 // Distances to the nearest of multiple sources, for all destinations over overlay tables, by one sweep up
 // from all sources and one sweep down to all leaves. Each source crosses by itself the borders on which it
-// may be the nearest one. What was measured counts instead of what tables say, source by source.
-// Vertices are given by their numbers.
+// may be the nearest one. What was measured counts instead of what tables say, source by source. Vertices are
+// given by their numbers.
 class OverlayMsad {
 public:
     OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory);

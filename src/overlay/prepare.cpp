@@ -172,7 +172,7 @@ void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
         make_hop_codes(stored, index);
     make_inner_bounds(index);
     index.measured.largest_errors = stored.errors_of_measured;
-    take_measured_pairs(stored.measured_pairs, index.numbering.vertex_count(), index.measured);
+    take_pairs(stored.measured_pairs, index.numbering.vertex_count(), index.measured);
     take_steep_edges(stored.steep_edges, index.numbering.vertex_count(), index.steep);
 }
 
@@ -199,8 +199,8 @@ void restore_overlay(const OverlayIndex& index, StoredIndex& stored) {
     stored.internal_codes.assign(internal.begin(), internal.end());
     stored.hop_codes = index.hops.codes;
     stored.errors_of_measured = index.measured.largest_errors;
-    stored.measured_pairs = restore_measured_pairs(index.measured);
-    stored.steep_edges = restore_steep_edges(index.steep);
+    stored.measured_pairs = restore_pairs(index.measured);
+    stored.steep_edges = restore_pairs(index.steep);
 }
 
 }
