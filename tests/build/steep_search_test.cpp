@@ -1,7 +1,7 @@
 // That in no field the distances of neighbours differ by more than 1.05 times the length of their edge.
 #include <cmath>
 
-#include "tests/query/planted_pairs.h"
+#include "tests/index/changed_section.h"
 #include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
@@ -15,10 +15,9 @@ constexpr double STEEPEST = 1.05;
 TestMesh dirty() {
     TestMesh mesh = rough_sheet(26, 16);
     append(mesh, rough_sheet(13, 5), 60);
-    const uint32_t alone = mesh.add_vertex(1, 2, 3);
+    mesh.add_vertex(1, 2, 3);
     mesh.add_triangle(4, 4, 5);
     mesh.add_triangle(mesh.triangles[0], mesh.triangles[1], mesh.triangles[2]);
-    REQUIRE(alone > 0);
     return mesh;
 }
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/query/planted_pairs.h"
+#include "tests/index/changed_section.h"
 #include "tests/support/sanitized.h"
 
 using namespace geodesic::test;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "tests/index/told_issues.h"
 #include "tests/query/planted_pairs.h"
 
 using namespace geodesic::test;
@@ -146,17 +147,9 @@ void check_points_and_targets(const geoidx* index) {
     }
 }
 
-// Whether the vertex is found, and where it is.
+// Infinite if the vertex is not found.
 float distance_within(geoidx_query* query, std::span<const uint32_t> sources, float radius, uint32_t vertex) {
-    std::vector<uint32_t> vertices(mesh().vertex_count());
-    std::vector<float> distances(vertices.size());
-    uint32_t count = 0;
-    require_success(geoidx_query_within(query, sources.data(), static_cast<uint32_t>(sources.size()), radius,
-                                        vertices.data(), distances.data(),
-                                        static_cast<uint32_t>(vertices.size()), &count));
-    CHECK(std::is_sorted(distances.begin(), distances.begin() + count));
-    const auto end = vertices.begin() + count, found = std::find(vertices.begin(), end, vertex);
-    return found == end ? FAR : distances[static_cast<size_t>(found - vertices.begin())];
+    return found_within(query, sources, radius, mesh().vertex_count())[vertex];
 }
 
 }
@@ -227,7 +220,7 @@ TEST_CASE("measured pairs: a section that breaks a rule is refused") {
         CAPTURE(what);
         const Bytes file = with_section(with_value(good, BEGIN, plane, pair, value));
         CHECK(open_status(file) == GEOIDX_ERROR_CORRUPT);
-        CHECK(issue_number(file) == GEOIDX_ISSUE_PAIR);
+        check_told(file, GEOIDX_ISSUE_PAIR, "PAIR");
     };
     refused("a vertex and itself", 1, 0, 0);
     refused("a second vertex that is not there", 1, 0, 1 << 20);

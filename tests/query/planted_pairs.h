@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <map>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "format/bytes.h"
-#include "format/container.h"
-#include "src/index/section_tags.h"
-#include "tests/capi/calls.h"
+#include "tests/index/changed_section.h"
 
 namespace geodesic::test {
 
@@ -73,29 +72,18 @@ inline Bytes with_value(Bytes section, size_t pairs_begin, size_t plane, size_t 
     return section;
 }
 
-inline Bytes without_section(std::span<const std::byte> file, uint32_t tag, const Bytes* instead = nullptr) {
-    const auto container = format::Container::parse(file, INDEX_TAGS);
-    format::ContainerWriter writer(container.mesh_fingerprint());
-    for (const format::Section& section : container.sections())
-        if (section.tag != tag) writer.add_bytes(section.tag, container.read_bytes(section.tag, UINT64_MAX));
-    if (instead) writer.add_bytes(tag, *instead);
-    return writer.finish();
-}
-
-// The file with this section instead of the one that it may have.
-inline Bytes with_section(std::span<const std::byte> file, uint32_t tag, const Bytes& section) {
-    return without_section(file, tag, &section);
-}
-
-// Of the first issue, 0 if there is none.
-inline uint32_t issue_number(const Bytes& file) {
-    uint32_t number = 0;
-    const auto note = [](void* user, const geoidx_issue* issue) {
-        *static_cast<uint32_t*>(user) = issue->number;
-        return 1;
-    };
-    geoidx_verify(file.data(), file.size(), note, &number);
-    return number;
+// The distances that geoidx_query_within finds, in ascending order; infinite of vertices that it does not.
+inline std::vector<float> found_within(geoidx_query* query, std::span<const uint32_t> sources, float radius,
+                                       uint32_t vertex_count) {
+    constexpr float FAR = std::numeric_limits<float>::infinity();
+    std::vector<uint32_t> vertices(vertex_count);
+    std::vector<float> distances(vertex_count), field(vertex_count, FAR);
+    uint32_t count = 0;
+    require_success(geoidx_query_within(query, sources.data(), static_cast<uint32_t>(sources.size()), radius,
+                                        vertices.data(), distances.data(), vertex_count, &count));
+    CHECK(std::is_sorted(distances.begin(), distances.begin() + count));
+    for (uint32_t i = 0; i < count; ++i) field[vertices[i]] = distances[i];
+    return field;
 }
 
 }

@@ -2,6 +2,7 @@
 // rendering of the rule in format/SPEC.md.
 #include <limits>
 
+#include "tests/index/told_issues.h"
 #include "tests/query/planted_pairs.h"
 
 using namespace geodesic::test;
@@ -85,17 +86,6 @@ std::vector<float> within(std::vector<float> field, float radius) {
     return field;
 }
 
-// As geoidx_query_within finds them, infinite elsewhere.
-std::vector<float> found_within(geoidx_query* query, uint32_t source, float radius) {
-    std::vector<uint32_t> vertices(mesh().vertex_count());
-    std::vector<float> distances(vertices.size()), field(vertices.size(), FAR);
-    uint32_t count = 0;
-    require_success(geoidx_query_within(query, &source, 1, radius, vertices.data(), distances.data(),
-                                        static_cast<uint32_t>(vertices.size()), &count));
-    for (uint32_t i = 0; i < count; ++i) field[vertices[i]] = distances[i];
-    return field;
-}
-
 std::vector<uint32_t> some_sources() {
     std::vector<uint32_t> sources;
     for (uint32_t v = 3; v < mesh().vertex_count(); v += 97) sources.push_back(v);
@@ -146,7 +136,7 @@ TEST_CASE("steep edges: within a radius are the bits of a whole field") {
         const auto field = msad(index.get(), source, count);
         for (const float radius : {0.0f, 1.5f, 4.0f, 11.0f, 30.0f, FAR}) {
             CAPTURE(radius);
-            CHECK(found_within(query.get(), source, radius) == within(field, radius));
+            CHECK(found_within(query.get(), {&source, 1}, radius, count) == within(field, radius));
             std::vector<float> found(count);
             require_success(geoidx_query_msad_within(query.get(), &source, 1, radius, found.data(), count));
             CHECK(found == within(field, radius));
@@ -215,7 +205,7 @@ TEST_CASE("steep edges: measured distances are lowered, too, but not those of pa
         for (const uint32_t source : {a, b}) {
             const auto before = msad(plain.get(), source, count), field = msad(index.get(), source, count);
             CHECK(field == lowered(before));
-            CHECK(found_within(query.get(), source, 9) == within(field, 9));
+            CHECK(found_within(query.get(), {&source, 1}, 9, count) == within(field, 9));
             CHECK(sssd(index.get(), a, b) == distance);
         }
     CHECK(msad(index.get(), at(4, 20), count)[at(5, 20)] < 1); // of 7
@@ -247,7 +237,7 @@ TEST_CASE("steep edges: a section that breaks a rule is refused") {
     const auto refused = [&](const char* what, const Bytes& section) {
         CAPTURE(what);
         CHECK(open_status(file_with(section)) == GEOIDX_ERROR_CORRUPT);
-        CHECK(issue_number(file_with(section)) == GEOIDX_ISSUE_EDGE);
+        check_told(file_with(section), GEOIDX_ISSUE_EDGE, "EDGE");
     };
     refused("a vertex and itself", with_value(good, BEGIN, 1, 0, 0));
     refused("a second vertex that is not there", with_value(good, BEGIN, 1, 0, 1 << 20));
