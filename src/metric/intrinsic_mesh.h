@@ -36,11 +36,12 @@ enum class Fan : uint8_t {
     Irregular // several fans meet
 };
 
-// The surface as window propagation reads it: lengths and unfolded faces, no positions.
+// The surface as window propagation reads it: lengths and unfolded faces.
 struct IntrinsicMesh {
     // With own lengths, one per edge of the mesh, positions do not count; every face has an area then.
     explicit IntrinsicMesh(const Mesh& mesh, std::span<const double> own_lengths = {});
 
+    std::vector<Eigen::Vector3d> positions; // empty with own lengths, which may be shorter than lines in space
     std::vector<double> edge_length;
     std::vector<std::array<uint32_t, 2>> edge_vertices;
     ListOfLists<Side> sides;              // per edge
@@ -61,5 +62,10 @@ struct IntrinsicMesh {
     // of its sides, so at saddles, at reflex boundary vertices and where several fans meet.
     std::vector<uint8_t> can_bend;
 };
+
+// The vertex at a corner of a face.
+inline uint32_t corner_vertex(const IntrinsicMesh& mesh, uint32_t corner) {
+    return mesh.sides.items[mesh.side_of_corner[corner]].apex;
+}
 
 }

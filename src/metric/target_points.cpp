@@ -15,21 +15,12 @@ PlanePoint place_on_side(const IntrinsicMesh& mesh, uint32_t corner, const Surfa
             point.weights[apex] * side.apex_depth};
 }
 
-namespace {
-
-// The vertex at a corner of a face.
-uint32_t vertex_at(const IntrinsicMesh& mesh, uint32_t corner) {
-    return mesh.sides.items[mesh.side_of_corner[corner]].apex;
-}
-
-}
-
 std::vector<SurfacePoint> in_all_faces(const IntrinsicMesh& mesh, const SurfacePoint& point) {
     const uint32_t first = 3 * point.face;
     std::vector<SurfacePoint> aliases;
     for (uint32_t k = 0; k < 3; ++k) {
         if (point.weights[k] != 1) continue;
-        for (uint32_t corner : mesh.corners[vertex_at(mesh, first + k)]) {
+        for (uint32_t corner : mesh.corners[corner_vertex(mesh, first + k)]) {
             aliases.push_back({corner / 3, {}});
             aliases.back().weights[corner % 3] = 1;
         }
@@ -41,7 +32,7 @@ std::vector<SurfacePoint> in_all_faces(const IntrinsicMesh& mesh, const SurfaceP
             aliases.push_back({side.face, {}});
             for (uint32_t other = 0; other < 3; ++other)
                 for (uint32_t own = 0; own < 3; ++own)
-                    if (own != k && vertex_at(mesh, 3 * side.face + other) == vertex_at(mesh, first + own))
+                    if (own != k && corner_vertex(mesh, 3 * side.face + other) == corner_vertex(mesh, first + own))
                         aliases.back().weights[other] = point.weights[own];
         }
         return aliases;

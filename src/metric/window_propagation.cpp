@@ -5,6 +5,7 @@
 
 #include "src/metric/envelope.h"
 #include "src/metric/event_queue.h"
+#include "src/metric/target_bounds.h"
 #include "src/metric/target_points.h"
 #include "src/metric/window_lists.h"
 
@@ -65,6 +66,7 @@ private:
 
     void run(const FieldRequest& request) override;
     void start(const FieldRequest& request);
+    bool edge_may_help(uint32_t edge, double distance);
     void prefetch(uint32_t item) const;
     void clear();
     void reach(uint32_t vertex, double distance, uint32_t nearest, Arrival arrival);
@@ -98,6 +100,7 @@ private:
     std::vector<Arrival> arrival_;
     PendingTargets pending_;
     TargetPoints targets_;
+    TargetBounds bounds_; // once `is_bounded` in run()
     std::vector<Window> runs_[2]; // room for the windows on their way to the two exits of a face
     double front_ = 0;            // distance of the latest event
 };
@@ -113,31 +116,48 @@ void WindowPropagation::run(const FieldRequest& request) {
     clear();
     start(request);
     const uint32_t first_edge = vertex_count(), first_point = first_edge + edge_count();
-    bool is_done = false; // with the targets
+    const bool has_bounds = TargetBounds::are_known(*mesh_, request);
+    bool is_done = false;    // with the targets
+    bool is_bounded = false; // all that is asked for, besides targets, is final
     uint32_t settled = 0;
     front_ = 0;
     set_final_up_to(UNREACHABLE);
     while (!queue_.empty()) {
         const auto event = queue_.pop();
-        if (event.distance > request.radius || (is_done && settled >= request.final_count)) {
-            set_final_up_to(front_);
+        const bool is_near_final = settled >= request.final_count;
+        if (event.distance > request.radius || (is_done && is_near_final)) {
+            if (!is_bounded) set_final_up_to(front_);
             break;
+        }
+        if (has_bounds && is_near_final && !is_bounded) {
+            bounds_.begin(*mesh_, request, *this, front_);
+            set_final_up_to(front_);
+            is_bounded = true;
         }
         front_ = event.distance;
         if (!queue_.empty()) prefetch(queue_.top().item);
         if (event.item < first_edge) {
             if (event.distance != distance(event.item)) continue;
-            settle(event.item);
+            if (!is_bounded || bounds_.may_help(mesh_->positions[event.item], 0, event.distance))
+                settle(event.item);
             ++settled;
             is_done |= pending_.settle(event.item);
         } else if (event.item < first_point) {
             const uint32_t edge = event.item - first_edge;
-            if (event.distance == queued_distance_[edge]) propagate_edge(edge);
+            if (event.distance == queued_distance_[edge] && (!is_bounded || edge_may_help(edge, event.distance)))
+                propagate_edge(edge);
             if (lists_.crowded()) sweep();
         } else {
             is_done |= pending_.settle_point(event.item - first_point);
         }
     }
+}
+
+// No more windows come to an edge that does not help: all of them are longer.
+bool WindowPropagation::edge_may_help(uint32_t edge, double distance) {
+    const auto [first, second] = mesh_->edge_vertices[edge];
+    const Eigen::Vector3d middle = 0.5 * (mesh_->positions[first] + mesh_->positions[second]);
+    return bounds_.may_help(middle, 0.5 * mesh_->edge_length[edge], distance);
 }
 
 // Asks for the memory of an event while the one before it is worked on: a tenth of the time is waiting for

@@ -1,0 +1,73 @@
+// What a solve for a few targets leaves out, and that it leaves out no more. That it changes no bit of the targets'
+// distances is in exact_property_test.cpp, on many surfaces.
+#include <doctest/doctest.h>
+
+#include "src/metric/window_propagation.h"
+#include "tests/support/meshes.h"
+#include "tests/support/oracles.h"
+
+using namespace geodesic;
+using namespace geodesic::test;
+
+namespace {
+
+// A flat square of SIDE x SIDE cells, and vertices of it by column and row.
+constexpr uint32_t SIDE = 40;
+
+uint32_t at(uint32_t column, uint32_t row) { return row * (SIDE + 1) + column; }
+
+double distance_to(FieldSolver& solver, uint32_t source, uint32_t target, uint32_t final_count = 0) {
+    FieldRequest request{{&source, 1}, {&target, 1}, {}, {}};
+    request.final_count = final_count;
+    solver.solve(request);
+    return solver.distance(target);
+}
+
+}
+
+TEST_CASE("target bounds: what lies behind the source is left out") {
+    const Mesh mesh = mesh_of(grid(SIDE, SIDE, SIDE, SIDE));
+    const auto solver = ExactMetric(mesh).make_solver();
+    // The disc around the source as far as the target is all of the square.
+    CHECK(distance_to(*solver, at(20, 20), at(38, 20)) == doctest::Approx(18));
+    size_t behind = 0;
+    for (const uint32_t vertex : solver->reached()) behind += mesh.positions[vertex].x() < 15;
+    CHECK(behind == 0);
+    CHECK(solver->reached().size() < mesh.vertex_count() / 4);
+    CHECK(distance_to(*solver, at(20, 20), at(20, 20)) == 0);
+}
+
+TEST_CASE("target bounds: what is asked for besides the targets is final") {
+    const Mesh mesh = mesh_of(bumpy_sphere(4, 3));
+    const auto solver = ExactMetric(mesh).make_solver();
+    const uint32_t source = 17, target = 1200;
+    const auto full = field(mesh, *solver, {&source, 1});
+    for (const uint32_t count : {1u, 60u, 300u}) {
+        CHECK(distance_to(*solver, source, target, count) == full[target]);
+        const double final_up_to = solver->final_up_to();
+        size_t final_vertices = 0;
+        for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+            if (full[v] > final_up_to) continue;
+            ++final_vertices;
+            CHECK(solver->distance(v) == full[v]);
+        }
+        CHECK(final_vertices >= count);
+    }
+}
+
+TEST_CASE("target bounds: lengths that are given may be shorter than lines in space") {
+    const Mesh mesh = mesh_of(jittered_grid(12, 5));
+    std::vector<double> lengths;
+    for (uint32_t e = 0; e < mesh.edge_count(); ++e) lengths.push_back(mesh.edge_length(e) / 100);
+    const auto given = ExactMetric(mesh, lengths).make_solver(), own = ExactMetric(mesh).make_solver();
+    for (const uint32_t target : {5u, 77u, 168u})
+        CHECK(distance_to(*given, 0, target) ==
+              doctest::Approx(distance_to(*own, 0, target) / 100).epsilon(1e-10));
+}
+
+TEST_CASE("target bounds: a target that cannot be reached is at infinity") {
+    const Mesh mesh = mesh_of(joined(sphere(2), jittered_grid(8, 3)));
+    const auto solver = ExactMetric(mesh).make_solver();
+    CHECK(distance_to(*solver, 0, mesh.vertex_count() - 1) == UNREACHABLE);
+    CHECK(distance_to(*solver, 0, 1) < UNREACHABLE);
+}
