@@ -6,6 +6,18 @@ namespace geodesic {
 
 namespace {
 
+// A share of a distance below which a difference is rounding.
+constexpr double TIE = 1e-12;
+
+// Whether everywhere on one of two windows beside each other, the way over the other one and along the edge
+// is shorter: paths over it are no shortest ones.
+bool is_beaten_by_one_before(const Window& before, const Window& window) {
+    return window.end_distance > (before.end_distance + (window.end - before.end)) * (1 + TIE);
+}
+bool is_beaten_by_one_behind(const Window& window, const Window& behind) {
+    return window.begin_distance > (behind.begin_distance + (behind.begin - window.begin)) * (1 + TIE);
+}
+
 // Makes the second of two windows begin where the first ends, for the simple and most frequent case that both
 // stay and neither reaches beyond the other; false, and nothing done, otherwise.
 bool divide(Window& first, Window& second) {
@@ -65,42 +77,52 @@ void Envelope::move_cursor(double t) {
 
 void Envelope::insert(Window& window) {
     if (at_end() && (done_.empty() || divide(done_.back(), window))) {
-        done_.push_back(window);
-        lowest_ = std::min(lowest_, window.smallest_distance());
+        if (put_down(window)) lowest_ = std::min(lowest_, window.smallest_distance());
         return;
     }
     move_cursor(window.begin);
     double covered = window.begin;
     while (!at_end() && next()->begin < window.end) {
         const Window holder = *next();
-        skip_next();
         if (holder.begin > covered) emit_new(window, covered, holder.begin);
+        skip_next();
         challenge(window, holder);
         covered = holder.end;
     }
     if (window.end > covered) emit_new(window, covered, window.end);
 }
 
-// Puts down a part of a window, joined to the part before it where it goes on.
-void Envelope::emit(const Window& window, double begin, double end) {
-    if (!(end > begin)) return;
+// Puts down a window unless one beside it beats it, and takes away those that it beats. Returns whether it is
+// down. Where the ends of two windows should be one point, rounding leaves gaps, which any window fills that
+// comes later, however long its paths are. Carried on over thin faces, such gaps and what fills them would
+// multiply.
+bool Envelope::put_down(const Window& window) {
+    while (!done_.empty() && is_beaten_by_one_behind(done_.back(), window)) done_.pop_back();
+    if (!done_.empty() && is_beaten_by_one_before(done_.back(), window)) return false;
+    if (!at_end() && is_beaten_by_one_behind(window, *next())) return false;
+    done_.push_back(window);
+    return true;
+}
+
+// Puts down a part of a window, joined to the part before it where it goes on. Returns whether it is down.
+bool Envelope::emit(const Window& window, double begin, double end) {
+    if (!(end > begin)) return false;
     const double end_distance = end == window.end ? window.end_distance : window.distance_at(end);
     if (!done_.empty() && done_.back().end == begin && is_continued(done_.back(), window)) {
         done_.back().end = end;
         done_.back().end_distance = end_distance;
-        return;
+        return true;
     }
-    Window& part = done_.emplace_back(window);
+    Window part = window;
     if (begin != window.begin) part.begin_distance = window.distance_at(begin);
     part.begin = begin;
     part.end = end;
     part.end_distance = end_distance;
+    return put_down(part);
 }
 
 void Envelope::emit_new(const Window& window, double begin, double end) {
-    if (!(end > begin)) return;
-    emit(window, begin, end);
-    lowest_ = std::min(lowest_, done_.back().smallest_distance());
+    if (emit(window, begin, end)) lowest_ = std::min(lowest_, done_.back().smallest_distance());
 }
 
 // Puts down what is left of the holder, and of the challenger on the holder's interval.

@@ -27,7 +27,8 @@ private:
     bool at_end() const { return taken_back_.empty() && rest_.empty(); }
     void skip_next();
     void challenge(const Window& challenger, const Window& holder);
-    void emit(const Window& window, double begin, double end);
+    bool put_down(const Window& window);
+    bool emit(const Window& window, double begin, double end);
     void emit_new(const Window& window, double begin, double end);
 
     std::vector<Window> done_;       // left of the cursor

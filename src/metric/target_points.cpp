@@ -32,7 +32,8 @@ std::vector<SurfacePoint> in_all_faces(const IntrinsicMesh& mesh, const SurfaceP
             aliases.push_back({side.face, {}});
             for (uint32_t other = 0; other < 3; ++other)
                 for (uint32_t own = 0; own < 3; ++own)
-                    if (own != k && corner_vertex(mesh, 3 * side.face + other) == corner_vertex(mesh, first + own))
+                    if (own != k &&
+                        corner_vertex(mesh, 3 * side.face + other) == corner_vertex(mesh, first + own))
                         aliases.back().weights[other] = point.weights[own];
         }
         return aliases;

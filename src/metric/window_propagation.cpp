@@ -100,7 +100,7 @@ private:
     std::vector<Arrival> arrival_;
     PendingTargets pending_;
     TargetPoints targets_;
-    TargetBounds bounds_; // once `is_bounded` in run()
+    TargetBounds bounds_;         // once `is_bounded` in run()
     std::vector<Window> runs_[2]; // room for the windows on their way to the two exits of a face
     double front_ = 0;            // distance of the latest event
 };
@@ -144,7 +144,8 @@ void WindowPropagation::run(const FieldRequest& request) {
             is_done |= pending_.settle(event.item);
         } else if (event.item < first_point) {
             const uint32_t edge = event.item - first_edge;
-            if (event.distance == queued_distance_[edge] && (!is_bounded || edge_may_help(edge, event.distance)))
+            if (event.distance == queued_distance_[edge] &&
+                (!is_bounded || edge_may_help(edge, event.distance)))
                 propagate_edge(edge);
             if (lists_.crowded()) sweep();
         } else {

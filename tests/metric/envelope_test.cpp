@@ -18,10 +18,13 @@ using geodesic::test::uniform;
 
 namespace {
 
+// By paths over a window, and then along the edge.
 double lowest_at(std::span<const Window> windows, double t) {
     double lowest = HUGE_VAL;
-    for (const Window& w : windows)
-        if (w.begin <= t && t <= w.end) lowest = std::min(lowest, w.distance_at(t));
+    for (const Window& w : windows) {
+        const double crossing = std::clamp(t, w.begin, w.end);
+        lowest = std::min(lowest, w.distance_at(crossing) + std::abs(t - crossing));
+    }
     return lowest;
 }
 
@@ -79,6 +82,34 @@ TEST_CASE("envelope: a run of windows put into a list that is there") {
         windows.insert(windows.end(), run.begin(), run.end());
         check_is_envelope(envelope.merge(holders, run), windows, random);
     }
+}
+
+TEST_CASE("envelope: what is beaten by a way along the edge does not stay in gaps") {
+    const auto window = [](double begin, double end, double sigma, uint32_t nearest) {
+        Window w{begin, end, 0.5, 1, sigma, 0, 0, 0, nearest & MAX_NEAREST, 1};
+        w.begin_distance = w.distance_at(begin);
+        w.end_distance = w.distance_at(end);
+        return w;
+    };
+    const std::vector<Window> near{window(0.1, 0.4, 0, 0), window(0.4 + 1e-9, 0.8, 0, 0)};
+    const auto count_far = [](std::span<const Window> list) {
+        return std::ranges::count_if(list, [](const Window& w) { return w.nearest == 1; });
+    };
+    Envelope envelope;
+    auto far = window(0, 1, 0.3, 1);
+    const auto filled = envelope.merge(near, {&far, 1});
+    CHECK(count_far(filled) == 0); // at both ends of the edge, too
+    CHECK(filled.size() == 2);
+    CHECK(envelope.lowest() == HUGE_VAL);
+
+    // Those that are there already are taken away.
+    const std::vector<Window> holders{window(0.39, 0.41, 0.3, 1)};
+    auto later = near;
+    CHECK(count_far(envelope.merge(holders, later)) == 0);
+
+    // What may still be shorter farther away stays.
+    auto beyond = window(0, 1, 0.05, 1);
+    CHECK(count_far(envelope.merge(near, {&beyond, 1})) == 2);
 }
 
 TEST_CASE("envelope: tells the smallest distance that a window has won") {

@@ -1,5 +1,5 @@
-// What a solve for a few targets leaves out, and that it leaves out no more. That it changes no bit of the targets'
-// distances is in exact_property_test.cpp, on many surfaces.
+// What a solve for a few targets leaves out, and that it leaves out no more. That it changes no bit of the
+// targets' distances is in exact_property_test.cpp, on many surfaces.
 #include <doctest/doctest.h>
 
 #include "src/metric/window_propagation.h"
