@@ -82,6 +82,13 @@ std::vector<Task> global_tasks(std::span<const uint32_t> sources) {
     return tasks;
 }
 
+// One target each, anywhere.
+std::vector<Task> pairs(std::span<const uint32_t> sources, std::span<const uint32_t> targets) {
+    std::vector<Task> tasks;
+    for (size_t i = 0; i < sources.size(); ++i) tasks.push_back({sources[i], {targets[i]}});
+    return tasks;
+}
+
 // The nearest vertices of each source, as many as the largest of LOCAL_SIZES, nearest first.
 std::vector<Task> neighbourhoods(std::span<const tools::Solver> solvers, const Model& model,
                                  std::span<const uint32_t> sources) {
@@ -203,6 +210,10 @@ void measure_model(const Model& model, const MetricArguments& arguments, Tables&
     warm_up(solvers, model, sources.front());
     progress(model.name + ": whole fields");
     rows.push_back(row_of(model, "all", global_tasks(sources), solvers));
+
+    progress(model.name + ": pairs");
+    const auto targets = random_sources(*solvers[0], model, arguments.fields, SEED + 2);
+    rows.push_back(row_of(model, "1, anywhere", pairs(sources, targets), solvers));
 
     progress(model.name + ": local fields");
     const auto local_sources = random_sources(*solvers[0], model, arguments.locals, SEED + 1);

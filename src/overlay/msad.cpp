@@ -29,7 +29,7 @@ OverlayMsad::Scratch::Scratch(const OverlayIndex& index, std::pmr::memory_resour
 
 OverlayMsad::OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), up_(index, memory), top_(index, memory), of_thread_(memory),
-      sources_inside_(memory), nearest_(index.numbering, memory) {
+      sources_inside_(memory), nearest_(index, memory) {
     set_threads(1);
 }
 
@@ -95,11 +95,11 @@ void OverlayMsad::take_measured(const Field& field) const {
 
 void OverlayMsad::correct_border_vertex(const Field& field, uint32_t border_vertex) const {
     field.distance[border_vertex] = INFINITE;
-    for (const auto& [way, source] : nearest_.of(border_vertex)) {
-        const auto measured = index_.measured.of(source, border_vertex, border_vertex + 1);
-        const float distance = measured.empty() ? way : measured.front().distance;
-        lower(field, border_vertex, {&distance, 1}, source);
-    }
+    nearest_.for_each_way(border_vertex, [&](const NearestSources::Way& way) {
+        const auto measured = index_.measured.of(way.source, border_vertex, border_vertex + 1);
+        const float distance = measured.empty() ? way.distance : measured.front().distance;
+        lower(field, border_vertex, {&distance, 1}, way.source);
+    });
 }
 
 bool OverlayMsad::is_within(uint32_t source, uint32_t patch) const {

@@ -8,10 +8,10 @@
 
 namespace geodesic {
 
-// Of several sources, the nearest ones to each border vertex, and how far away each of them is. The nearest
-// one alone would do for sums of distances. The others are for paths that cross a border between two vertices
-// whose nearest sources differ: to place a source in the plane of a segment takes its distances from both
-// ends.
+// Of several sources, those that may be the nearest ones to a border vertex or beside it, and how far away
+// each of them is. The nearest one alone would do for sums of distances. The others are for paths that cross
+// a border between two vertices whose nearest sources differ: to place a source in the plane of a segment
+// takes its distances from both ends.
 class NearestSources {
 public:
     struct Way {
@@ -19,50 +19,77 @@ public:
         uint32_t source;
     };
 
-    NearestSources(const Numbering& numbering, std::pmr::memory_resource* memory)
-        : numbering_(numbering), count_(memory), ways_(memory) {}
+    NearestSources(const OverlayIndex& index, std::pmr::memory_resource* memory)
+        : index_(index), longest_segment_(memory), count_(memory), few_(memory), others_(memory) {}
 
     // Forgets all ways. Call it before the first add(), too.
-    void clear() {
-        count_.assign(numbering_.border_vertex_count(), 0);
-        ways_.resize(count_.size() * MOST);
-    }
+    void clear();
 
     // Only one thread at a time may add ways to the same vertex. The order of calls changes nothing.
-    void add(uint32_t border_vertex, const Way& way) {
-        Way* const ways = ways_.data() + border_vertex * MOST;
-        uint8_t& count = count_[border_vertex];
-        if (count == MOST && is_before(ways[MOST - 1], way)) return;
-        Way* place = std::ranges::find(ways, ways + count, way.source, &Way::source);
-        if (place == ways + MOST)
-            --place;
-        else if (place == ways + count)
-            ++count;
-        else if (place->distance <= way.distance)
-            return;
-        for (; place != ways && is_before(way, *(place - 1)); --place) *place = *(place - 1);
-        *place = way;
-    }
+    void add(uint32_t border_vertex, const Way& way);
 
-    // The nearest source first; none if no source reaches the vertex.
-    std::span<const Way> of(uint32_t border_vertex) const {
-        return {ways_.data() + border_vertex * MOST, count_[border_vertex]};
-    }
+    // The key of the nearest source, or NONE.
     uint32_t nearest(uint32_t border_vertex) const {
-        return of(border_vertex).empty() ? NONE : of(border_vertex).front().source;
+        return few_of(border_vertex).empty() ? NONE : few_of(border_vertex).front().source;
+    }
+    // Calls use(way) for the way from each source that is known, the nearest ones first.
+    template <class Use>
+    void for_each_way(uint32_t border_vertex, const Use& use) const {
+        for (const Way& way : few_of(border_vertex)) use(way);
+        for (const Way& way : others_of(border_vertex)) use(way);
+    }
+    // Whether more than one source is no farther than the nearest one by more than this. Some must reach it.
+    bool are_several_within(uint32_t border_vertex, float beyond_nearest) const {
+        const auto few = few_of(border_vertex);
+        return few.size() > 1 && few[1].distance <= few[0].distance + beyond_nearest;
+    }
+    // Calls use(source) for each source that is no farther than the nearest one by more than this.
+    template <class Use>
+    void for_each_source_within(uint32_t border_vertex, float beyond_nearest, const Use& use) const {
+        const auto few = few_of(border_vertex);
+        if (few.empty()) return;
+        const float farthest = few.front().distance + beyond_nearest;
+        for (const Way& way : few) {
+            if (way.distance > farthest) return;
+            use(way.source);
+        }
+        for (const Way& way : others_of(border_vertex))
+            if (way.distance <= farthest) use(way.source);
     }
 
 private:
-    // So many sources of a vertex are kept at most.
-    static constexpr size_t MOST = 32;
+    // So many of the nearest sources of a vertex are kept in any case.
+    static constexpr size_t FEW = 32;
+    // Others are kept if they are no farther than the nearest one by so many segments: where a source is the
+    // nearest one of a point of a segment, it is at most one segment's length farther from the ends of it
+    // than the nearest ones there, and paths are straightened over two segments more on each side.
+    static constexpr float SEGMENTS_KEPT = 4;
 
     static bool is_before(const Way& a, const Way& b) {
         return a.distance < b.distance || (a.distance == b.distance && a.source < b.source);
     }
 
-    const Numbering& numbering_;
-    Array<uint8_t> count_; // by number: of ways
-    Array<Way> ways_;      // by number, MOST each, in ascending order
+    std::span<const Way> few_of(uint32_t border_vertex) const {
+        return {few_.data() + border_vertex * FEW, count_[border_vertex]};
+    }
+    std::span<const Way> others_of(uint32_t border_vertex) const {
+        if (count_[border_vertex] < FEW) return {};
+        return others_[border_vertex];
+    }
+    float farthest_kept(uint32_t border_vertex) const {
+        return few_of(border_vertex).front().distance + SEGMENTS_KEPT * longest_segment_[border_vertex];
+    }
+    void find_longest_segments();
+    void keep_among_others(uint32_t border_vertex, const Way& way);
+    void forget_far_others(uint32_t border_vertex);
+
+    const OverlayIndex& index_;
+    // By number of border vertices:
+    Array<float> longest_segment_; // of those that end there
+    Array<uint8_t> count_;         // of few_
+    Array<Way> few_;               // the nearest ones, FEW each, in ascending order
+    // In ascending order of keys, and none of few_. They count where few_ is full.
+    Array<Array<Way>> others_;
 };
 
 }

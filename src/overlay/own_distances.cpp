@@ -10,11 +10,10 @@ namespace geodesic {
 uint32_t OwnDistances::only_source(uint32_t patch, const NearestSources& nearest) const {
     uint32_t only = NONE;
     for (const uint32_t vertex : index_.numbering.border_of(patch)) {
-        const auto all = nearest.of(vertex);
-        if (all.empty()) continue;
-        if (only == NONE) only = all[0].source;
-        if (all[0].source != only) return NONE;
-        if (all.size() > 1 && all[1].distance <= all[0].distance + index_.longest_segment[patch]) return NONE;
+        const uint32_t source = nearest.nearest(vertex);
+        if (source == NONE) continue;
+        if (only == NONE) only = source;
+        if (source != only || nearest.are_several_within(vertex, index_.longest_segment[patch])) return NONE;
     }
     return only;
 }
@@ -32,22 +31,19 @@ void OwnDistances::collect(uint32_t patch, const NearestSources& nearest) {
     own_.resize(index_.numbering.border_vertex_count(), INFINITE);
     if (last_way_.size() < keys_) last_way_.resize(keys_, NONE);
     const auto border = index_.numbering.border_of(patch);
-    for (const uint32_t vertex : border) {
-        const auto all = nearest.of(vertex);
-        for (const NearestSources::Way& way : all) {
-            if (way.distance > all[0].distance + index_.longest_segment[patch]) break;
-            if (last_way_[way.source] != NONE) continue;
-            sources_.push_back(way.source);
-            last_way_[way.source] = FIRST;
-        }
-    }
     for (const uint32_t vertex : border)
-        for (const NearestSources::Way& way : nearest.of(vertex)) {
+        nearest.for_each_source_within(vertex, index_.longest_segment[patch], [&](uint32_t source) {
+            if (last_way_[source] != NONE) return;
+            sources_.push_back(source);
+            last_way_[source] = FIRST;
+        });
+    for (const uint32_t vertex : border)
+        nearest.for_each_way(vertex, [&](const NearestSources::Way& way) {
             uint32_t& last = last_way_[way.source];
-            if (last == NONE) continue;
+            if (last == NONE) return;
             ways_.push_back({vertex, way.distance, last});
             last = static_cast<uint32_t>(ways_.size() - 1);
-        }
+        });
 }
 
 }

@@ -27,6 +27,35 @@ std::vector<uint32_t> cluster(const TestMesh& mesh, uint32_t count, std::mt19937
     return vertices;
 }
 
+// A hub with long spokes to a rim, which has another ring of vertices around it.
+TestMesh wheel(uint32_t spokes) {
+    constexpr double TURN = 6.283185307179586;
+    TestMesh mesh;
+    mesh.add_vertex(0, 0, 0.2);
+    for (uint32_t i = 0; i < spokes; ++i)
+        mesh.add_vertex(std::cos(TURN * i / spokes), std::sin(TURN * i / spokes), 0);
+    for (uint32_t i = 0; i < spokes; ++i)
+        mesh.add_vertex(1.02 * std::cos(TURN * (i + 0.5) / spokes),
+                        1.02 * std::sin(TURN * (i + 0.5) / spokes), -0.02);
+    for (uint32_t i = 0; i < spokes; ++i) {
+        const uint32_t next = (i + 1) % spokes;
+        mesh.add_triangle(0, 1 + i, 1 + next);
+        mesh.add_triangle(1 + i, 1 + spokes + i, 1 + next);
+        mesh.add_triangle(1 + next, 1 + spokes + i, 1 + spokes + next);
+    }
+    return mesh;
+}
+
+std::vector<float> least_of_single_answers(const geoidx* index, const std::vector<uint32_t>& sources,
+                                           uint32_t count) {
+    std::vector<float> least(count, INFINITY);
+    for (const uint32_t source : sources) {
+        const auto alone = msad(index, source, count);
+        for (uint32_t v = 0; v < count; ++v) least[v] = std::min(least[v], alone[v]);
+    }
+    return least;
+}
+
 struct Errors {
     double sum = 0, least = 0, largest = 0;
     uint64_t count = 0;
@@ -78,11 +107,7 @@ TEST_CASE("several sources: as exact as the nearest of them alone") {
             std::vector<uint32_t> sources;
             for (uint32_t i = 0; i < source_count; ++i)
                 sources.push_back(static_cast<uint32_t>(random() % count));
-            std::vector<float> least(count, INFINITY);
-            for (const uint32_t source : sources) {
-                const auto alone = msad(index.get(), source, count);
-                for (uint32_t v = 0; v < count; ++v) least[v] = std::min(least[v], alone[v]);
-            }
+            const auto least = least_of_single_answers(index.get(), sources, count);
             const auto field = msad(index.get(), sources, count);
             for (uint32_t v = 0; v < count; ++v) {
                 CAPTURE(v);
@@ -92,6 +117,24 @@ TEST_CASE("several sources: as exact as the nearest of them alone") {
                     CHECK(std::abs(field[v] - least[v]) <= 1e-3f * least[v]);
             }
         }
+    }
+}
+
+TEST_CASE("several sources: many that are as near to the ends of a long segment") {
+    const TestMesh mesh = wheel(400);
+    const uint32_t count = mesh.vertex_count();
+    const auto index = build(mesh, default_options());
+    std::mt19937 random(9);
+    for (const uint32_t source_count : {40u, 40u, 40u, 64u, 64u, 64u, 200u}) {
+        std::vector<uint32_t> sources;
+        const uint32_t first = static_cast<uint32_t>(random() % count);
+        for (uint32_t i = 0; i < source_count; ++i)
+            sources.push_back(static_cast<uint32_t>((first + random() % (4 * source_count)) % count));
+        const auto least = least_of_single_answers(index.get(), sources, count);
+        const auto field = msad(index.get(), sources, count);
+        size_t worse = 0;
+        for (uint32_t v = 0; v < count; ++v) worse += field[v] > 1.001f * least[v];
+        CHECK(worse == 0);
     }
 }
 
