@@ -6,16 +6,16 @@ namespace geodesic {
 
 namespace {
 
-// A share of a distance below which a difference is rounding.
-constexpr double TIE = 1e-12;
+// A way must be longer by more than this share: less is rounding.
+constexpr double BEATEN_BY = 1e-12;
 
 // Whether everywhere on one of two windows beside each other, the way over the other one and along the edge
 // is shorter: paths over it are no shortest ones.
 bool is_beaten_by_one_before(const Window& before, const Window& window) {
-    return window.end_distance > (before.end_distance + (window.end - before.end)) * (1 + TIE);
+    return window.end_distance > (before.end_distance + (window.end - before.end)) * (1 + BEATEN_BY);
 }
 bool is_beaten_by_one_behind(const Window& window, const Window& behind) {
-    return window.begin_distance > (behind.begin_distance + (behind.begin - window.begin)) * (1 + TIE);
+    return window.begin_distance > (behind.begin_distance + (behind.begin - window.begin)) * (1 + BEATEN_BY);
 }
 
 // Makes the second of two windows begin where the first ends, for the simple and most frequent case that both

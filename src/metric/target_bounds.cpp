@@ -6,7 +6,7 @@ namespace geodesic {
 namespace {
 
 // By as much as this share of its length, rounding never makes a way longer or shorter.
-constexpr double ROUNDING = 1e-6;
+constexpr double LENGTH_SLACK = 1e-6;
 
 // The vertices whose distances along edges tell those of the targets, some several times.
 std::vector<uint32_t> needed_vertices(const IntrinsicMesh& mesh, const FieldRequest& request) {
@@ -38,7 +38,7 @@ void TargetBounds::begin(const IntrinsicMesh& mesh, const FieldRequest& request,
     targets_.clear();
     latest_ = 0;
     const auto add = [&](const Eigen::Vector3d& position, double along_edges) {
-        if (along_edges > front) targets_.push_back({position, along_edges * (1 + ROUNDING)});
+        if (along_edges > front) targets_.push_back({position, along_edges * (1 + LENGTH_SLACK)});
     };
     for (const uint32_t target : request.targets) add(mesh.positions[target], along_edges_[target]);
     for (const SurfacePoint& point : request.target_points) {
