@@ -6,8 +6,8 @@ namespace geodesic {
 
 namespace {
 
-// A way must be longer by more than this share: less is rounding.
-constexpr double BEATEN_BY = 1e-12;
+// A way must be longer by more than this share: less may be rounding of where two windows are divided.
+constexpr double BEATEN_BY = 1e-10;
 
 // Whether everywhere on one of two windows beside each other, the way over the other one and along the edge
 // is shorter: paths over it are no shortest ones.

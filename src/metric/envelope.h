@@ -17,7 +17,8 @@ public:
     // `windows` are.
     std::span<const Window> merge(std::span<const Window> holders, std::span<Window> windows);
 
-    // The smallest distance on the parts that the latest merge put in; infinity if there are none.
+    // No more than the smallest distance on the parts that the latest merge put in, which it is unless one of
+    // them was taken away again; infinity if it put in none.
     double lowest() const { return lowest_; }
 
 private:

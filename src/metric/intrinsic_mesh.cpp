@@ -218,7 +218,7 @@ IntrinsicMesh::IntrinsicMesh(const Mesh& mesh, std::span<const double> own_lengt
         throw Error(GEOIDX_ERROR_LIMIT, "the mesh has more than 2^31 vertices or edges");
     const std::vector<double> mollified =
         own_lengths.empty() ? mollified_lengths(mesh) : std::vector<double>();
-    if (own_lengths.empty()) positions = mesh.positions;
+    if (own_lengths.empty() && mollified.empty()) positions = mesh.positions;
     const Shapes shapes(mesh, own_lengths.empty() ? std::span<const double>(mollified) : own_lengths);
     add_sides(mesh, shapes, *this);
     add_spokes(mesh, *this);

@@ -52,7 +52,8 @@ public:
     double distance(uint32_t vertex) const { return distance_[vertex]; }
     // The vertices for which it found any distance, final or not.
     std::span<const uint32_t> reached() const { return touched_; }
-    // Up to this distance, all of them are final. Only the exact metric says so; by others it is 0.
+    // Up to this distance, all of them are final. Only the exact metric says so, and only as far as it was
+    // asked for more than targets; otherwise it may be 0.
     double final_up_to() const { return final_up_to_; }
     // Position in `sources` of the source that distance(vertex) was measured from, or past them in
     // `source_points`; NONE if there is none.

@@ -1,6 +1,8 @@
 #include "src/metric/target_bounds.h"
 
 #include <algorithm>
+#include <utility>
+
 namespace geodesic {
 
 namespace {
@@ -16,31 +18,33 @@ std::vector<uint32_t> needed_vertices(const IntrinsicMesh& mesh, const FieldRequ
     return needed;
 }
 
+// Sums of differences: far from the origin, those of positions would be rounded more.
 Eigen::Vector3d position_of(const IntrinsicMesh& mesh, const SurfacePoint& point) {
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    for (uint32_t k = 0; k < 3; ++k)
-        position += point.weights[k] * mesh.positions[corner_vertex(mesh, 3 * point.face + k)];
-    return position;
+    const auto corner = [&](uint32_t k) { return mesh.positions[corner_vertex(mesh, 3 * point.face + k)]; };
+    const Eigen::Vector3d first = corner(0);
+    return first + (point.weights[1] * (corner(1) - first) + point.weights[2] * (corner(2) - first));
 }
 
 }
 
 void TargetBounds::begin(const IntrinsicMesh& mesh, const FieldRequest& request, const FieldSolver& solver,
                          double front) {
+    forget();
     along_edges_.resize(mesh.positions.size(), UNREACHABLE);
     for (const uint32_t vertex : solver.reached()) {
-        const double distance = solver.distance(vertex);
-        along_edges_[vertex] = distance;
         touched_.push_back(vertex);
-        if (distance >= front) queue_.push(distance, vertex);
+        along_edges_[vertex] = solver.distance(vertex);
+        if (solver.distance(vertex) >= front) queue_.push(solver.distance(vertex), vertex);
     }
-    go_along_edges(mesh, needed_vertices(mesh, request));
-    targets_.clear();
-    latest_ = 0;
+    std::vector<uint32_t> ends = needed_vertices(mesh, request);
+    std::erase_if(ends,
+                  [&](uint32_t end) { return along_edges_[end] < front; }); // which are not in the queue
+    go_along_edges(mesh, std::move(ends));
     const auto add = [&](const Eigen::Vector3d& position, double along_edges) {
-        if (along_edges > front) targets_.push_back({position, along_edges * (1 + LENGTH_SLACK)});
+        targets_.push_back({position, along_edges * (1 + LENGTH_SLACK)});
     };
-    for (const uint32_t target : request.targets) add(mesh.positions[target], along_edges_[target]);
+    for (const uint32_t target : request.targets)
+        if (along_edges_[target] >= front) add(mesh.positions[target], along_edges_[target]);
     for (const SurfacePoint& point : request.target_points) {
         const Eigen::Vector3d position = position_of(mesh, point);
         double along_edges = UNREACHABLE;
@@ -51,9 +55,15 @@ void TargetBounds::begin(const IntrinsicMesh& mesh, const FieldRequest& request,
         }
         add(position, along_edges);
     }
+}
+
+// What the solve before has left, also where a lack of memory has ended it.
+void TargetBounds::forget() {
     for (const uint32_t vertex : touched_) along_edges_[vertex] = UNREACHABLE;
     touched_.clear();
     queue_.clear();
+    targets_.clear();
+    latest_ = 0;
 }
 
 void TargetBounds::reach(uint32_t vertex, double distance) {
@@ -65,7 +75,7 @@ void TargetBounds::reach(uint32_t vertex, double distance) {
 }
 
 // Until all `ends` are final that can be reached.
-void TargetBounds::go_along_edges(const IntrinsicMesh& mesh, std::vector<uint32_t>&& ends) {
+void TargetBounds::go_along_edges(const IntrinsicMesh& mesh, std::vector<uint32_t> ends) {
     std::ranges::sort(ends);
     size_t missing = static_cast<size_t>(std::unique(ends.begin(), ends.end()) - ends.begin());
     ends.resize(missing);

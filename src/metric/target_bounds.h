@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,8 +25,8 @@ public:
         return !mesh.positions.empty() && targets > 0 && targets <= MOST_TARGETS;
     }
 
-    // Begins with what a solver knows: its distances are upper bounds, and final up to `front`. Targets up to
-    // there need nothing more.
+    // Begins with what a solver knows: its distances are upper bounds, and final below `front`. Target
+    // vertices below that need nothing more.
     void begin(const IntrinsicMesh& mesh, const FieldRequest& request, const FieldSolver& solver,
                double front);
 
@@ -39,13 +40,14 @@ private:
         double farthest; // along edges
     };
 
+    void forget();
     void reach(uint32_t vertex, double distance);
-    void go_along_edges(const IntrinsicMesh& mesh, std::vector<uint32_t>&& ends);
+    void go_along_edges(const IntrinsicMesh& mesh, std::vector<uint32_t> ends);
 
     std::vector<Target> targets_;
     size_t latest_ = 0;               // of the targets: which one a way may have helped
-    std::vector<double> along_edges_; // scratch: per vertex, infinite between solves
-    std::vector<uint32_t> touched_;   // where it is not
+    std::vector<double> along_edges_; // per vertex; those of the latest solve
+    std::vector<uint32_t> touched_;   // where they are not infinite
     EventQueue queue_;
 };
 

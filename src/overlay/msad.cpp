@@ -29,7 +29,7 @@ OverlayMsad::Scratch::Scratch(const OverlayIndex& index, std::pmr::memory_resour
 
 OverlayMsad::OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), up_(index, memory), top_(index, memory), of_thread_(memory),
-      sources_inside_(memory), nearest_(index, memory) {
+      sources_inside_(memory), nearest_(index, memory), corrected_(memory) {
     set_threads(1);
 }
 
@@ -83,11 +83,15 @@ void OverlayMsad::lower_corrected(const Field& field, uint32_t first, std::span<
 
 // Corrects border vertices, when no hop reads their distances any more. Then measured distances lower all
 // others, too, since hops may not have led to them from the same source.
-void OverlayMsad::take_measured(const Field& field) const {
+void OverlayMsad::take_measured(const Field& field) {
     const uint32_t vertices = numbering_.vertex_count();
+    corrected_.clear();
     for (const uint32_t source : sources_.keys)
         for (const auto& pair : index_.measured.of(source, 0, numbering_.border_vertex_count()))
-            correct_border_vertex(field, pair.number);
+            corrected_.push_back(pair.number);
+    std::ranges::sort(corrected_);
+    corrected_.erase(std::unique(corrected_.begin(), corrected_.end()), corrected_.end());
+    for (const uint32_t border_vertex : corrected_) correct_border_vertex(field, border_vertex);
     for (const uint32_t source : sources_.keys)
         for (const auto& [number, measured] : index_.measured.of(source, 0, vertices))
             lower(field, number, {&measured, 1}, source);

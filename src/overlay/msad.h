@@ -45,7 +45,7 @@ private:
     void begin(const Field& field);
     void lower_corrected(const Field& field, uint32_t first, std::span<const float> found,
                          uint32_t source) const;
-    void take_measured(const Field& field) const;
+    void take_measured(const Field& field);
     void correct_border_vertex(const Field& field, uint32_t border_vertex) const;
     void hop_up(uint32_t child, std::span<float> distance);
     void hop_down(uint32_t patch, float radius, const Field& field, Scratch& scratch);
@@ -58,7 +58,8 @@ private:
     Array<Scratch> of_thread_;
     Array<uint32_t> sources_inside_; // per patch: how many
     NearestSources nearest_;
-    Sources sources_{}; // of the sweep that runs
+    Array<uint32_t> corrected_; // border vertices that have measured distances from any source
+    Sources sources_{};         // of the sweep that runs
 };
 
 }

@@ -10,13 +10,11 @@ void NearestSources::clear() {
 }
 
 void NearestSources::find_longest_segments() {
-    const Rings& rings = index_.rings;
-    longest_segment_.assign(index_.numbering.border_vertex_count(), 0);
-    for (uint32_t patch = 0; patch < index_.numbering.patch_count(); ++patch)
-        for (size_t place = rings.begin[patch]; place + 1 < rings.begin[patch + 1]; ++place)
-            if (const float length = rings.segment_length[place]; length > 0) // and no gap
-                for (const uint32_t end : {rings.vertex[place], rings.vertex[place + 1]})
-                    longest_segment_[end] = std::max(longest_segment_[end], length);
+    const Numbering& numbering = index_.numbering;
+    longest_segment_.assign(numbering.border_vertex_count(), 0);
+    for (uint32_t patch = 0; patch < numbering.patch_count(); ++patch)
+        for (const uint32_t vertex : numbering.border_of(patch))
+            longest_segment_[vertex] = std::max(longest_segment_[vertex], index_.longest_segment[patch]);
 }
 
 void NearestSources::add(uint32_t border_vertex, const Way& way) {
@@ -31,7 +29,7 @@ void NearestSources::add(uint32_t border_vertex, const Way& way) {
     if (!is_among_few) return keep_among_others(border_vertex, way);
     if (!is_known) {
         if (is_full) {
-            std::erase_if(others_[border_vertex], [&](const Way& o) { return o.source == way.source; });
+            take_from_others(border_vertex, way.source);
             keep_among_others(border_vertex, *--place);
         } else if (++count == FEW) {
             others_[border_vertex].clear(); // which the latest sources have left
@@ -39,7 +37,6 @@ void NearestSources::add(uint32_t border_vertex, const Way& way) {
     }
     for (; place != few && is_before(way, *(place - 1)); --place) *place = *(place - 1);
     *place = way;
-    if (place == few && is_full) forget_far_others(border_vertex);
 }
 
 // A source is kept once, with its least distance.
@@ -53,9 +50,10 @@ void NearestSources::keep_among_others(uint32_t border_vertex, const Way& way) {
         place->distance = std::min(place->distance, way.distance);
 }
 
-void NearestSources::forget_far_others(uint32_t border_vertex) {
-    const float farthest = farthest_kept(border_vertex);
-    std::erase_if(others_[border_vertex], [&](const Way& other) { return other.distance > farthest; });
+void NearestSources::take_from_others(uint32_t border_vertex, uint32_t source) {
+    Array<Way>& others = others_[border_vertex];
+    const auto place = std::ranges::lower_bound(others, source, {}, &Way::source);
+    if (place != others.end() && place->source == source) others.erase(place);
 }
 
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <memory_resource>
 #include <span>
 
@@ -36,7 +37,8 @@ public:
     template <class Use>
     void for_each_way(uint32_t border_vertex, const Use& use) const {
         for (const Way& way : few_of(border_vertex)) use(way);
-        for (const Way& way : others_of(border_vertex)) use(way);
+        for (const Way& way : others_of(border_vertex))
+            if (way.distance <= farthest_kept(border_vertex)) use(way);
     }
     // Whether more than one source is no farther than the nearest one by more than this. Some must reach it.
     bool are_several_within(uint32_t border_vertex, float beyond_nearest) const {
@@ -60,10 +62,11 @@ public:
 private:
     // So many of the nearest sources of a vertex are kept in any case.
     static constexpr size_t FEW = 32;
-    // Others are kept if they are no farther than the nearest one by so many segments: where a source is the
-    // nearest one of a point of a segment, it is at most one segment's length farther from the ends of it
-    // than the nearest ones there, and paths are straightened over two segments more on each side.
-    static constexpr float SEGMENTS_KEPT = 4;
+    // Others are kept if they are no farther than the nearest one by so many segments. Where a source is the
+    // nearest one of a point of the surface, it is no farther than the nearest one from anywhere else by more
+    // than twice the way from that point, and paths are straightened over a segment and two more on each
+    // side.
+    static constexpr float SEGMENTS_KEPT = 2 * (1 + Rings::REACH);
 
     static bool is_before(const Way& a, const Way& b) {
         return a.distance < b.distance || (a.distance == b.distance && a.source < b.source);
@@ -81,14 +84,15 @@ private:
     }
     void find_longest_segments();
     void keep_among_others(uint32_t border_vertex, const Way& way);
-    void forget_far_others(uint32_t border_vertex);
+    void take_from_others(uint32_t border_vertex, uint32_t source);
 
     const OverlayIndex& index_;
     // By number of border vertices:
-    Array<float> longest_segment_; // of those that end there
+    Array<float> longest_segment_; // of all borders that the vertex lies on
     Array<uint8_t> count_;         // of few_
     Array<Way> few_;               // the nearest ones, FEW each, in ascending order
-    // In ascending order of keys, and none of few_. They count where few_ is full.
+    // In ascending order of keys, and none of few_. They count where few_ is full, and as far as
+    // farthest_kept(), which was farther when they came.
     Array<Array<Way>> others_;
 };
 

@@ -524,4 +524,20 @@ TEST_CASE("out of memory while solving without an index") {
         if (status == GEOIDX_OK) CHECK(distances == right);
         CHECK(metric_distances(own.get(), sources, mesh.vertex_count()) == right);
     });
+    // What a solve for a target has left, the next one does not take for its own.
+    const uint32_t first = sources.front(), last = sources.back(), target = mesh.vertex_count() / 2;
+    const auto distance_from = [&](geoidx_solver& from_solver, uint32_t source, double& distance) {
+        return geoidx_solver_distances(&from_solver, &source, 1, &target, 1, &distance);
+    };
+    double from_first = 0, from_last = 0;
+    require_success(distance_from(*undisturbed, first, from_first));
+    require_success(distance_from(*undisturbed, last, from_last));
+    try_with_faults(Source::process, 1, [&](Fault& fault) {
+        const SolverHandle own = solver(mesh, options);
+        double distance = 0;
+        const geoidx_status status = fault.disturb([&] { return distance_from(*own, first, distance); });
+        if (status == GEOIDX_OK) CHECK(distance == from_first);
+        require_success(distance_from(*own, last, distance));
+        CHECK(distance == from_last);
+    });
 }

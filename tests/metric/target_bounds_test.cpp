@@ -52,6 +52,39 @@ TEST_CASE("target bounds: what is asked for besides the targets is final") {
             CHECK(solver->distance(v) == full[v]);
         }
         CHECK(final_vertices >= count);
+        // Some of the vertices that are nearer than the target are left out.
+        size_t nearer = 0, reached = 0;
+        for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+            nearer += full[v] < full[target];
+            reached += full[v] < full[target] && solver->distance(v) < UNREACHABLE;
+        }
+        CHECK(reached < nearer);
+    }
+}
+
+TEST_CASE("target bounds: points as near to a source as nothing, and beside others") {
+    const Mesh flat = mesh_of(jittered_grid(8, 3));
+    Mesh far = flat;
+    for (auto& position : far.positions) position += Eigen::Vector3d(1e5, -3e5, 2e5);
+    for (const Mesh* const mesh : std::array{&flat, static_cast<const Mesh*>(&far)}) {
+        const auto solver = ExactMetric(*mesh).make_solver();
+        for (const uint32_t face : {3u, 40u, 100u}) {
+            const uint32_t vertex = mesh->faces[face][0], other = mesh->faces[127 - face][1];
+            const std::vector<SurfacePoint> targets{
+                {face, {1, 0, 0}}, {face, {1 - 2e-12, 1e-12, 1e-12}}, {127 - face, {0.2, 0.3, 0.5}}};
+            const std::array<uint32_t, 2> sources{vertex, other};
+            for (const size_t count : {size_t{1}, size_t{2}}) {
+                const std::span<const uint32_t> from(sources.data(), count);
+                solver->solve({from, {}, {}, targets});
+                CHECK(solver->point_distance(0) == 0);
+                CHECK(solver->point_distance(1) <= 1e-11);
+                const double together = solver->point_distance(2);
+                solver->solve({from, {}, {}, {&targets[2], 1}});
+                CHECK(solver->point_distance(0) == together);
+                CHECK(together > 0);
+                if (count == 2) CHECK(together < 1); // `other` is a corner of its face
+            }
+        }
     }
 }
 

@@ -135,6 +135,10 @@ TEST_CASE("several sources: many that are as near to the ends of a long segment"
         size_t worse = 0;
         for (uint32_t v = 0; v < count; ++v) worse += field[v] > 1.001f * least[v];
         CHECK(worse == 0);
+        std::ranges::reverse(sources);
+        sources.insert(sources.end(), sources.begin(), sources.begin() + 20);
+        std::ranges::shuffle(sources, random);
+        CHECK(msad(index.get(), sources, count) == field);
     }
 }
 

@@ -3,7 +3,7 @@
 import numpy
 
 INFINITE = numpy.float32(numpy.inf)
-MOST_SOURCES = 32
+NEAREST_SOURCES, SEGMENTS = 32, 6
 
 
 class SeveralSources:
@@ -11,8 +11,12 @@ class SeveralSources:
         self.engine, self.index, self.sources = engine, engine.index, sources
         self.distance = numpy.full(self.index.vertex_count, INFINITE)
         self.around = {source: set(self.index.ways_up(int(self.index.entry[source]))) for source in sources}
-        # Per border vertex: the distances from its nearest sources.
+        # Per border vertex: the distances from sources, and the longest segment of its borders.
         self.known = [{} for _ in range(self.index.border_vertex_count)]
+        self.longest = numpy.zeros(self.index.border_vertex_count, INFINITE.dtype)
+        for border in engine.borders:
+            if len(border.vertices):
+                self.longest[border.vertices] = numpy.maximum(self.longest[border.vertices], border.longest)
 
     def msad(self):
         for source in self.sources:
@@ -33,7 +37,7 @@ class SeveralSources:
     def take_measured(self):
         for number in {n for source in self.sources for n in self.measured(source) if self.index.is_border(n)}:
             self.distance[number] = min((self.measured(source).get(number, distance)
-                                         for source, distance in self.known[number].items()), default=INFINITE)
+                                         for source, distance in self.kept(number).items()), default=INFINITE)
         for source in self.sources:
             for number, distance in self.measured(source).items():
                 self.distance[number] = min(self.distance[number], distance)
@@ -46,18 +50,21 @@ class SeveralSources:
         self.distance[numbers] = numpy.minimum(self.distance[numbers], distances)
         for number, distance in zip(numbers, distances):
             if self.index.is_border(number) and distance < INFINITE:
-                self.note(self.known[number], source, distance)
+                self.known[number][source] = min(distance, self.known[number].get(source, INFINITE))
 
-    @staticmethod
-    def note(known, source, distance):
-        known[source] = min(distance, known.get(source, INFINITE))
-        if len(known) > MOST_SOURCES:
-            del known[max(known, key=lambda other: (known[other], other))]
+    def kept(self, vertex):
+        known = self.known[vertex]
+        if len(known) <= NEAREST_SOURCES:
+            return known
+        nearest = sorted(known, key=lambda source: (known[source], source))
+        farthest = known[nearest[0]] + SEGMENTS * self.longest[vertex]
+        return {source: known[source] for rank, source in enumerate(nearest)
+                if rank < NEAREST_SOURCES or known[source] <= farthest}
 
     def hops(self, patch, are_inside):
         """Each source that may be the nearest one on a border, from that side, with its own distances there."""
         border = self.engine.borders[patch]
-        lists = [self.known[vertex] for vertex in border.vertices]
+        lists = [self.kept(vertex) for vertex in border.vertices]
         may_be_nearest = {source for known in lists for source, distance in known.items()
                           if distance <= min(known.values()) + border.longest}
         for source in sorted(may_be_nearest):
