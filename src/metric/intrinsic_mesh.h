@@ -41,8 +41,8 @@ struct IntrinsicMesh {
     // With own lengths, one per edge of the mesh, positions do not count; every face has an area then.
     explicit IntrinsicMesh(const Mesh& mesh, std::span<const double> own_lengths = {});
 
-    std::vector<Eigen::Vector3d>
-        positions; // empty with own lengths, which may be shorter than lines in space
+    // Empty where the lengths are not those of the positions: then lines in space say nothing about them.
+    std::vector<Eigen::Vector3d> positions;
     std::vector<double> edge_length;
     std::vector<std::array<uint32_t, 2>> edge_vertices;
     ListOfLists<Side> sides;              // per edge

@@ -1,5 +1,8 @@
-// What a solve for a few targets leaves out, and that it leaves out no more. That it changes no bit of the
-// targets' distances is in exact_property_test.cpp, on many surfaces.
+// What a solve for a few targets leaves out, and that it leaves out no more. That target vertices keep every
+// bit is in exact_property_test.cpp, on many surfaces, and for points in surface_points_test.cpp.
+#include <array>
+#include <vector>
+
 #include <doctest/doctest.h>
 
 #include "src/metric/window_propagation.h"
