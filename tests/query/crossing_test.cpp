@@ -314,6 +314,102 @@ TEST_CASE("crossing: two ends meet only where both reach the border") {
     for (const Kernels& kernels : runnable_kernels()) CHECK(kernels.meet(between.border()) == INFINITE);
 }
 
+namespace {
+
+// To the targets of a border, by columns side by side.
+Crossed cross_few(const Kernels& kernels, const FlatBorder& flat, size_t places,
+                  const std::vector<int8_t>& is_own) {
+    const size_t targets = flat.rows.size(), stride = SourceCode::whole_blocks(targets) + SourceCode::BLOCK;
+    std::vector<uint16_t> table(places * stride, 1);
+    std::vector<const uint16_t*> rows;
+    for (size_t k = 0; k < places; ++k) {
+        for (size_t i = 0; i < targets; ++i) table[k * stride + i] = flat.rows[i][k];
+        rows.push_back(table.data() + k * stride);
+    }
+    const FewPlaces few{places,        flat.to_source.data(), flat.length.data(), flat.half_inverse.data(),
+                        is_own.data(), flat.quantum};
+    Crossed crossed{std::vector<float>(stride), std::vector<uint16_t>(stride)};
+    for (size_t first = 0; first < targets; first += Kernels::FEW_COLUMNS)
+        kernels.cross_few(few, rows, first, std::min(Kernels::FEW_COLUMNS, targets - first),
+                          crossed.distances.data() + first, crossed.winners.data() + first);
+    crossed.distances.resize(targets);
+    crossed.winners.resize(targets);
+    return crossed;
+}
+
+// The first of the own places with the least sum, by plain sums.
+size_t place_of_least_sum(const FlatBorder& flat, size_t places, const std::vector<int8_t>& is_own,
+                          size_t target) {
+    size_t winner = BorderFromSource::NO_PLACE;
+    float least = INFINITE;
+    for (size_t k = 0; k < places; ++k) {
+        const float sum = flat.to_source[k] + TableCode::distance(flat.rows[target][k], flat.quantum);
+        if (!is_own[k] || sum >= least) continue;
+        least = sum;
+        winner = k;
+    }
+    return winner;
+}
+
+}
+
+// As over near segments, but the straight way is found at once, however far it is.
+TEST_CASE("crossing: over few places straight ways cross any segment, by every instruction set") {
+    std::mt19937 random(13);
+    for (const size_t places : {3u, 11u, 16u, 17u, 31u, 32u})
+        for (const double off : {0.7, 40.0}) {
+            CAPTURE(places);
+            CAPTURE(off);
+            std::vector<Point> line = line_of(places, random);
+            for (size_t k = 1; k + 1 < places; k += 2) line[k].y = -0.2;
+            std::uniform_real_distribution<double> along(line[1].x, line[places - 2].x);
+            std::vector<Point> points;
+            for (int i = 0; i < 45; ++i) points.push_back({along(random), off});
+            const Point source{along(random), -off};
+            const FlatBorder border(line, source, points);
+            std::vector<int8_t> is_own(border.code.size(), -1);
+            is_own[0] = is_own[places - 1] = 0;
+            Crossed first;
+            for (const Kernels& kernels : runnable_kernels()) {
+                CAPTURE(kernels.name);
+                const Crossed crossed = cross_few(kernels, border, places, is_own);
+                for (size_t i = 0; i < points.size(); ++i) {
+                    CHECK(double{crossed.distances[i]} ==
+                          doctest::Approx(distance(source, points[i])).epsilon(1e-3));
+                    CHECK(crossed.winners[i] == place_of_least_sum(border, places, is_own, i));
+                }
+                if (first.distances.empty()) first = crossed;
+                CHECK(std::memcmp(first.distances.data(), crossed.distances.data(),
+                                  first.distances.size() * sizeof(float)) == 0);
+            }
+        }
+}
+
+TEST_CASE(
+    "crossing: over few places there is a way only where both ends reach one that is the border's own") {
+    std::mt19937 random(14);
+    const std::vector<Point> points(3, Point{5, 3});
+    FlatBorder border(20, {5, -3}, points, random);
+    for (size_t k = 0; k < 20; ++k) {
+        border.codes[k] = TableCode::UNREACHED;                   // row 0: no place at all
+        if (k != 15) border.codes[20 + k] = TableCode::UNREACHED; // row 1: one far off
+        if (k != 18) border.codes[40 + k] = TableCode::UNREACHED; // row 2: one that repeats another
+    }
+    std::vector<int8_t> is_own(border.code.size(), -1);
+    is_own[18] = 0;
+    for (const Kernels& kernels : runnable_kernels()) {
+        CAPTURE(kernels.name);
+        const Crossed crossed = cross_few(kernels, border, 20, is_own);
+        CHECK(crossed.distances[0] == INFINITE);
+        CHECK(crossed.winners[0] == BorderFromSource::NO_PLACE);
+        CHECK(crossed.distances[1] ==
+              border.to_source[15] + TableCode::distance(border.rows[1][15], border.quantum));
+        CHECK(crossed.winners[1] == 15);
+        CHECK(crossed.distances[2] == INFINITE);
+        CHECK(crossed.winners[2] == BorderFromSource::NO_PLACE);
+    }
+}
+
 // By plain sums, in steps: the least one, and the first sample that has it.
 TEST_CASE("crossing: over samples it takes the least sum, with every instruction set") {
     std::mt19937 random(11);

@@ -13,7 +13,8 @@
 namespace geodesic {
 
 // The kernels that cross a border: what Kernels says of prepare_crossing(), cross(), cross_near(),
-// cross_samples() and meet() is done by the structs of these names. Only dispatch.cpp includes this.
+// cross_near_columns(), cross_few(), cross_samples() and meet() is done by the structs of these names. Only
+// dispatch.cpp includes this.
 
 // ---- The border, made ready
 
@@ -263,40 +264,95 @@ struct CrossNear {
     }
 };
 
-// To columns side by side instead, place by place.
+// ---- The ways over all near segments, or over few places: columns are side by side, place by place
+
+// The places of a border from `begin` to `end`, and the segments that begin at them, where another place
+// follows. over[k] is the distance of place k for ways over it.
+struct PlacesCrossed {
+    const BorderFromSource& border;
+    const float* over;
+    size_t begin, end;
+};
+
+// The least ways to as many columns as fit, and the first places that ways over places are least at.
+template <size_t BYTES>
+[[gnu::always_inline]] inline void measure_columns(const PlacesCrossed& crossed, Rows rows, size_t column,
+                                                   Floats<BYTES>& ways,
+                                                   typename Lanes<BYTES>::Keys& winners) {
+    using Distances = Floats<BYTES>;
+    const auto& [border, over, begin, end] = crossed;
+    Distances least{}, least_square, from_first, from_second, square;
+    least += INFINITE;
+    least_square = least;
+    winners = typename Lanes<BYTES>::Keys{};
+    decode_row<BYTES>(rows[begin] + column, border.quantum, from_second);
+    for (size_t k = begin; k < end; ++k) {
+        from_first = from_second;
+        const Distances sum = over[k] + from_first;
+        winners = sum < least ? typename Lanes<BYTES>::Keys{} + static_cast<int32_t>(k) : winners;
+        lower(least, sum);
+        if (k + 1 == border.places) break;
+        decode_row<BYTES>(rows[k + 1] + column, border.quantum, from_second);
+        const SegmentsFromSource<Distances> from_source{
+            {Distances{} + border.length[k], Distances{} + border.half_inverse[k]},
+            Distances{} + border.foot[k],
+            Distances{} + border.height[k]};
+        from_source.square_across(from_first, from_second, square);
+        lower(least_square, square);
+    }
+    ways = least_square;
+    take_square_root(ways);
+    lower(ways, least);
+}
+
 template <size_t BYTES>
 struct CrossNearColumns {
-    using Distances = Floats<BYTES>;
-
     [[gnu::always_inline]] static void run(const BorderFromSource& border, const NearRange& range, Rows rows,
                                            size_t first, float* ways) {
-        for (size_t c = 0; c < Kernels::NEAR_COLUMNS; c += Lanes<BYTES>::FLOATS)
-            measure_near(border, range, rows, first + c, ways + c);
+        const PlacesCrossed near{border, border.distance, range.begin(),
+                                 std::min(range.end(border.places), border.places)};
+        for (size_t c = 0; c < Kernels::NEAR_COLUMNS; c += Lanes<BYTES>::FLOATS) {
+            Floats<BYTES> measured;
+            typename Lanes<BYTES>::Keys winners;
+            measure_columns<BYTES>(near, rows, first + c, measured, winners);
+            store(measured, ways + c);
+        }
+    }
+};
+
+template <size_t BYTES>
+struct CrossFew {
+    [[gnu::always_inline]] static void run(const FewPlaces& few, Rows rows, size_t first, size_t count,
+                                           float* ways, uint16_t* winners) {
+        using Keys = typename Lanes<BYTES>::Keys;
+        using Winners = typename VectorOf<uint16_t, BYTES / 2>::Type;
+        float foot[FewPlaces::MOST], height[FewPlaces::MOST], over[FewPlaces::MOST];
+        const BorderFromSource border{few.places,       nullptr, few.distance, few.length,
+                                      few.half_inverse, foot,    height,       few.quantum};
+        unfold<BYTES>(border, foot, height);
+        leave_own(few, over);
+        for (size_t c = 0; c < count; c += Lanes<BYTES>::FLOATS) {
+            Floats<BYTES> measured;
+            Keys places;
+            measure_columns<BYTES>({border, over, 0, few.places}, rows, first + c, measured, places);
+            places = measured < INFINITE ? places : Keys{} + BorderFromSource::NO_PLACE;
+            store(measured, ways + c);
+            store(__builtin_convertvector(places, Winners), winners + c);
+        }
     }
 
 private:
-    [[gnu::always_inline]] static void measure_near(const BorderFromSource& border, const NearRange& range,
-                                                    Rows rows, size_t first, float* ways) {
-        Distances least{}, least_square, from_first, from_second, square;
-        least += INFINITE;
-        least_square = least;
-        const size_t begin = range.begin(), end = std::min(range.end(border.places), border.places);
-        decode_row<BYTES>(rows[begin] + first, border.quantum, from_second);
-        for (size_t k = begin; k < end; ++k) {
-            from_first = from_second;
-            lower<Distances>(least, border.distance[k] + from_first);
-            if (k + 1 == border.places) break;
-            decode_row<BYTES>(rows[k + 1] + first, border.quantum, from_second);
-            const SegmentsFromSource<Distances> from_source{
-                {Distances{} + border.length[k], Distances{} + border.half_inverse[k]},
-                Distances{} + border.foot[k],
-                Distances{} + border.height[k]};
-            from_source.square_across(from_first, from_second, square);
-            lower(least_square, square);
+    [[gnu::always_inline]] static void leave_own(const FewPlaces& few, float* over) {
+        using Flags = typename VectorOf<int8_t, BYTES / 4>::Type;
+        using Keys = typename Lanes<BYTES>::Keys;
+        const Floats<BYTES> none = Floats<BYTES>{} + INFINITE;
+        for (size_t k = 0; k < few.places; k += Lanes<BYTES>::FLOATS) {
+            Floats<BYTES> distance;
+            Flags own;
+            load(few.distance + k, distance);
+            load(few.is_own + k, own);
+            store(__builtin_convertvector(own, Keys) != 0 ? distance : none, over + k);
         }
-        take_square_root(least_square);
-        lower(least_square, least);
-        store(least_square, ways);
     }
 };
 

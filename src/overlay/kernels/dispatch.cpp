@@ -60,6 +60,7 @@ constexpr Kernels kernels_of() {
             Set::template run<Cross>,
             Set::template run<CrossNear>,
             Set::template run<CrossNearColumns>,
+            Set::template run<CrossFew>,
             Set::template run<CrossSamples>,
             Set::template run<Meet>,
             Set::template run<PrepareSweepOfOne>,

@@ -54,6 +54,17 @@ struct NearRange {
     size_t end(size_t places) const { return whole_parts(std::min(last + Rings::REACH, places)); }
 };
 
+// A few places of a border and the distances of one source from them.
+struct FewPlaces {
+    static constexpr size_t MOST = 32;
+
+    size_t places;
+    const float* distance;              // readable up to whole blocks behind the last place
+    const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
+    const int8_t* is_own;               // 0 or -1
+    float quantum;                      // of the rows
+};
+
 // The samples of a border and the distances of one source from them.
 struct SampledBorder {
     const float* distance; // infinity behind the last sample, up to whole blocks
@@ -110,7 +121,7 @@ struct TurnedSquares {
 struct Kernels {
     // Of several sources, everything of a place or a row lies side by side.
     static constexpr size_t SOURCES = 16;
-    static constexpr size_t NEAR_COLUMNS = 16;
+    static constexpr size_t NEAR_COLUMNS = 16, FEW_COLUMNS = 32;
 
     const char* name;
 
@@ -137,6 +148,12 @@ struct Kernels {
     // first + c of NEAR_COLUMNS columns, or infinity. rows[k] is that of place k.
     void (*cross_near_columns)(const BorderFromSource& border, const NearRange& range, Rows rows,
                                size_t first, float* ways);
+
+    // What cross() does, to `count` columns from `first` on, of which there are no more than FEW_COLUMNS, but
+    // straightened over any segment. `ways` and `winners` have room for FEW_COLUMNS. Where few places are
+    // crossed, this takes less time, and needs nothing of prepare_crossing().
+    void (*cross_few)(const FewPlaces& border, Rows rows, size_t first, size_t count, float* ways,
+                      uint16_t* winners);
 
     // Fills border.code. rows[i] belongs to the i-th sample; the last one is followed by readable codes.
     // distances[c]: the least way over a sample to column c, or straightened over a long segment where that

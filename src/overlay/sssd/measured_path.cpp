@@ -35,26 +35,22 @@ Reached reached_of(std::span<const float> distances) {
     return {static_cast<uint32_t>(first), static_cast<uint32_t>(behind - 1)};
 }
 
-// A part of a border that is crossed from, which is not empty, what a hop reads around it, and the distances
-// of its places.
+// A part of a border that is crossed from, which is not empty, and the distances of its places.
 struct CrossedPart {
     CrossedPart(const OverlayIndex& index, uint32_t of_patch, const BorderPart& crossed, const float* known)
-        : patch(of_patch), ring(index.rings.begin[of_patch]), part(crossed),
-          read(part_read(index, of_patch, crossed)), first_read(read.ranges().front()), distances(known) {}
+        : patch(of_patch), ring(index.rings.begin[of_patch]), part(crossed), distances(known) {}
 
-    // Winners are places of the part, counted from the first one of the ring, also where there is no way. The
-    // kernel tells the index in what is read, or NO_PLACE.
+    // Winners are places of the part, counted from the first one of the ring, also where there is no way.
     uint16_t winner(uint32_t place) const { return static_cast<uint16_t>(place - ring); }
-    uint16_t winner_of_kernel(uint16_t in_read) const {
-        if (in_read < first_read.size()) [[likely]]
-            return winner(first_read.first + in_read);
+    // Kernels tell an index in the part, or in what they read around it, or NO_PLACE.
+    uint16_t winner_of_kernel(uint16_t in_read, const BorderPart& read) const {
+        if (const BorderRange& first = read.ranges().front(); in_read < first.size()) [[likely]]
+            return winner(first.first + in_read);
         return winner(in_read == BorderFromSource::NO_PLACE ? part.place(0) : read.place(in_read));
     }
 
     uint32_t patch, ring; // and the first place of its ring
     const BorderPart& part;
-    const BorderPart read;
-    const BorderRange first_read;
     const float* distances;
 };
 
@@ -77,12 +73,12 @@ std::pair<float, uint32_t> go_along(const OverlayIndex& index, const CrossedPart
 
 // Lets the hop begin with the distances of what is crossed. Places that are read outside of that are at
 // infinity, so that no way leads over them.
-void begin_hop(const CrossedPart& from, OverlayCrossing& hop) {
-    const auto places = hop.begin(from.patch, from.read);
+void begin_hop(const CrossedPart& from, const BorderPart& read, OverlayCrossing& hop) {
+    const auto places = hop.begin(from.patch, read);
     std::ranges::fill(places, INFINITE);
     const float* distances = from.distances;
     for (const BorderRange& range : from.part.ranges()) {
-        std::copy_n(distances, range.size(), places.data() + from.read.index(range.first));
+        std::copy_n(distances, range.size(), places.data() + read.index(range.first));
         distances += range.size();
     }
 }
@@ -125,29 +121,49 @@ void keep_common(const OverlayIndex& index, const CrossedPart& from, const Borde
     }
 }
 
+// Takes what a hop has found for the targets. Its winners are indices in `read`.
+void take_found(const CrossedPart& from, const BorderPart& read, const HopTargets& targets,
+                const BorderCrossing& crossing, float* out, uint16_t* winners) {
+    const auto places = targets.places();
+    for (size_t r = 0; r < places.size(); ++r) {
+        out[places[r]] = crossing.distances[r];
+        winners[places[r]] = from.winner_of_kernel(crossing.winners[r], read);
+    }
+}
+
+// Hops from few places.
+void hop_from_few(const CrossedPart& from, BorderCrossing& crossing, float* out, uint16_t* winners) {
+    float* const distances = crossing.distances.data();
+    uint16_t* const over = crossing.winners.data();
+    crossing.few.begin(from.patch, from.part, from.distances);
+    crossing.few.cross_to_ring(crossing.on_ring.columns(), distances, over);
+    take_found(from, from.part, crossing.on_ring, crossing, out, winners);
+    crossing.few.cross_to_owned(crossing.owned.columns(), distances, over);
+    take_found(from, from.part, crossing.owned, crossing, out, winners);
+}
+
 // Hops to the targets that `crossing` holds, and writes the distances and the winners of their places. Where
 // nothing is reached, distances are infinite, and winners say nothing.
-void hop_to_targets(const CrossedPart& from, BorderCrossing& crossing, float* out, uint16_t* winners) {
-    if (crossing.on_ring.is_empty() && crossing.owned.is_empty()) return;
-    begin_hop(from, crossing.hop);
+void hop_to_targets(const OverlayIndex& index, const CrossedPart& from, BorderCrossing& crossing, float* out,
+                    uint16_t* winners) {
+    const size_t columns = crossing.on_ring.columns().size() + crossing.owned.columns().size();
+    if (columns == 0) return;
+    const bool has_rows = crossing.owned.is_empty() || !index.is_large[index.numbering.parent[from.patch]];
+    if (has_rows && FewCrossing::is_quicker(from.part, columns))
+        return hop_from_few(from, crossing, out, winners);
+    const BorderPart read = part_read(index, from.patch, from.part);
+    begin_hop(from, read, crossing.hop);
     if (!crossing.hop.finish()) {
         for (const HopTargets* targets : {&crossing.on_ring, &crossing.owned})
             for (const uint32_t i : targets->places()) out[i] = INFINITE;
         return;
     }
-    const auto take = [&](const HopTargets& targets) {
-        const auto places = targets.places();
-        for (size_t r = 0; r < places.size(); ++r) {
-            out[places[r]] = crossing.distances[r];
-            winners[places[r]] = from.winner_of_kernel(crossing.winners[r]);
-        }
-    };
     float* const distances = crossing.distances.data();
     uint16_t* const over = crossing.winners.data();
     crossing.hop.cross_to_ring(crossing.on_ring.columns(), distances, over);
-    take(crossing.on_ring);
+    take_found(from, read, crossing.on_ring, crossing, out, winners);
     crossing.hop.cross_to_owned(crossing.owned.columns(), distances, over);
-    take(crossing.owned);
+    take_found(from, read, crossing.owned, crossing, out, winners);
 }
 
 // Crosses from a part of a patch's border to a part of the parent's border.
@@ -159,7 +175,7 @@ void cross_up(const OverlayIndex& index, const CrossedPart& from, const BorderPa
         index, from, to, [&](uint32_t place) { return index.rings.position[place]; },
         [&](uint32_t place, uint32_t, uint32_t i) { crossing.on_ring.add(place - ring, i); }, crossing, out,
         winners);
-    hop_to_targets(from, crossing, out, winners);
+    hop_to_targets(index, from, crossing, out, winners);
 }
 
 // Crosses from a part of a patch's border to a part of a sibling's border.
@@ -173,7 +189,7 @@ void cross_over(const OverlayIndex& index, const CrossedPart& from, uint32_t sib
             (column.is_owned ? crossing.owned : crossing.on_ring).add(column.number, i);
         },
         crossing, out, winners);
-    hop_to_targets(from, crossing, out, winners);
+    hop_to_targets(index, from, crossing, out, winners);
 }
 
 }

@@ -6,6 +6,7 @@
 #include "src/overlay/border_part.h"
 #include "src/overlay/overlay_crossing.h"
 #include "src/overlay/sssd/ascent.h"
+#include "src/overlay/sssd/few_crossing.h"
 
 namespace geodesic {
 
@@ -34,8 +35,9 @@ private:
 // Scratch for crossing one border. Both ends use the same one, in turn, and nothing stays in it.
 struct BorderCrossing {
     BorderCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory)
-        : hop(index, memory), on_ring(index, memory), owned(index, memory), beside(memory),
-          distances(index.rings.largest_size(), memory), winners(index.rings.largest_size(), memory) {
+        : hop(index, memory), few(index, memory), on_ring(index, memory), owned(index, memory),
+          beside(memory), distances(index.rings.largest_size(), memory),
+          winners(index.rings.largest_size(), memory) {
         beside.reserve(index.rings.largest_size());
     }
 
@@ -46,6 +48,7 @@ struct BorderCrossing {
     }
 
     OverlayCrossing hop;
+    FewCrossing few;
     HopTargets on_ring, owned; // on the parent's ring, and owned by the parent
     // The indices of vertices that lie on the border that is crossed, too, but beside the part of it.
     Array<uint32_t> beside;
