@@ -15,6 +15,9 @@ namespace {
 constexpr double WANTED = 64, MOST_SHARE = 1.0 / 2, LEAST_SHARE = 1.0 / 10;
 constexpr uint32_t FEWEST_OF_CHAIN = 3;
 
+// Ways along a border to where it meets the parent's are made longer by this share of a spacing.
+constexpr float LONGER_ALONG_BORDER = 0.5f;
+
 // Calls use(place, length) for each segment of a border. It begins at a place of its own, counted over all
 // rings, and ends at the next place.
 template <class Use>
@@ -141,8 +144,10 @@ uint32_t position_in_parent(const OverlayIndex& index, uint32_t patch, uint16_t 
     return index.position_in_parent(patch, index.rings.begin[patch] + place);
 }
 
-// Of two vertices on the border that is hopped from or to.
-uint16_t code_on_border(uint32_t a, uint32_t b) { return a == b ? 0 : TableCode::UNREACHED; }
+uint16_t longer_code(uint16_t code, int by) {
+    return code == TableCode::UNREACHED ? code
+                                        : static_cast<uint16_t>(std::min(code + by, int{TableCode::LARGEST}));
+}
 
 class SampleWriter {
 public:
@@ -189,20 +194,28 @@ private:
         return samples_.codes.data() + samples_.codes.size() - rows * columns;
     }
 
-    // The overlay of a patch begins with its border.
+    // The overlay of a patch begins with its border. Of a vertex that lies on the border below, too, the
+    // distance is known there. Other ways to it are made longer, so that they are not taken for shorter ones
+    // by rounding; those back from the parent's border need them.
     void write_up(uint32_t patch) {
         samples_.up_begin.push_back(samples_.codes.size());
         if (patch == 0) return;
         const uint32_t parent = numbering_.parent[patch];
         const auto from = samples_.of(patch), to = samples_.of(parent);
+        const int longer_by = static_cast<int>(std::min(LONGER_ALONG_BORDER * samples_.spacing[patch] *
+                                                            steps_per_distance(index_.quantum[parent]),
+                                                        float{TableCode::LARGEST}));
         uint16_t* entry = add_table(from.size(), to.size());
         for (const uint16_t k : from) {
             const uint16_t* const row = index_.row_to_ring(parent, position_in_parent(index_, patch, k));
             for (const uint16_t place : to) {
                 const uint32_t position = index_.rings.position[index_.rings.begin[parent] + place];
-                *entry++ = index_.is_on_border(patch, position)
-                               ? code_on_border(vertex_at(index_, parent, place), vertex_at(index_, patch, k))
-                               : row[place];
+                if (!index_.is_on_border(patch, position))
+                    *entry++ = row[place];
+                else if (vertex_at(index_, parent, place) == vertex_at(index_, patch, k))
+                    *entry++ = 0;
+                else
+                    *entry++ = longer_code(row[place], longer_by);
             }
         }
     }
@@ -256,7 +269,7 @@ void RowsAcross::fill(uint32_t sibling, uint16_t from, uint16_t* row) const {
     const uint32_t position = position_in_parent(*index_, sibling, from);
     if (index_->is_on_border(patch_, position)) {
         for (const Target& to : targets_)
-            *row++ = code_on_border(vertex_at(*index_, sibling, from), to.vertex);
+            *row++ = vertex_at(*index_, sibling, from) == to.vertex ? 0 : TableCode::UNREACHED;
         return;
     }
     for (const Target& to : targets_) *row++ = index_->overlay_code(parent, position, to.column);

@@ -13,7 +13,7 @@ uint64_t count_sample_codes(const OverlayIndex& index);
 
 // A hop that looks at no more pairs of places than this leads from all of one border to all of another: that
 // takes less time than finding the part of them that a path may cross.
-constexpr size_t FEW_PAIRS = size_t{1} << 13;
+constexpr size_t FEW_PAIRS = size_t{1} << 12;
 
 // The rows of a table across, which lead to all samples of one patch.
 class RowsAcross {

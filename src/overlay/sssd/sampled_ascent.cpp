@@ -20,12 +20,15 @@ size_t largest_sample_count(const OverlayIndex& index) {
 }
 
 SampledAscent::SampledAscent(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : index_(index), stride_(SourceCode::whole_blocks(largest_sample_count(index))), borders_(memory),
-      distances_(memory), winners_(memory), rows_across_(memory), across_(memory), codes_(stride_, memory) {
+    : index_(index), stride_(SourceCode::whole_blocks(largest_sample_count(index) + 1)), borders_(memory),
+      distances_(memory), winners_(memory), ways_(memory), rows_across_(memory), across_(memory),
+      codes_(stride_, memory), gaps_(stride_, Rings::GAP, memory), middles_(stride_, memory),
+      middle_codes_(stride_, memory) {
     const size_t borders = index.numbering.level_count() + 1;
     borders_.reserve(borders);
     distances_.resize(borders * stride_);
     winners_.resize(borders * stride_);
+    ways_.resize(borders * stride_);
 }
 
 void SampledAscent::climb(const Ascent& ascent) {
@@ -63,6 +66,29 @@ const uint16_t* SampledAscent::make_rows_across(uint32_t patch, uint32_t sibling
     rows_across_.begin(index_, samples, sibling);
     for (size_t i = 0; i < from.size(); ++i) rows_across_.fill(patch, from[i], across_.data() + i * columns);
     return across_.data();
+}
+
+void SampledAscent::go_back(std::span<const float> rest) {
+    std::ranges::copy(rest, ways_.data() + (borders_.size() - 1) * stride_);
+    for (size_t border = borders_.size(); border-- > 0;) {
+        const auto distances = this->distances(border);
+        float* const ways = ways_.data() + border * stride_;
+        std::fill(ways + distances.size(), ways + stride_, INFINITE);
+        if (border > 0) hop_back(border);
+        for (size_t i = 0; i < distances.size(); ++i) ways[i] += distances[i];
+    }
+}
+
+void SampledAscent::hop_back(size_t border) {
+    const Kernels& kernels = runnable_kernels().back();
+    const Border& from = borders_[border];
+    float* const rest = ways_.data() + border * stride_;
+    float nearest;
+    const BorderDistances distances{samples_of(from).size(), rest, gaps_.data(), from.quantum};
+    const BorderCodes codes{codes_.data(), middle_codes_.data(), &nearest, nullptr};
+    kernels.prepare_sweep(distances, codes, middles_.data());
+    kernels.sweep(distances, codes,
+                  {samples_of(borders_[border - 1]).size(), from.table, from.table, nullptr}, rest - stride_);
 }
 
 float SampledAscent::way_over(size_t border, uint32_t before, uint32_t sample) const {

@@ -36,6 +36,14 @@ public:
     // How long the way to a sample of a border is over a sample of the border before.
     float way_over(size_t border, uint32_t before, uint32_t sample) const;
 
+    // Goes back from the samples of the last border, from which the other end has the distances `rest`, to
+    // those of all borders before it: ways_over() then has the lengths of the whole ways over these,
+    // straightened over no long segment.
+    void go_back(std::span<const float> rest);
+    std::span<const float> ways_over(size_t border) const {
+        return {ways_.data() + border * stride_, samples_of(borders_[border]).size()};
+    }
+
 private:
     // A border, and the table that the hop to it reads, with its quantum: a row for each sample of the border
     // before, with one entry for each of its own samples.
@@ -52,6 +60,7 @@ private:
     float* distances_of(size_t border) { return distances_.data() + border * stride_; }
     const float* distances_of(size_t border) const { return distances_.data() + border * stride_; }
     void hop(const Border& to);
+    void hop_back(size_t border);
     const uint16_t* make_rows_across(uint32_t patch, uint32_t sibling);
     void keep_common(uint32_t before);
     void measure_over_vertices();
@@ -61,9 +70,13 @@ private:
     Array<Border> borders_;
     Array<float> distances_;
     Array<uint16_t> winners_;
+    Array<float> ways_;
     RowsAcross rows_across_; // where there is no table across:
     Array<uint16_t> across_; // the rows that are made in its place
     Array<int16_t> codes_;   // scratch of a hop
+    // Of hops back, which sweep, over samples and over no middles:
+    Array<float> gaps_, middles_;
+    Array<int16_t> middle_codes_;
 };
 
 }

@@ -13,53 +13,25 @@ namespace geodesic {
 
 namespace {
 
-// Of a path that crosses several borders, all hops together may look at so many pairs of places instead of
-// FEW_PAIRS: ways over samples take more time then, too, and lose more.
-constexpr size_t FEW_PAIRS_OF_HOPS = 3 * FEW_PAIRS;
-
-// In a border of many short chains, as patches of a lattice of tubes have, places that are near in space are
-// far apart in the ring, so that a range of places would miss them. It is crossed as a whole even where that
-// takes long: so many of its pairs count as one.
-constexpr size_t PAIRS_OF_CHAINS_AS_ONE = 128, PLACES_OF_SHORT_CHAIN = 48;
-
 // Of ways no longer than so many spacings of samples, or as many of the border's longest segments, the
 // shortest one need not be the shortest over samples: these make each longer by a share of a spacing.
 // Everything that such a way can cross is measured. A few segments that are much longer than all others do
 // not make more pairs near.
 constexpr float NEAR_SPACINGS = 14, LONGEST_SEGMENT = 4;
 
-// Ways over samples are longer than the true ones by up to so many spacings, since these are averages.
-constexpr float MOST_LONGER = 2;
+// Ways over samples are longer than the true ones by up to so many spacings, since these are averages, or by
+// half of a long segment, where the way back is not straightened.
+constexpr float MOST_LONGER = 1.5f, LONGER_BY_SEGMENT = 0.5f;
 
-// Unless these are more pairs of places than that, which would take too long.
-constexpr size_t MOST_NEAR_PAIRS = size_t{1} << 15;
+// Unless the meeting border has more places there than that, or all borders more pairs of places, which would
+// take too long.
+constexpr size_t MOST_NEAR_PLACES = 64, MOST_NEAR_PAIRS = size_t{1} << 14;
 
 // Distances over samples come from rounded codes: they may be too short by less than this share.
 constexpr float SAMPLES_ROUNDING = 1e-3f;
 
 // Parts are moved along with the way at most this many times.
 constexpr int MOST_MOVES = 8;
-
-// Whether a border has segments, and consists of several chains with fewer than PLACES_OF_SHORT_CHAIN places
-// each on average.
-bool has_short_chains(const OverlayIndex& index, uint32_t patch) {
-    const size_t chains = index.rings.chains_of(patch).size();
-    return chains > 1 && index.rings.size(patch) < chains * PLACES_OF_SHORT_CHAIN &&
-           index.longest_segment[patch] > 0;
-}
-
-// What hops from all of a border to all of the next one look at.
-struct WholeHops {
-    size_t hops = 0, pairs = 0;
-
-    void add(const OverlayIndex& index, uint32_t first, uint32_t second) {
-        const bool have_short_chains = has_short_chains(index, first) || has_short_chains(index, second);
-        ++hops;
-        pairs += size_t{index.rings.size(first)} * index.rings.size(second) /
-                 (have_short_chains ? PAIRS_OF_CHAINS_AS_ONE : 1);
-    }
-    bool are_few() const { return pairs <= (hops > 1 ? FEW_PAIRS_OF_HOPS : FEW_PAIRS); }
-};
 
 // Returns the lowest patch that two patches lie in. A parent has a smaller number than its children.
 uint32_t lowest_common_patch(const Numbering& numbering, uint32_t a, uint32_t b) {
@@ -72,13 +44,6 @@ BorderPart part_before(const OverlayIndex& index, uint32_t patch_before, const S
                        size_t border, uint32_t before, uint32_t sample) {
     const auto length = [&](uint32_t over) { return sampled.way_over(border, over, sample); };
     return part_near(index, patch_before, ways_near(index, patch_before, before, length));
-}
-
-// The part of a border that ways no longer than `length` can cross. `values` are the lengths of the ways over
-// its samples, or of their beginnings up to there.
-BorderPart part_of_ways(const OverlayIndex& index, uint32_t patch, std::span<const float> values,
-                        float length) {
-    return part_within(index, patch, values, length + MOST_LONGER * index.pairs.samples.spacing[patch]);
 }
 
 // The index of the place that has the least sum of the distances from both ends.
@@ -143,11 +108,11 @@ void OverlaySssd::End::take_parts(const OverlayIndex& index, uint32_t sample, co
         }
 }
 
-// Takes the parts of the first borders, so many of them, that a way no longer than this can cross.
-void OverlaySssd::End::take_parts_within(const OverlayIndex& index, float length, size_t borders) {
+// Takes the parts of all borders that a way no longer than this can cross.
+void OverlaySssd::End::take_parts_within(const OverlayIndex& index, float length) {
     parts.clear();
-    for (size_t b = 0; b < borders; ++b)
-        parts.push_back(part_of_ways(index, ascent.patches[b], sampled.distances(b), length));
+    for (size_t b = 0; b < ascent.patches.size(); ++b)
+        parts.push_back(part_within(index, ascent.patches[b], sampled.ways_over(b), length));
 }
 
 size_t OverlaySssd::End::pairs_between_parts() const {
@@ -221,12 +186,14 @@ float OverlaySssd::distance_to_border(uint32_t border_vertex, uint32_t vertex) c
     return inner_row_of(index_, vertex)(own_place(index_.rings, numbering_, patch, position));
 }
 
-// Measures the path over whole borders if that takes little time, and over the parts near each candidate
-// otherwise. Where no border has segments, all vertices are samples, and the shortest way over samples is the
-// path. That way is also the answer where it is shorter than every measured path by more than rounding: no
-// measured part may have a segment or a row that its best path needs.
+// Measures the path over whole borders if that takes little time. Otherwise measures it over all that a way
+// as short as the one over samples can cross, if the ends are near or the borders rather short, and else over
+// the parts near each candidate. Where no border has segments, all vertices are samples, and the shortest way
+// over samples is the path. That way is also the answer where it is shorter than every measured path by more
+// than rounding: no measured part may have a segment or a row that its best path needs.
 float OverlaySssd::meet() {
-    if (has_few_pairs()) {
+    const WholeHops whole = whole_hops();
+    if (whole.are_few()) {
         uint32_t place;
         return from_.take_whole_borders(index_) && to_.take_whole_borders(index_) ? measure(place) : INFINITE;
     }
@@ -238,8 +205,9 @@ float OverlaySssd::meet() {
     const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
     if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_)) return least;
     const float near = std::max(spacing, std::min(index_.longest_segment[patch], LONGEST_SEGMENT * spacing));
+    const bool is_near = least < NEAR_SPACINGS * near || whole.are_some();
     float shortest = INFINITE;
-    if (uint32_t place; least < NEAR_SPACINGS * near && take_parts_within(least, ways))
+    if (uint32_t place; is_near && take_parts_within(least, ways))
         shortest = measure(place);
     else
         for (const uint32_t sample : find_candidates(index_, patch, ways, least + largest_spacing())) {
@@ -252,39 +220,41 @@ float OverlaySssd::meet() {
 
 // Of the borders that the ways cross.
 float OverlaySssd::largest_spacing() const {
-    float largest = 0;
-    for (const End* end : {&from_, &to_})
-        for (const uint32_t patch : end->ascent.patches)
-            largest = std::max(largest, index_.pairs.samples.spacing[patch]);
-    return largest;
+    return largest_of_borders([&](uint32_t patch) { return index_.pairs.samples.spacing[patch]; });
+}
+float OverlaySssd::longest_of_long_segments() const {
+    return largest_of_borders([&](uint32_t patch) {
+        return index_.pairs.samples.long_segments_of(patch).empty() ? 0 : index_.longest_segment[patch];
+    });
 }
 
-// Takes the parts of both ends that a way no longer than this can cross. From the meeting border on, it has
-// at least as far to go as from there to the other end; that is less than to any sample by half of a segment
-// at most, besides what MOST_LONGER allows. Returns whether the parts are small enough to be measured.
+// Takes the parts of both ends that a way no longer than this can cross. Returns whether they are small
+// enough to be measured.
 bool OverlaySssd::take_parts_within(float length, const WaysOverSamples& ways) {
-    const uint32_t patch = meeting_patch();
-    const auto way_on = [&](std::span<const float> to_samples) {
-        return std::max(0.f, std::ranges::min(to_samples) - index_.longest_segment[patch] / 2);
-    };
-    to_.take_parts_within(index_, length - way_on(ways.from), to_.ascent.patches.size() - 1);
-    to_.parts.push_back(part_of_ways(index_, patch, ways.lengths, length));
+    const float longest =
+        length + std::max(MOST_LONGER * largest_spacing(), LONGER_BY_SEGMENT * longest_of_long_segments());
+    const BorderPart of_meeting_border = part_within(index_, meeting_patch(), ways.lengths, longest);
+    if (of_meeting_border.size() > MOST_NEAR_PLACES) return false;
+    to_.sampled.go_back(ways.from);
+    to_.take_parts_within(index_, longest);
+    to_.parts.back() = of_meeting_border;
     size_t pairs = to_.pairs_between_parts();
     if (!from_.is_at_top()) {
-        from_.take_parts_within(index_, length - way_on(ways.to), from_.ascent.patches.size());
+        from_.sampled.go_back(ways.to);
+        from_.take_parts_within(index_, longest);
         pairs += from_.pairs_between_parts() + size_t{from_.parts.back().size()} * to_.parts.back().size();
     }
     return pairs <= MOST_NEAR_PAIRS;
 }
 
-// Whether all borders may be crossed as a whole.
-bool OverlaySssd::has_few_pairs() const {
+// The hops if all borders are crossed as a whole.
+WholeHops OverlaySssd::whole_hops() const {
     WholeHops hops;
     for (const End* end : {&from_, &to_})
         for (size_t b = 1; b < end->ascent.patches.size(); ++b)
             hops.add(index_, end->ascent.patches[b - 1], end->ascent.patches[b]);
     if (!from_.is_at_top()) hops.add(index_, from_.ascent.last_patch(), meeting_patch());
-    return hops.are_few();
+    return hops;
 }
 
 // Returns the distance of `from_`, which is at the top, from the vertex at a place of the meeting border.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory_resource>
 #include <span>
 
@@ -8,15 +9,17 @@
 #include "src/overlay/sssd/candidates.h"
 #include "src/overlay/sssd/measured_path.h"
 #include "src/overlay/sssd/sampled_ascent.h"
+#include "src/overlay/sssd/whole_hops.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic {
 
 // Single source, single destination on overlay tables. Both ends climb to the children of the lowest patch
 // that has them both and meet on the border of one of these children. Short borders, and those of many short
-// chains, are crossed as a whole. Of longer ones, samples give a few candidates; each is then measured over
-// all vertices of parts of borders around it, which move along with the way while it gets shorter. Vertices
-// are given by their numbers. An object is the scratch of one thread.
+// chains, are crossed as a whole. Of longer ones, samples tell what the path may cross: all of this is
+// measured if the ends are near or the borders not much longer. Otherwise a few candidates are, each over all
+// vertices of parts of borders around it, which move along with the way while it gets shorter. Vertices are
+// given by their numbers. An object is the scratch of one thread.
 class OverlaySssd {
 public:
     // The index must have its samples.
@@ -41,7 +44,7 @@ private:
         bool crosses_segments(const OverlayIndex& index) const;
         bool take_whole_borders(const OverlayIndex& index);
         void take_parts(const OverlayIndex& index, uint32_t sample, const BorderPart& last_part);
-        void take_parts_within(const OverlayIndex& index, float length, size_t borders);
+        void take_parts_within(const OverlayIndex& index, float length);
         size_t pairs_between_parts() const;
         bool move_parts(const OverlayIndex& index, uint32_t place_of_last);
 
@@ -57,13 +60,22 @@ private:
     float distance_inside(uint32_t patch, uint32_t low, uint32_t high) const;
     float distance_to_border(uint32_t border_vertex, uint32_t vertex) const;
     float meet();
-    bool has_few_pairs() const;
+    WholeHops whole_hops() const;
     float distance_from_top(uint32_t place) const;
     std::span<const float> sample_from();
     void measure_ways(std::span<const float> from, std::span<const float> to);
     void take_parts(uint32_t sample, const BorderPart& of_meeting_border);
     bool take_parts_within(float length, const WaysOverSamples& ways);
+    // value(patch) is at least 0.
+    template <class Value>
+    float largest_of_borders(const Value& value) const {
+        float largest = 0;
+        for (const End* end : {&from_, &to_})
+            for (const uint32_t patch : end->ascent.patches) largest = std::max(largest, value(patch));
+        return largest;
+    }
     float largest_spacing() const;
+    float longest_of_long_segments() const;
     float follow(float other_way);
     bool move_parts(uint32_t place);
     float measure(uint32_t& place);
