@@ -205,9 +205,9 @@ float OverlaySssd::meet() {
     const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
     if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_)) return least;
     const float near = std::max(spacing, std::min(index_.longest_segment[patch], LONGEST_SEGMENT * spacing));
-    const bool is_near = least < NEAR_SPACINGS * near || whole.are_some();
+    const bool is_near = least < NEAR_SPACINGS * near, has_some_pairs = whole.are_some();
     float shortest = INFINITE;
-    if (uint32_t place; is_near && take_parts_within(least, ways))
+    if (uint32_t place; (is_near || has_some_pairs) && take_parts_within(least, ways, has_some_pairs))
         shortest = measure(place);
     else
         for (const uint32_t sample : find_candidates(index_, patch, ways, least + largest_spacing())) {
@@ -228,13 +228,13 @@ float OverlaySssd::longest_of_long_segments() const {
     });
 }
 
-// Takes the parts of both ends that a way no longer than this can cross. Returns whether they are small
-// enough to be measured.
-bool OverlaySssd::take_parts_within(float length, const WaysOverSamples& ways) {
+// Takes the parts of both ends that a way no longer than this can cross. Returns whether they may be
+// measured: whether they are small enough, or may have any size.
+bool OverlaySssd::take_parts_within(float length, const WaysOverSamples& ways, bool any_size) {
     const float longest =
         length + std::max(MOST_LONGER * largest_spacing(), LONGER_BY_SEGMENT * longest_of_long_segments());
     const BorderPart of_meeting_border = part_within(index_, meeting_patch(), ways.lengths, longest);
-    if (of_meeting_border.size() > MOST_NEAR_PLACES) return false;
+    if (!any_size && of_meeting_border.size() > MOST_NEAR_PLACES) return false;
     to_.sampled.go_back(ways.from);
     to_.take_parts_within(index_, longest);
     to_.parts.back() = of_meeting_border;
@@ -244,7 +244,7 @@ bool OverlaySssd::take_parts_within(float length, const WaysOverSamples& ways) {
         from_.take_parts_within(index_, longest);
         pairs += from_.pairs_between_parts() + size_t{from_.parts.back().size()} * to_.parts.back().size();
     }
-    return pairs <= MOST_NEAR_PAIRS;
+    return any_size || pairs <= MOST_NEAR_PAIRS;
 }
 
 // The hops if all borders are crossed as a whole.

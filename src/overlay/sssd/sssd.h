@@ -65,7 +65,7 @@ private:
     std::span<const float> sample_from();
     void measure_ways(std::span<const float> from, std::span<const float> to);
     void take_parts(uint32_t sample, const BorderPart& of_meeting_border);
-    bool take_parts_within(float length, const WaysOverSamples& ways);
+    bool take_parts_within(float length, const WaysOverSamples& ways, bool any_size);
     // value(patch) is at least 0.
     template <class Value>
     float largest_of_borders(const Value& value) const {
