@@ -410,6 +410,19 @@ TEST_CASE(
     }
 }
 
+// Where only the ends of a segment repeat places, it is crossed, and no own place wins.
+TEST_CASE("crossing: over few places, segments between repeated places are crossed") {
+    std::mt19937 random(15);
+    FlatBorder border(20, {5, -3}, {{5, 3}}, random);
+    const std::vector<int8_t> is_own(border.code.size(), 0);
+    for (const Kernels& kernels : runnable_kernels()) {
+        CAPTURE(kernels.name);
+        const Crossed crossed = cross_few(kernels, border, 20, is_own);
+        CHECK(double{crossed.distances[0]} == doctest::Approx(6).epsilon(1e-3));
+        CHECK(crossed.winners[0] == BorderFromSource::NO_PLACE);
+    }
+}
+
 // By plain sums, in steps: the least one, and the first sample that has it.
 TEST_CASE("crossing: over samples it takes the least sum, with every instruction set") {
     std::mt19937 random(11);

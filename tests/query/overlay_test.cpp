@@ -192,6 +192,49 @@ TEST_CASE("overlay: far vertices find their way over borders that have pieces in
     CHECK(errors.largest < 0.02);
 }
 
+// A patch around a whole part has an empty border. How long the borders on both sides are decides how pairs
+// look for ways.
+TEST_CASE("overlay: pairs of separate parts have no path, over borders of any length") {
+    for (const uint32_t columns : {30u, 60u, 100u, 140u}) {
+        CAPTURE(columns);
+        TestMesh mesh = grid(50, 50);
+        const uint32_t first = mesh.vertex_count();
+        const TestMesh second = grid(columns, 50);
+        for (size_t i = 0; i < second.positions.size(); ++i)
+            mesh.positions.push_back(second.positions[i] + (i % 3 == 0 ? 1000 : 0));
+        for (const uint32_t corner : second.triangles) mesh.triangles.push_back(corner + first);
+        auto options = overlay_options(GEOIDX_METRIC_CALLBACK, 3, 1);
+        options.patches[0] = 3;
+        options.patches[1] = options.patches[2] = 4;
+        options.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
+        options.metric_user = &mesh;
+        options.metric_callback = [](void* user, uint32_t source, const uint32_t* targets, uint32_t count,
+                                     double* distances) {
+            for (uint32_t i = 0; i < count; ++i)
+                distances[i] = static_cast<const TestMesh*>(user)->straight(source, targets[i]);
+            return geoidx_status{GEOIDX_OK};
+        };
+        const auto built = build(mesh, options);
+        const IndexHandle opened = without_labels(built.get());
+        std::mt19937 random(3);
+        uint32_t wrong = 0;
+        Differences errors;
+        for (uint32_t i = 0; i < 20000; i += sparse(1)) {
+            const auto a = static_cast<uint32_t>(random() % first),
+                       b = first + static_cast<uint32_t>(random() % (mesh.vertex_count() - first)),
+                       c = static_cast<uint32_t>(random() % first);
+            for (const geoidx* index : std::initializer_list<const geoidx*>{built.get(), opened.get()}) {
+                wrong += sssd(index, a, b) != INFINITY;
+                wrong += sssd(index, b, a) != INFINITY;
+                errors.add(double{sssd(index, a, c)}, mesh.straight(a, c));
+            }
+        }
+        CHECK(wrong == 0);
+        CHECK(errors.reached_wrongly == 0);
+        CHECK(errors.mean() < 2e-3);
+    }
+}
+
 // Borders here are many short chains. Vertices side by side on the tubes may be far from each other in the
 // order of a border.
 TEST_CASE("overlay: pairs on a lattice of tubes are as far apart as in a field" * doctest::skip(SANITIZED)) {

@@ -284,7 +284,7 @@ template <size_t BYTES>
     Distances least{}, least_square, from_first, from_second, square;
     least += INFINITE;
     least_square = least;
-    winners = typename Lanes<BYTES>::Keys{};
+    winners = typename Lanes<BYTES>::Keys{} + BorderFromSource::NO_PLACE;
     decode_row<BYTES>(rows[begin] + column, border.quantum, from_second);
     for (size_t k = begin; k < end; ++k) {
         from_first = from_second;
@@ -335,7 +335,6 @@ struct CrossFew {
             Floats<BYTES> measured;
             Keys places;
             measure_columns<BYTES>({border, over, 0, few.places}, rows, first + c, measured, places);
-            places = measured < INFINITE ? places : Keys{} + BorderFromSource::NO_PLACE;
             store(measured, ways + c);
             store(__builtin_convertvector(places, Winners), winners + c);
         }

@@ -59,7 +59,8 @@ struct FewPlaces {
     static constexpr size_t MOST = 32;
 
     size_t places;
-    const float* distance;              // readable up to whole blocks behind the last place
+    // All of these are readable for a block behind the last place.
+    const float* distance;
     const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
     const int8_t* is_own;               // 0 or -1
     float quantum;                      // of the rows
@@ -149,9 +150,11 @@ struct Kernels {
     void (*cross_near_columns)(const BorderFromSource& border, const NearRange& range, Rows rows,
                                size_t first, float* ways);
 
-    // What cross() does, to `count` columns from `first` on, of which there are no more than FEW_COLUMNS, but
-    // straightened over any segment. `ways` and `winners` have room for FEW_COLUMNS. Where few places are
-    // crossed, this takes less time, and needs nothing of prepare_crossing().
+    // To `count` columns from `first` on, of which there are no more than FEW_COLUMNS: ways[c] is the least
+    // way over an own place, or straightened over any segment, or infinity; winners[c] is the first own place
+    // with the least way over it, or NO_PLACE if there is none. Both have room for FEW_COLUMNS. rows[k] is
+    // that of place k. Where few places are crossed, this takes less time than cross(), and needs nothing of
+    // prepare_crossing().
     void (*cross_few)(const FewPlaces& border, Rows rows, size_t first, size_t count, float* ways,
                       uint16_t* winners);
 

@@ -51,18 +51,14 @@ void FewCrossing::cross_to_owned(Columns owned, float* distances, uint16_t* winn
 template <class RowAt>
 void FewCrossing::cross(const RowAt& row_at, Columns columns, float* distances, uint16_t* winners) const {
     if (columns.empty()) return;
-    const uint32_t first_asked = std::min(columns.front(), columns.back()),
-                   last_asked = std::max(columns.front(), columns.back());
     const uint16_t* rows[FewPlaces::MOST];
     const uint16_t** row = rows;
-    part_->for_each_place([&](uint32_t place) {
-        *row = row_at(index_.position_in_parent(patch_, place));
-        prefetch(*row++ + first_asked, last_asked + 1 - first_asked);
-    });
+    part_->for_each_place([&](uint32_t place) { *row++ = row_at(index_.position_in_parent(patch_, place)); });
     float ways[Kernels::FEW_COLUMNS];
     uint16_t over[Kernels::FEW_COLUMNS];
     while (!columns.empty()) {
         const auto [few, first, last] = first_few(columns);
+        for (const uint16_t* const* r = rows; r < row; ++r) prefetch(*r + first, last + 1 - first);
         runnable_kernels().back().cross_few(few_, {rows, part_->size()}, first, last + 1 - first, ways, over);
         for (const uint32_t column : few) {
             *distances++ = ways[column - first];

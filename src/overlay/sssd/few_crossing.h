@@ -21,7 +21,8 @@ public:
     }
 
     // Begins with a part of the patch's border, which is_quicker(), and the distances of its places, which
-    // can be read up to whole blocks. Both must stay valid. The patch must not be the whole mesh.
+    // can be read for a block behind the last one. Both must stay valid. The patch must not be the whole
+    // mesh.
     void begin(uint32_t patch, const BorderPart& part, const float* distances);
 
     // As those of OverlayCrossing, but the parent must not be large where the vertices are owned.

@@ -28,7 +28,7 @@ SampledAscent::SampledAscent(const OverlayIndex& index, std::pmr::memory_resourc
     borders_.reserve(borders);
     distances_.resize(borders * stride_);
     winners_.resize(borders * stride_);
-    ways_.resize(borders * stride_);
+    ways_.resize(borders * stride_ + SourceCode::BLOCK);
 }
 
 void SampledAscent::climb(const Ascent& ascent) {

@@ -205,6 +205,7 @@ float OverlaySssd::meet() {
     const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
     if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_)) return least;
     const float near = std::max(spacing, std::min(index_.longest_segment[patch], LONGEST_SEGMENT * spacing));
+    if (!(least < INFINITE)) return INFINITE;
     const bool is_near = least < NEAR_SPACINGS * near, has_some_pairs = whole.are_some();
     float shortest = INFINITE;
     if (uint32_t place; (is_near || has_some_pairs) && take_parts_within(least, ways, has_some_pairs))
