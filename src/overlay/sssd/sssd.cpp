@@ -203,20 +203,26 @@ float OverlaySssd::meet() {
     measure_ways(from, to);
     const WaysOverSamples ways{from, to, lengths_};
     const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
-    if (!to_.crosses_segments(index_) && !from_.crosses_segments(index_)) return least;
+    const bool crosses_segments = to_.crosses_segments(index_) || from_.crosses_segments(index_);
+    if (!crosses_segments || !(least < INFINITE)) return least;
     const float near = std::max(spacing, std::min(index_.longest_segment[patch], LONGEST_SEGMENT * spacing));
-    if (!(least < INFINITE)) return INFINITE;
     const bool is_near = least < NEAR_SPACINGS * near, has_some_pairs = whole.are_some();
-    float shortest = INFINITE;
-    if (uint32_t place; (is_near || has_some_pairs) && take_parts_within(least, ways, has_some_pairs))
-        shortest = measure(place);
-    else
-        for (const uint32_t sample : find_candidates(index_, patch, ways, least + largest_spacing())) {
-            const auto length = [&](uint32_t over) { return lengths_[over]; };
-            take_parts(sample, part_near(index_, patch, ways_near(index_, patch, sample, length)));
-            shortest = std::min(shortest, follow(shortest));
-        }
+    uint32_t place;
+    const bool takes_all = (is_near || has_some_pairs) && take_parts_within(least, ways, has_some_pairs);
+    const float shortest = takes_all ? measure(place) : measure_candidates(ways, least + largest_spacing());
     return shortest <= least * (1 + SAMPLES_ROUNDING) ? shortest : least;
+}
+
+// Measures the candidates whose ways over samples are up to so long.
+float OverlaySssd::measure_candidates(const WaysOverSamples& ways, float longest) {
+    const uint32_t patch = meeting_patch();
+    float shortest = INFINITE;
+    for (const uint32_t sample : find_candidates(index_, patch, ways, longest)) {
+        const auto length = [&](uint32_t over) { return lengths_[over]; };
+        take_parts(sample, part_near(index_, patch, ways_near(index_, patch, sample, length)));
+        shortest = std::min(shortest, follow(shortest));
+    }
+    return shortest;
 }
 
 // Of the borders that the ways cross.

@@ -60,6 +60,7 @@ private:
     float distance_inside(uint32_t patch, uint32_t low, uint32_t high) const;
     float distance_to_border(uint32_t border_vertex, uint32_t vertex) const;
     float meet();
+    float measure_candidates(const WaysOverSamples& ways, float longest);
     WholeHops whole_hops() const;
     float distance_from_top(uint32_t place) const;
     std::span<const float> sample_from();
