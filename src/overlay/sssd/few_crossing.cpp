@@ -8,7 +8,8 @@ namespace geodesic {
 
 namespace {
 
-// Columns at the beginning of a list that kernels can cross to together, and the first one in the table.
+// The columns at the beginning of a list that lie close enough in the table for a kernel to cross to them
+// together, and the first and the last of them there. The list need not be sorted.
 struct FewColumns {
     Columns columns;
     uint32_t first, last;

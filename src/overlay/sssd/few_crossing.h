@@ -20,12 +20,13 @@ public:
         return part.size() <= FewPlaces::MOST && columns <= MOST_COLUMNS;
     }
 
-    // Begins with a part of the patch's border, which is_quicker(), and the distances of its places, which
-    // can be read for a block behind the last one. Both must stay valid. The patch must not be the whole
-    // mesh.
+    // Begins with a part of the patch's border, for which is_quicker() must hold, and the distances of its
+    // places. A block behind the last distance must be readable, too. Part and distances must stay valid. The
+    // patch must not be the whole mesh.
     void begin(uint32_t patch, const BorderPart& part, const float* distances);
 
-    // As those of OverlayCrossing, but the parent must not be large where the vertices are owned.
+    // As those of OverlayCrossing; winners are indices in the part. A large parent has no rows to the
+    // vertices that it owns, so that there is no hop to these.
     void cross_to_ring(Columns places, float* distances, uint16_t* winners) const;
     void cross_to_owned(Columns owned, float* distances, uint16_t* winners) const;
 

@@ -40,7 +40,8 @@ struct CrossedPart {
     CrossedPart(const OverlayIndex& index, uint32_t of_patch, const BorderPart& crossed, const float* known)
         : patch(of_patch), ring(index.rings.begin[of_patch]), part(crossed), distances(known) {}
 
-    // Winners are places of the part, counted from the first one of the ring, also where there is no way.
+    // A winner is a place of the part, counted from the first one of the ring. A target that no way leads to
+    // has the part's first place. If nothing of the part is reached, winners say nothing.
     uint16_t winner(uint32_t place) const { return static_cast<uint16_t>(place - ring); }
     // Kernels tell an index in the part, or in what they read around it, or NO_PLACE.
     uint16_t winner_of_kernel(uint16_t in_read, const BorderPart& read) const {
@@ -83,12 +84,13 @@ void begin_hop(const CrossedPart& from, const BorderPart& read, OverlayCrossing&
     }
 }
 
-// Vertices of the part that is crossed to which lie on the border that is crossed, too, keep the distances
-// that they have there, if they are in the part that is crossed from. Where any does, a path to a vertex that
-// lies beside that part is not looked for: if it were the shortest, those at the end of the part would be the
-// best here, and the part is moved then. To all others, `crossing` has to hop. position(place) tells where a
-// place is in the parent's overlay, and add(place, position, i) adds it, the i-th of the part, to what is
-// hopped to.
+// Handles the vertices of `to` that lie on the border that is crossed, too. Those that are in the part `from`
+// keep the distances that they have there. The others lie beside that part. If any vertex has kept a finite
+// distance, they are left at infinity: if the best path led to one of them, the measured path would cross at
+// an end of the part, and the part would be moved there. If none has, they are reached from the first or the
+// last place of `from` that is reached. To all vertices that are not on the border that is crossed,
+// `crossing` has to hop: position(place) is the position of a place in the parent's overlay, and add(place,
+// position, i) adds that place, the i-th of `to`, to what is hopped to.
 template <class Position, class Add>
 void keep_common(const OverlayIndex& index, const CrossedPart& from, const BorderPart& to,
                  const Position& position, const Add& add, BorderCrossing& crossing, float* out,

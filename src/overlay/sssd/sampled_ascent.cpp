@@ -112,7 +112,8 @@ void SampledAscent::hop(const Border& to) {
     keep_common(before);
 }
 
-// Measures the ways to the samples of the last border, whose distances are those of rounded codes.
+// Measures the ways to the samples of the last border again, each over the sample that its winner names: the
+// kernel has them from rounded codes. The border before must have no segments.
 void SampledAscent::measure_over_vertices() {
     const size_t border = borders_.size() - 1;
     for (uint32_t i = 0; i < samples_of(borders_.back()).size(); ++i)
@@ -120,7 +121,8 @@ void SampledAscent::measure_over_vertices() {
             distances_of(border)[i] = way_over(border, sample_before(border, i), i);
 }
 
-// Vertices that are samples of the border before, too, keep the distances that they have there.
+// Samples that lie on the border before, too, keep the distances that they have there. That border must have
+// no segments, so that all of its vertices are samples.
 void SampledAscent::keep_common(uint32_t before) {
     const size_t border = borders_.size() - 1;
     const auto samples_before = index_.pairs.samples.of(before);

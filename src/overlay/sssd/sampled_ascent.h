@@ -36,9 +36,9 @@ public:
     // How long the way to a sample of a border is over a sample of the border before.
     float way_over(size_t border, uint32_t before, uint32_t sample) const;
 
-    // Goes back from the samples of the last border, from which the other end has the distances `rest`, to
-    // those of all borders before it: ways_over() then has the lengths of the whole ways over these,
-    // straightened over no long segment.
+    // `rest` has the distances of the other end from the samples of the last border. Hops from these back to
+    // all borders before, so that ways_over() has the length of the whole way between both ends over each
+    // sample. Hops back are not straightened over long segments, as those of climb() are.
     void go_back(std::span<const float> rest);
     std::span<const float> ways_over(size_t border) const {
         return {ways_.data() + border * stride_, samples_of(borders_[border]).size()};

@@ -13,18 +13,19 @@ namespace geodesic {
 
 namespace {
 
-// Of ways no longer than so many spacings of samples, or as many of the border's longest segments, the
-// shortest one need not be the shortest over samples: these make each longer by a share of a spacing.
-// Everything that such a way can cross is measured. A few segments that are much longer than all others do
-// not make more pairs near.
-constexpr float NEAR_SPACINGS = 14, LONGEST_SEGMENT = 4;
+// A pair is near if its shortest way over samples is shorter than so many units. A unit is the spacing of the
+// meeting border's samples or its longest segment, whichever is longer, but a segment counts as so many
+// spacings at most: a few segments that are much longer than all others do not make more pairs near. Samples
+// make ways longer by a share of a spacing, so that the shortest way of a near pair need not be the shortest
+// one over samples. Everything that it can cross is measured.
+constexpr float NEAR_SPACINGS = 14, MOST_SPACINGS_OF_SEGMENT = 4;
 
 // Ways over samples are longer than the true ones by up to so many spacings, since these are averages, or by
 // half of a long segment, where the way back is not straightened.
 constexpr float MOST_LONGER = 1.5f, LONGER_BY_SEGMENT = 0.5f;
 
-// Unless the meeting border has more places there than that, or all borders more pairs of places, which would
-// take too long.
+// Unless its part of the meeting border has more places than that, or its hops have more pairs of places:
+// then candidates take less time. These limits do not hold where WholeHops::are_some().
 constexpr size_t MOST_NEAR_PLACES = 64, MOST_NEAR_PAIRS = size_t{1} << 14;
 
 // Distances over samples come from rounded codes: they may be too short by less than this share.
@@ -186,11 +187,12 @@ float OverlaySssd::distance_to_border(uint32_t border_vertex, uint32_t vertex) c
     return inner_row_of(index_, vertex)(own_place(index_.rings, numbering_, patch, position));
 }
 
-// Measures the path over whole borders if that takes little time. Otherwise measures it over all that a way
-// as short as the one over samples can cross, if the ends are near or the borders rather short, and else over
-// the parts near each candidate. Where no border has segments, all vertices are samples, and the shortest way
-// over samples is the path. That way is also the answer where it is shorter than every measured path by more
-// than rounding: no measured part may have a segment or a row that its best path needs.
+// Measures the path over whole borders if these are few pairs of places. Otherwise finds the ways over
+// samples. If no border has segments, all vertices are samples, and the shortest of these ways is the path.
+// Else the path is measured over all that it can cross, if the ends are near or whole borders would be some
+// pairs, and otherwise over the parts near each candidate. The way over samples is the answer, too, if it is
+// shorter than what was measured by more than rounding: the best path may need a segment or a row that is in
+// none of the measured parts.
 float OverlaySssd::meet() {
     const WholeHops whole = whole_hops();
     if (whole.are_few()) {
@@ -205,8 +207,9 @@ float OverlaySssd::meet() {
     const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
     const bool crosses_segments = to_.crosses_segments(index_) || from_.crosses_segments(index_);
     if (!crosses_segments || !(least < INFINITE)) return least;
-    const float near = std::max(spacing, std::min(index_.longest_segment[patch], LONGEST_SEGMENT * spacing));
-    const bool is_near = least < NEAR_SPACINGS * near, has_some_pairs = whole.are_some();
+    const float unit =
+        std::max(spacing, std::min(index_.longest_segment[patch], MOST_SPACINGS_OF_SEGMENT * spacing));
+    const bool is_near = least < NEAR_SPACINGS * unit, has_some_pairs = whole.are_some();
     uint32_t place;
     const bool takes_all = (is_near || has_some_pairs) && take_parts_within(least, ways, has_some_pairs);
     const float shortest = takes_all ? measure(place) : measure_candidates(ways, least + largest_spacing());
@@ -235,8 +238,8 @@ float OverlaySssd::longest_of_long_segments() const {
     });
 }
 
-// Takes the parts of both ends that a way no longer than this can cross. Returns whether they may be
-// measured: whether they are small enough, or may have any size.
+// Takes the parts of both ends that a path can cross whose shortest way over samples has this length. Returns
+// whether they may be measured: whether they are small enough, or may have any size.
 bool OverlaySssd::take_parts_within(float length, const WaysOverSamples& ways, bool any_size) {
     const float longest =
         length + std::max(MOST_LONGER * largest_spacing(), LONGER_BY_SEGMENT * longest_of_long_segments());

@@ -39,7 +39,8 @@ private:
             parts.reserve(index.numbering.level_count());
         }
         void climb(const OverlayIndex& index, const PathEnd& of, uint32_t top);
-        // Whether the end lies inside of the patch where the ends meet, and on no border inside of that.
+        // Whether the end does not climb, since the lowest patch around both ends owns it: its distances are
+        // then entries of that patch's overlay table.
         bool is_at_top() const { return ascent.patches.empty(); }
         bool crosses_segments(const OverlayIndex& index) const;
         bool take_whole_borders(const OverlayIndex& index);
