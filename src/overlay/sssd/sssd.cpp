@@ -26,7 +26,7 @@ constexpr float MOST_LONGER = 1.5f, LONGER_BY_SEGMENT = 0.5f;
 
 // Unless its part of the meeting border has more places than that, or its hops have more pairs of places:
 // then candidates take less time. These limits do not hold where WholeHops::are_some().
-constexpr size_t MOST_NEAR_PLACES = 64, MOST_NEAR_PAIRS = size_t{1} << 14;
+constexpr size_t MOST_NEAR_PLACES = 128, MOST_NEAR_PAIRS = size_t{1} << 14;
 
 // Distances over samples come from rounded codes: they may be too short by less than this share.
 constexpr float SAMPLES_ROUNDING = 1e-3f;
