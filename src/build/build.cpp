@@ -1,5 +1,7 @@
 #include "src/build/build.h"
 
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "format/error.h"
@@ -12,8 +14,10 @@
 #include "src/build/wrong_pairs.h"
 #include "src/file/kept_mesh.h"
 #include "src/index/stored.h"
+#include "src/mesh/flat_edges.h"
 #include "src/metric/edge_graph.h"
 #include "src/metric/fast_marching.h"
+#include "src/metric/window_propagation.h"
 #include "src/partition/hierarchy.h"
 
 namespace geodesic {
@@ -46,10 +50,11 @@ void check_options(const geoidx_build_options& options) {
                         ", which has unknown flags");
 }
 
-HierarchyOptions hierarchy_options(const geoidx_mesh& mesh, const Intake& intake,
+// `surface` has the intake's edges, or lies where no edge has a length of its own.
+HierarchyOptions hierarchy_options(const geoidx_mesh& mesh, const Intake& intake, const Mesh& surface,
                                    const geoidx_build_options& options) {
     HierarchyOptions result;
-    const uint32_t vertices = intake.mesh.vertex_count();
+    const uint32_t vertices = surface.vertex_count();
     result.split = automatic_split(vertices, options.level_count, options.patches,
                                    options.engine == GEOIDX_ENGINE_OVERLAY ? OVERLAY_SPLIT : GRAPH_SPLIT);
     for (size_t level = 0; level < result.split.size(); ++level)
@@ -57,9 +62,9 @@ HierarchyOptions hierarchy_options(const geoidx_mesh& mesh, const Intake& intake
     result.lloyd_iterations = options.lloyd_iterations;
     result.seed = options.seed;
     result.edge_lengths = given_lengths(mesh, intake, options);
-    if (result.edge_lengths.empty()) result.edge_lengths = edge_lengths(intake.mesh);
+    if (result.edge_lengths.empty()) result.edge_lengths = edge_lengths(surface);
     if (options.metric == GEOIDX_METRIC_EXACT)
-        result.rough_metric = std::make_shared<FastMarchingMetric>(intake.mesh, result.edge_lengths);
+        result.rough_metric = std::make_shared<FastMarchingMetric>(surface, result.edge_lengths);
     return result;
 }
 
@@ -79,10 +84,14 @@ Description describe(const Intake& intake, const geoidx_build_options& options) 
     return about;
 }
 
-// Added vertices need a surface that is given by its positions and on which unfolding is what distances are.
+// Whether distances are those along the surface that the positions give, however it is cut into faces.
+bool is_by_positions(const geoidx_build_options& options) {
+    return options.metric == GEOIDX_METRIC_EXACT && options.edge_length_count == 0;
+}
+
 bool may_add_vertices(const geoidx_build_options& options) {
-    return options.target_error > 0 && options.engine == GEOIDX_ENGINE_OVERLAY &&
-           options.metric == GEOIDX_METRIC_EXACT && options.edge_length_count == 0 && options.delta == 0;
+    return options.target_error > 0 && options.engine == GEOIDX_ENGINE_OVERLAY && is_by_positions(options) &&
+           options.delta == 0;
 }
 
 ProgressFunction progress_function(const geoidx_build_options& options) {
@@ -99,7 +108,10 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     const ProgressFunction progress = progress_function(options);
     if (progress && !progress(0, "mesh")) throw_cancelled();
     const Intake intake = take_in(mesh, intake_options(options));
-    const auto metric = make_metric(mesh, intake, options);
+    const std::optional<Mesh> flipped =
+        is_by_positions(options) ? flip_flat_edges(intake.mesh) : std::nullopt;
+    const Mesh& surface = flipped ? *flipped : intake.mesh;
+    const auto metric = flipped ? std::make_unique<ExactMetric>(surface) : make_metric(mesh, intake, options);
     const Description about = describe(intake, options);
     const ProgressFunction filling_progress = part_of_progress(progress, 0, FILLING_END);
     const double first_end = may_add_vertices(options) ? FIRST_FILLING_END : 1;
@@ -107,12 +119,12 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
 
     workers.begin_stage("patches", 0.05);
     const Hierarchy hierarchy =
-        build_hierarchy(intake.mesh, hierarchy_options(mesh, intake, options), workers);
+        build_hierarchy(surface, hierarchy_options(mesh, intake, surface, options), workers);
     Filling filling(intake, options, about, index);
-    StoredIndex stored = filling.fill({intake.mesh, hierarchy}, workers);
+    StoredIndex stored = filling.fill({surface, hierarchy}, workers);
     if (may_add_vertices(options))
         Rounds(options, filling_progress, filling, index)
-            .run({intake.mesh, hierarchy}, *metric, std::move(stored));
+            .run({surface, hierarchy}, *metric, std::move(stored));
     Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
     if (filling.near_distances()) {
         hold_wrong_pairs(intake, *filling.near_distances(), stating, index, WRONG_PAIRS_END);

@@ -404,4 +404,47 @@ Soup with_flipped_winding(const Soup& soup) {
     return result;
 }
 
+namespace {
+
+// Whether two faces a, b, c and b, a, d are one plane's, and convex together.
+bool is_flat_and_convex(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
+    const Vector3d normal = (b - a).cross(c - a).normalized();
+    const auto turns_left = [&](const Vector3d& from, const Vector3d& over, const Vector3d& to) {
+        return (over - from).cross(to - over).dot(normal) > 1e-9;
+    };
+    return std::abs(normal.dot(d - a)) < 1e-9 && turns_left(c, a, d) && turns_left(a, d, b) &&
+           turns_left(d, b, c) && turns_left(b, c, a);
+}
+
+void flip_some_edges(Soup& soup, std::mt19937_64& random) {
+    const Mesh mesh = mesh_of(soup);
+    std::vector<bool> is_new(mesh.face_count(), false);
+    for (uint32_t e = 0; e < mesh.edge_count(); ++e) {
+        const auto beside = mesh.edge_faces[e];
+        if ((random() & 1) != 0 || beside.size() != 2 || is_new[beside[0]] || is_new[beside[1]]) continue;
+        const auto corner = [&](uint32_t face) {
+            return static_cast<size_t>(std::ranges::find(mesh.face_edges[face], e) -
+                                       mesh.face_edges[face].begin());
+        };
+        const size_t k = corner(beside[0]);
+        const auto& face = mesh.faces[beside[0]];
+        const uint32_t a = face[(k + 1) % 3], b = face[(k + 2) % 3], c = face[k];
+        const uint32_t d = mesh.faces[beside[1]][corner(beside[1])];
+        const auto& at = mesh.positions;
+        if (find_edge(mesh, c, d) != NONE || !is_flat_and_convex(at[a], at[b], at[c], at[d])) continue;
+        soup.triangles[beside[0]] = {c, a, d};
+        soup.triangles[beside[1]] = {c, d, b};
+        is_new[beside[0]] = is_new[beside[1]] = true;
+    }
+}
+
+}
+
+Soup with_random_diagonals(const Soup& soup, uint32_t rounds, uint64_t seed) {
+    std::mt19937_64 random(seed);
+    Soup result = soup;
+    for (uint32_t i = 0; i < rounds; ++i) flip_some_edges(result, random);
+    return result;
+}
+
 }

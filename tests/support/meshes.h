@@ -79,5 +79,8 @@ Soup shuffled(const Soup& soup, uint64_t seed, std::vector<uint32_t>& new_id);
 // About half of the triangles turned over.
 Soup with_mixed_winding(const Soup& soup, uint64_t seed);
 Soup with_flipped_winding(const Soup& soup);
+// The same surface, cut badly: in each round about half of the edges between two faces of one plane are
+// flipped, wherever these are a convex quadrangle. After some rounds there are slivers as long as the plane.
+Soup with_random_diagonals(const Soup& soup, uint32_t rounds, uint64_t seed);
 
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/drilled_plate.h"
+
 namespace geodesic::test {
 
 namespace {
@@ -55,6 +57,11 @@ Soup saddle(std::mt19937_64& random) {
     return cone(rays, between(random, 2, 6));
 }
 
+Soup any_plate(std::mt19937_64& random) {
+    const uint32_t holes = between(random, 2, 4), corners = between(random, 6, 16);
+    return drilled_plate(holes, corners, uniform(random, 0.01, 0.3));
+}
+
 // Thousands of equal distances, at rest or bent along one line.
 Soup regular_grid(std::mt19937_64& random) {
     const uint32_t width = between(random, 6, 19), height = between(random, 6, 19);
@@ -80,7 +87,7 @@ Soup any_comb(std::mt19937_64& random) { return comb(between(random, 1, 2)); }
 
 constexpr StressFamily MANIFOLD[] = {
     {"slivers", slivers}, {"needle fan", needle_fan},     {"strip", strip}, {"torus", any_torus},
-    {"saddle", saddle},   {"regular grid", regular_grid}, {"bumpy", bumpy}};
+    {"saddle", saddle},   {"regular grid", regular_grid}, {"bumpy", bumpy}, {"plate", any_plate}};
 
 constexpr StressFamily UNORIENTABLE[] = {
     {"mixed winding", mixed_winding}, {"moebius", any_moebius}, {"pinched", any_pinched}, {"comb", any_comb}};

@@ -14,7 +14,7 @@ struct StressFamily {
 };
 
 // Oriented manifolds: slivers, fans of needles, bent strips, tori, saddles, grids of equal distances, bumpy
-// spheres.
+// spheres, plates with holes whose flat faces are cut into slivers.
 std::span<const StressFamily> stress_families();
 
 // What is no oriented manifold: mixed winding, Moebius strips, sheets that share a vertex, edges of three
