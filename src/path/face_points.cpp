@@ -7,6 +7,22 @@
 
 namespace geodesic {
 
+namespace {
+
+// As a point of the faces that the index was made on.
+FlatFaces::Point unfolded_point(const Surface& surface, const SurfacePoint& point) {
+    const auto& corners = surface.faces[point.face];
+    if (const auto flat = surface.flat_faces.find(surface.positions, point.face, corners, point.weights))
+        return *flat;
+    FlatFaces::Point same{corners, point.weights, {}};
+    for (size_t k = 0; k < 3; ++k)
+        for_each_face_beyond(surface, point.face, corners[(k + 1) % 3], corners[(k + 2) % 3],
+                             [&](uint32_t) { same.has_face_beyond[k] = true; });
+    return same;
+}
+
+}
+
 void require_same_mesh(const Index& index, const Surface& surface) {
     const Description& about = index.description;
     if (about.mesh_fingerprint != surface.fingerprint || about.id_count != surface.vertex_of_id.size() ||
@@ -22,19 +38,19 @@ uint32_t vertex_at(const Surface& surface, const SurfacePoint& point) {
 
 FacePoint face_point_on(const Index& index, const Surface& surface, const SurfacePoint& point, bool unfolds,
                         double cost) {
-    const auto& corners = surface.faces[point.face];
+    const auto [corners, weights, crosses] =
+        unfolds ? unfolded_point(surface, point)
+                : FlatFaces::Point{surface.faces[point.face], point.weights, {}};
     std::array<uint32_t, 3> numbers;
     std::array<double, 3> lengths;
-    std::array<bool, 3> crosses{};
     for (size_t k = 0; k < 3; ++k) {
         const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
-        if (unfolds) for_each_face_beyond(surface, point.face, a, b, [&](uint32_t) { crosses[k] = true; });
         numbers[k] = number_of(index, surface, corners[k]);
         lengths[k] = cost * (surface.positions[a] - surface.positions[b]).norm();
     }
     if (std::ranges::find(numbers, NONE) != numbers.end())
         refuse_argument("the surface has a triangle that the index does not: they differ in weld_tolerance");
-    return face_point(numbers, lengths, point.weights, crosses);
+    return face_point(numbers, lengths, weights, crosses);
 }
 
 }

@@ -10,6 +10,7 @@
 
 #include "src/mesh/intake.h"
 #include "src/metric/metric.h"
+#include "src/path/flat_faces.h"
 #include "src/path/vertex_faces.h"
 
 namespace geodesic {
@@ -28,6 +29,7 @@ struct SurfaceCosts {
 struct Surface {
     explicit Surface(Intake&& intake, SurfaceCosts&& costs = {});
 
+    FlatFaces flat_faces;
     std::vector<Eigen::Vector3d> positions;
     std::vector<std::array<uint32_t, 3>> faces;
     VertexFaces vertex_faces;

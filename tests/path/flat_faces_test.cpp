@@ -1,0 +1,104 @@
+// Points as those of the faces that flipping edges makes of planes.
+#include "src/path/flat_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include <doctest/doctest.h>
+
+#include "src/mesh/flat_edges.h"
+#include "tests/path/path_cases.h"
+#include "tests/support/drilled_plate.h"
+#include "tests/support/sanitized.h"
+
+using namespace geodesic;
+using namespace geodesic::test;
+
+namespace {
+
+using Faces = std::set<std::array<uint32_t, 3>>;
+
+std::array<uint32_t, 3> in_order(std::array<uint32_t, 3> corners) {
+    std::ranges::sort(corners);
+    return corners;
+}
+
+Faces faces_of(const Mesh& mesh) {
+    Faces faces;
+    for (const auto& corners : mesh.faces) faces.insert(in_order(corners));
+    return faces;
+}
+
+Eigen::Vector3d position(const Mesh& mesh, const std::array<uint32_t, 3>& corners,
+                         const std::array<double, 3>& weights) {
+    return weights[0] * mesh.positions[corners[0]] + weights[1] * mesh.positions[corners[1]] +
+           weights[2] * mesh.positions[corners[2]];
+}
+
+// Inside of a face, on one of its edges, or in a corner.
+std::array<double, 3> weights_of_kind(std::mt19937_64& random, size_t kind) {
+    std::array<double, 3> weights;
+    for (double& weight : weights) weight = uniform(random, 0, 1);
+    const size_t zeros = kind % 4 == 0 ? 1 : kind % 4 == 1 ? 2 : 0;
+    for (size_t k = 0; k < zeros; ++k) weights[(kind / 4 + k) % 3] = 0;
+    const double sum = weights[0] + weights[1] + weights[2];
+    for (double& weight : weights) weight /= sum;
+    return weights;
+}
+
+}
+
+TEST_CASE("flat faces: each point lies in one of those that edges were flipped for, at the same place") {
+    std::mt19937_64 random(2);
+    for (const Soup& whole : {jittered_grid(12, 1), cube(5), annulus(20, 2), l_shape(5), comb(1),
+                              drilled_plate(3, 12, 0.1), with_mixed_winding(drilled_plate(2, 9, 0.5), 4)}) {
+        const Mesh mesh = mesh_of(with_random_diagonals(whole, 20, 3));
+        const auto flipped = flip_flat_edges(mesh);
+        REQUIRE(flipped);
+        const Faces before = faces_of(mesh), after = faces_of(*flipped);
+        const FlatFaces flat(mesh);
+        size_t found = 0, replaced = 0;
+        for (uint32_t f = 0; f < mesh.face_count(); ++f)
+            for (size_t kind = 0; kind < 24; ++kind) {
+                const auto& corners = mesh.faces[f];
+                const auto weights = weights_of_kind(random, kind);
+                const auto point = flat.find(mesh.positions, f, corners, weights);
+                replaced += flipped->faces[f] != corners;
+                if (!point) continue;
+                ++found;
+                REQUIRE(flipped->faces[f] != corners);
+                CHECK(after.contains(in_order(point->corners)));
+                CHECK(std::ranges::min(point->weights) >= 0);
+                CHECK(point->weights[0] + point->weights[1] + point->weights[2] == doctest::Approx(1));
+                CHECK((position(mesh, point->corners, point->weights) - position(mesh, corners, weights))
+                          .norm() < 1e-7);
+                for (size_t k = 0; k < 3; ++k) {
+                    const uint32_t edge =
+                        find_edge(*flipped, point->corners[(k + 1) % 3], point->corners[(k + 2) % 3]);
+                    REQUIRE(edge != NONE);
+                    CHECK(point->has_face_beyond[k] == (flipped->edge_faces[edge].size() > 1));
+                }
+            }
+        CHECK(replaced > 0);
+        CHECK(found == replaced);
+    }
+}
+
+TEST_CASE("flat faces: none where there are no planes") {
+    const Mesh mesh = mesh_of(sphere(2));
+    CHECK(!FlatFaces(mesh).find(mesh.positions, 5, mesh.faces[5], {0.5, 0.25, 0.25}));
+}
+
+TEST_CASE("flat faces: points of slivers are answered by the vertices around them") {
+    const PathCase on(drilled_plate(4, 20, 0.02));
+    std::mt19937_64 random(1);
+    double sum = 0;
+    const size_t count = 50000 / sparse(10);
+    for (size_t i = 0; i < count; ++i) {
+        const auto a = random_point(on.soup, random, 0), b = random_point(on.soup, random, 0);
+        sum += std::abs(on.sssd(a, b) / on.exact(a, b) - 1);
+    }
+    CHECK(sum / static_cast<double>(count) < 0.009);
+}
