@@ -118,23 +118,18 @@ void OverlayCrossing::cross_rows(Columns columns, float* distances, uint16_t* wi
 // many of them, they are measured together.
 void OverlayCrossing::cross_near(Columns columns, float* distances) {
     const float reach = field_.near_range().reach;
-    for (size_t i = 0; i < columns.size();) {
-        uint32_t first = columns[i], last = first;
-        size_t end = i, near = 0;
-        for (; end < columns.size(); ++end) {
-            const auto [low, high] = std::minmax({first, last, columns[end]});
-            if (high - low >= Kernels::NEAR_COLUMNS) break;
-            first = low;
-            last = high;
-            near += distances[end] <= reach;
-        }
-        const auto block = columns.subspan(i, end - i);
+    const auto is_near = [reach](float distance) { return distance <= reach; };
+    while (!columns.empty()) {
+        const ColumnRun block = first_block(columns, Kernels::NEAR_COLUMNS);
+        const size_t count = block.columns.size();
+        const auto near = static_cast<size_t>(std::count_if(distances, distances + count, is_near));
         if (near >= MANY_NEAR)
-            cross_near_block(block, first, distances + i);
+            cross_near_block(block.columns, block.first, distances);
         else if (near > 0)
-            for (size_t j = 0; j < block.size(); ++j)
-                if (distances[i + j] <= reach) cross_near_row(block[j], distances[i + j]);
-        i = end;
+            for (size_t i = 0; i < count; ++i)
+                if (is_near(distances[i])) cross_near_row(columns[i], distances[i]);
+        columns = columns.subspan(count);
+        distances += count;
     }
 }
 

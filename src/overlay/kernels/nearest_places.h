@@ -82,6 +82,20 @@ inline ColumnRun first_run(Columns columns) {
     return {columns.first(count), first, last};
 }
 
+// The columns at the beginning of a list that is not empty which lie within a block of so many of a table: a
+// kernel takes these together. The list need not be sorted.
+inline ColumnRun first_block(Columns columns, uint32_t width) {
+    uint32_t first = columns[0], last = first;
+    size_t count = 1;
+    for (; count < columns.size(); ++count) {
+        const uint32_t low = std::min(first, columns[count]), high = std::max(last, columns[count]);
+        if (high - low >= width) break;
+        first = low;
+        last = high;
+    }
+    return {columns.first(count), first, last};
+}
+
 // The least sums of the columns of a run and of those between them, from the first one on, and the places
 // that these are over. Where a sum is NO_SUM or more, it does not tell a place.
 struct NearestPlaces {

@@ -1,33 +1,9 @@
 #include "src/overlay/sssd/few_crossing.h"
 
-#include <algorithm>
-
 #include "src/base/prefetch.h"
+#include "src/overlay/kernels/nearest_places.h"
 
 namespace geodesic {
-
-namespace {
-
-// The columns at the beginning of a list that lie close enough in the table for a kernel to cross to them
-// together, and the first and the last of them there. The list need not be sorted.
-struct FewColumns {
-    Columns columns;
-    uint32_t first, last;
-};
-
-FewColumns first_few(Columns columns) {
-    uint32_t first = columns.front(), last = first;
-    size_t count = 1;
-    for (; count < columns.size(); ++count) {
-        const auto [low, high] = std::minmax({first, last, columns[count]});
-        if (high - low >= Kernels::FEW_COLUMNS) break;
-        first = low;
-        last = high;
-    }
-    return {columns.first(count), first, last};
-}
-
-}
 
 void FewCrossing::begin(uint32_t patch, const BorderPart& part, const float* distances) {
     patch_ = patch;
@@ -58,7 +34,7 @@ void FewCrossing::cross(const RowAt& row_at, Columns columns, float* distances, 
     float ways[Kernels::FEW_COLUMNS];
     uint16_t over[Kernels::FEW_COLUMNS];
     while (!columns.empty()) {
-        const auto [few, first, last] = first_few(columns);
+        const auto [few, first, last] = first_block(columns, Kernels::FEW_COLUMNS);
         for (const uint16_t* const* r = rows; r < row; ++r) prefetch(*r + first, last + 1 - first);
         runnable_kernels().back().cross_few(few_, {rows, part_->size()}, first, last + 1 - first, ways, over);
         for (const uint32_t column : few) {

@@ -133,15 +133,14 @@ void take_found(const CrossedPart& from, const BorderPart& read, const HopTarget
     }
 }
 
-// Hops from few places.
-void hop_from_few(const CrossedPart& from, BorderCrossing& crossing, float* out, uint16_t* winners) {
-    float* const distances = crossing.distances.data();
-    uint16_t* const over = crossing.winners.data();
-    crossing.few.begin(from.patch, from.part, from.distances);
-    crossing.few.cross_to_ring(crossing.on_ring.columns(), distances, over);
-    take_found(from, from.part, crossing.on_ring, crossing, out, winners);
-    crossing.few.cross_to_owned(crossing.owned.columns(), distances, over);
-    take_found(from, from.part, crossing.owned, crossing, out, winners);
+// Lets a hop that has begun, with what it reads of the border, cross to all targets.
+template <class Hop>
+void cross_to_targets(Hop& hop, const CrossedPart& from, const BorderPart& read, BorderCrossing& crossing,
+                      float* out, uint16_t* winners) {
+    hop.cross_to_ring(crossing.on_ring.columns(), crossing.distances.data(), crossing.winners.data());
+    take_found(from, read, crossing.on_ring, crossing, out, winners);
+    hop.cross_to_owned(crossing.owned.columns(), crossing.distances.data(), crossing.winners.data());
+    take_found(from, read, crossing.owned, crossing, out, winners);
 }
 
 // Hops to the targets that `crossing` holds, and writes the distances and the winners of their places. Where
@@ -151,8 +150,10 @@ void hop_to_targets(const OverlayIndex& index, const CrossedPart& from, BorderCr
     const size_t columns = crossing.on_ring.columns().size() + crossing.owned.columns().size();
     if (columns == 0) return;
     const bool has_rows = crossing.owned.is_empty() || !index.is_large[index.numbering.parent[from.patch]];
-    if (has_rows && FewCrossing::is_quicker(from.part, columns))
-        return hop_from_few(from, crossing, out, winners);
+    if (has_rows && FewCrossing::is_quicker(from.part, columns)) {
+        crossing.few.begin(from.patch, from.part, from.distances);
+        return cross_to_targets(crossing.few, from, from.part, crossing, out, winners);
+    }
     const BorderPart read = part_read(index, from.patch, from.part);
     begin_hop(from, read, crossing.hop);
     if (!crossing.hop.finish()) {
@@ -160,12 +161,7 @@ void hop_to_targets(const OverlayIndex& index, const CrossedPart& from, BorderCr
             for (const uint32_t i : targets->places()) out[i] = INFINITE;
         return;
     }
-    float* const distances = crossing.distances.data();
-    uint16_t* const over = crossing.winners.data();
-    crossing.hop.cross_to_ring(crossing.on_ring.columns(), distances, over);
-    take_found(from, read, crossing.on_ring, crossing, out, winners);
-    crossing.hop.cross_to_owned(crossing.owned.columns(), distances, over);
-    take_found(from, read, crossing.owned, crossing, out, winners);
+    cross_to_targets(crossing.hop, from, read, crossing, out, winners);
 }
 
 // Crosses from a part of a patch's border to a part of the parent's border.
