@@ -61,10 +61,6 @@ PathEnd OverlayQuery::end_of(const FacePoint& point, PointRow& row) const {
 }
 
 float OverlayQuery::point_sssd(const FacePoint& first, const FacePoint& second) {
-    if (first.vertex != NONE && second.vertex != NONE)
-        return first.vertex == second.vertex
-                   ? 0
-                   : sssd(std::min(first.vertex, second.vertex), std::max(first.vertex, second.vertex));
     if (const uint32_t leaf = common_leaf(index_.numbering, first, second); leaf != NONE)
         return distance_in_leaf(index_, leaf, first, second);
     OverlaySssd& pair = pairs();

@@ -73,7 +73,7 @@ public:
     // Whether points of a face can be answered by the tables of one leaf, as the following require.
     bool takes(const FacePoint& point) const { return leaf_of_face(index_.numbering, point.corners) != NONE; }
 
-    // Of two points; callers pass both orders of a pair the same way.
+    // Of two points that are not both vertices; callers pass both orders of a pair the same way.
     float point_sssd(const FacePoint& first, const FacePoint& second);
 
     // Fills distance[number] of every vertex: the least of offsets[i] + the distance from points[i].

@@ -26,15 +26,28 @@ float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
         std::tie(target.corners, target.to_corner) < std::tie(source.corners, source.to_corner);
     const FacePoint& first = swapped ? target : source;
     const FacePoint& second = swapped ? source : target;
+    if (first.vertex != NONE && second.vertex != NONE) {
+        const uint32_t low = std::min(first.vertex, second.vertex),
+                       high = std::max(first.vertex, second.vertex);
+        return low == high ? 0 : std::visit([&](auto& e) { return e.sssd(low, high); }, engine_);
+    }
     if (takes(first) && takes(second)) return std::get<OverlayQuery>(engine_).point_sssd(first, second);
     std::array<double, 3> from_corners;
     for (size_t k = 0; k < 3; ++k) from_corners[k] = double{vertex_to_point(second.corners[k], first)};
     return static_cast<float>(distance_over(second, from_corners));
 }
 
-// Lowers point_field_ to the distances from one point, by those from the corners of its face.
+// Lowers point_field_ to the distances from one point, by those from the corners of its face if it is no
+// vertex.
 void Query::add_point_field(const FacePoint& point, float offset) {
     const uint32_t count = index_.numbering().vertex_count();
+    if (point.vertex != NONE) {
+        auto& field = corner_fields_[0];
+        field.resize(count);
+        std::visit([&](auto& engine) { engine.msad({&point.vertex, 1}, INFINITE, field); }, engine_);
+        for (uint32_t v = 0; v < count; ++v) point_field_[v] = std::min(point_field_[v], field[v] + offset);
+        return;
+    }
     for (size_t k = 0; k < 3; ++k) {
         corner_fields_[k].resize(count);
         const uint32_t corner = point.corners[k];

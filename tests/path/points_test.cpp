@@ -4,6 +4,7 @@
 
 #include "tests/capi/refusals.h"
 #include "tests/path/path_cases.h"
+#include "tests/support/drilled_plate.h"
 #include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
@@ -21,6 +22,8 @@ struct MeanError {
     }
     double mean() const { return sum / static_cast<double>(count); }
 };
+
+Soup comb_of_slivers() { return scaled(with_random_diagonals(comb(2), 20, 33), 1, 1e-4, 1); }
 
 uint32_t id_at(const Soup& soup, const geoidx_surface_point& point) {
     return soup.triangles[point.triangle]
@@ -191,19 +194,25 @@ TEST_CASE("points: by edges, a point on an edge has the ways of the triangle tha
     CHECK(double{field(on, std::span(&above, 1))[3]} == doctest::Approx(half));
 }
 
+// Also where the corners of the triangle that a vertex is given on are in no leaf together: its edges within
+// planes have been flipped.
 TEST_CASE("points: at vertices they are these vertices") {
-    const PathCase on(torus(16, 10, 1, 0.4));
-    std::mt19937_64 random(6);
-    for (size_t i = 0; i < 50; ++i) {
-        const auto a = random_point(on.soup, random, 3), b = random_point(on.soup, random, 3);
-        float expected = 0;
-        REQUIRE(geoidx_query_sssd(on.query.get(), id_at(on.soup, a), id_at(on.soup, b), &expected) ==
-                GEOIDX_OK);
-        CHECK(on.sssd(a, b) == expected);
-        const uint32_t id = id_at(on.soup, a);
-        std::vector<float> whole(on.soup.vertex_count());
-        REQUIRE(geoidx_query_msad(on.query.get(), &id, 1, whole.data(), on.soup.vertex_count()) == GEOIDX_OK);
-        CHECK(field(on, {&a, 1}) == whole);
+    for (const Soup& soup : {torus(16, 10, 1, 0.4), with_random_diagonals(jittered_grid(24, 3), 40, 5),
+                             drilled_plate(3, 12, 0.02), comb_of_slivers()}) {
+        const PathCase on(soup);
+        std::mt19937_64 random(6);
+        for (size_t i = 0; i < 300 / sparse(2); ++i) {
+            const auto a = random_point(on.soup, random, 3), b = random_point(on.soup, random, 3);
+            float expected = 0;
+            REQUIRE(geoidx_query_sssd(on.query.get(), id_at(on.soup, a), id_at(on.soup, b), &expected) ==
+                    GEOIDX_OK);
+            CHECK(on.sssd(a, b) == expected);
+            const uint32_t id = id_at(on.soup, a);
+            std::vector<float> whole(on.soup.vertex_count());
+            REQUIRE(geoidx_query_msad(on.query.get(), &id, 1, whole.data(), on.soup.vertex_count()) ==
+                    GEOIDX_OK);
+            CHECK(field(on, {&a, 1}) == whole);
+        }
     }
 }
 
