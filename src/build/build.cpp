@@ -108,9 +108,8 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     const ProgressFunction progress = progress_function(options);
     if (progress && !progress(0, "mesh")) throw_cancelled();
     const Intake intake = take_in(mesh, intake_options(options));
-    const std::optional<Mesh> flipped =
-        is_by_positions(options) ? flip_flat_edges(intake.mesh) : std::nullopt;
-    const Mesh& surface = flipped ? *flipped : intake.mesh;
+    const auto flipped = is_by_positions(options) ? flip_flat_edges(intake.mesh) : std::nullopt;
+    const Mesh& surface = flipped ? flipped->mesh : intake.mesh;
     const auto metric = flipped ? std::make_unique<ExactMetric>(surface) : make_metric(mesh, intake, options);
     const Description about = describe(intake, options);
     const ProgressFunction filling_progress = part_of_progress(progress, 0, FILLING_END);

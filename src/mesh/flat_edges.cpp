@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "src/base/plane.h"
-
 namespace geodesic {
 
 namespace {
@@ -21,35 +19,47 @@ struct Quadrangle {
     uint32_t a, b, c, d;
 };
 
-// How much longer the other diagonal may be along the surface than straight through space, as a share.
-constexpr double FLATNESS = 1e-8;
+// By how much straight lines over the edge may become shorter, as a share, if its two faces are laid into one
+// plane.
+constexpr double FLATNESS = 1e-7;
 
 // By how much the two opposite angles must be more than half a turn together, in radians: of the corners of a
 // square, rounding decides.
-constexpr double ANGLE = 1e-3;
+constexpr double ANGLE = 1e-4;
 
-// Whether the circle around the first face has the opposite corner of the second one inside, if both are laid
-// into one plane.
-bool is_delaunay(const Point& a, const Point& b, const Point& c, const Point& d) {
-    const Point ca = a - c, cb = b - c, da = a - d, db = b - d;
-    const double sine = ca.cross(cb).norm() * da.dot(db) + da.cross(db).norm() * ca.dot(cb);
-    return sine >= -ANGLE * ca.norm() * cb.norm() * da.norm() * db.norm();
+struct Angle {
+    double sine, cosine;
+};
+
+Angle angle_at(const Point& corner, const Point& a, const Point& b) {
+    const Point to_a = (a - corner).normalized(), to_b = (b - corner).normalized();
+    return {to_a.cross(to_b).norm(), to_a.dot(to_b)};
 }
 
-// Whether c to d is as long straight through space as in the plane into which both faces are laid.
+// Whether the angles opposite to an edge are at most half a turn together: no corner of the one face then
+// lies within the circle around the other, if both are laid into one plane. If both are obtuse they are more,
+// however little is missing to a whole turn.
+bool is_delaunay(const Angle& c, const Angle& d) {
+    const double sine = c.sine * d.cosine + d.sine * c.cosine;
+    const double cosine = c.cosine * d.cosine - c.sine * d.sine;
+    const bool is_nearly_a_turn = c.cosine < 0 && d.cosine < 0 && cosine > 0;
+    return sine >= -ANGLE && !is_nearly_a_turn;
+}
+
+// Whether the faces of an edge from `a` to `b`, with the opposite corners `c` and `d`, lie in one plane. A
+// line that crosses the edge at a right angle, from as far as the one corner is off it to as far as the other
+// one is, would become shorter by the largest share.
 bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d) {
-    const double length = (b - a).norm();
-    const Point along = (b - a) / length;
-    const double foot_of_c = along.dot(c - a), foot_of_d = along.dot(d - a);
-    const double height_of_c = along.cross(c - a).norm(), height_of_d = along.cross(d - a).norm();
-    const double unfolded = hypotenuse(foot_of_d - foot_of_c, height_of_c + height_of_d);
-    return unfolded > 0 && (c - d).norm() >= (1 - FLATNESS) * unfolded;
+    const Point along = (b - a).normalized();
+    const Point to_c = (c - a) - along.dot(c - a) * along, to_d = (d - a) - along.dot(d - a) * along;
+    const double height_of_c = to_c.norm(), height_of_d = to_d.norm(), both = height_of_c + height_of_d;
+    return both > 0 && height_of_c * height_of_d + to_c.dot(to_d) <= FLATNESS * both * both;
 }
 
 class Flipping {
 public:
     explicit Flipping(const Mesh& mesh)
-        : mesh_(mesh), faces_(mesh.faces), face_edges_(mesh.face_edges),
+        : mesh_(mesh), faces_(mesh.faces), face_edges_(mesh.face_edges), plane_(mesh.face_count(), NONE),
           is_waiting_(mesh.edge_count(), false) {
         for (uint32_t e = 0; e < mesh.edge_count(); ++e) {
             const auto beside = mesh.edge_faces[e];
@@ -60,7 +70,7 @@ public:
     // Returns whether any edge was flipped.
     bool run() {
         for (uint32_t e = mesh_.edge_count(); e-- > 0;) put(e);
-        uint64_t left = MOST_FLIPS_AN_EDGE * mesh_.edge_count();
+        uint64_t left = MOST_FLIPS * mesh_.edge_count();
         bool any = false;
         while (!waiting_.empty() && left > 0) {
             const uint32_t edge = waiting_.back();
@@ -74,11 +84,18 @@ public:
         return any;
     }
 
-    std::vector<std::array<uint32_t, 3>> take_faces() { return std::move(faces_); }
+    FlippedEdges take() {
+        FlippedEdges flipped;
+        flipped.mesh.positions = mesh_.positions;
+        flipped.mesh.faces = std::move(faces_);
+        connect(flipped.mesh);
+        for (uint32_t f = 0; f < plane_.size(); ++f)
+            flipped.plane_of_face.push_back(plane_[f] == NONE ? NONE : plane_of(f));
+        return flipped;
+    }
 
 private:
-    // Each flip makes angles larger, so that flipping ends; this bounds what rounding might do.
-    static constexpr uint64_t MOST_FLIPS_AN_EDGE = 1000;
+    static constexpr uint64_t MOST_FLIPS = 50; // for each edge of the mesh
 
     void put(uint32_t edge) {
         if (sides_[edge][0] == NONE || is_waiting_[edge]) return;
@@ -101,8 +118,8 @@ private:
     bool may_flip(uint32_t edge) const {
         const Quadrangle q = quadrangle(edge);
         const auto& at = mesh_.positions;
-        return !is_delaunay(at[q.a], at[q.b], at[q.c], at[q.d]) &&
-               is_flat(at[q.a], at[q.b], at[q.c], at[q.d]) && q.c != q.d &&
+        const Angle at_c = angle_at(at[q.c], at[q.a], at[q.b]), at_d = angle_at(at[q.d], at[q.a], at[q.b]);
+        return !is_delaunay(at_c, at_d) && is_flat(at[q.a], at[q.b], at[q.c], at[q.d]) && q.c != q.d &&
                find_edge(mesh_, q.c, q.d) == NONE && !new_edges_.contains(key(q.c, q.d));
     }
 
@@ -123,9 +140,17 @@ private:
         face_edges_[q.second] = {bd, bc, edge};
         replace_side(ad, q.second, q.first);
         replace_side(bc, q.first, q.second);
+        plane_[plane_of(q.second)] = plane_of(q.first);
         new_edges_.erase(key(q.a, q.b));
         new_edges_.insert(key(q.c, q.d));
         for (const uint32_t beside : {bc, ca, ad, bd}) put(beside);
+    }
+
+    // The number of a plane is that of one of its faces. The others lead to it.
+    uint32_t plane_of(uint32_t face) {
+        if (plane_[face] == NONE) plane_[face] = face;
+        while (plane_[face] != face) face = plane_[face] = plane_[plane_[face]];
+        return face;
     }
 
     void replace_side(uint32_t edge, uint32_t before, uint32_t after) {
@@ -136,6 +161,7 @@ private:
     const Mesh& mesh_;
     std::vector<std::array<uint32_t, 3>> faces_, face_edges_;
     std::vector<std::array<uint32_t, 2>> sides_; // per edge: its faces, or NONE if it does not have two
+    std::vector<uint32_t> plane_;                // per face; NONE where no edge was flipped
     std::unordered_set<uint64_t> new_edges_;     // that the mesh did not have
     std::vector<uint32_t> waiting_;
     std::vector<bool> is_waiting_;
@@ -143,14 +169,10 @@ private:
 
 }
 
-std::optional<Mesh> flip_flat_edges(const Mesh& mesh) {
+std::optional<FlippedEdges> flip_flat_edges(const Mesh& mesh) {
     Flipping flipping(mesh);
     if (!flipping.run()) return std::nullopt;
-    Mesh flipped;
-    flipped.positions = mesh.positions;
-    flipped.faces = flipping.take_faces();
-    connect(flipped);
-    return flipped;
+    return flipping.take();
 }
 
 }

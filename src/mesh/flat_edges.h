@@ -1,17 +1,28 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "src/mesh/mesh.h"
 
 namespace geodesic {
 
-// The same surface with rounder faces: where two faces lie in one plane, their quadrangle may be cut along
-// either diagonal, and edges are flipped until all flat edges are locally Delaunay. Programs that cut faces
-// with holes or many corners into triangles leave slivers as long as the face; borders of patches along these
-// have long segments, and exact paths cross many of them. Vertices stay as they are, and distances do to 1e-8
-// of the distance. An edge of more or fewer than two faces stays, and so does one whose other diagonal is an
-// edge already. Nothing if no edge is to be flipped.
-std::optional<Mesh> flip_flat_edges(const Mesh& mesh);
+// A mesh in which edges of another mesh are flipped. It has the same vertices, and as many faces and edges.
+struct FlippedEdges {
+    Mesh mesh;
+    // Per face the number of its plane, as far as edges were flipped: the faces of a plane in both meshes
+    // cover the same part of the surface, and have the same numbers. NONE of a face that is the same in both.
+    std::vector<uint32_t> plane_of_face;
+};
+
+// Makes faces rounder without changing the surface: where two faces lie in one plane, their quadrangle may be
+// cut along either diagonal, and flat edges are flipped until they are locally Delaunay. Programs that cut
+// faces with holes or many corners into triangles leave slivers as long as the face; borders of patches along
+// these have long segments, and exact paths cross many of them. An edge of more or fewer than two faces
+// stays, and so does one whose other diagonal is, or was, another edge. Two faces lie in one plane if no
+// distance over their edge changes by more than 1e-7 of it. Where it takes more than 50 flips for each edge
+// of the mesh, some edges stay as they are then. Nothing if no edge is flipped.
+std::optional<FlippedEdges> flip_flat_edges(const Mesh& mesh);
 
 }

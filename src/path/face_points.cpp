@@ -12,8 +12,8 @@ namespace {
 // As a point of the faces that the index was made on.
 FlatFaces::Point unfolded_point(const Surface& surface, const SurfacePoint& point) {
     const auto& corners = surface.faces[point.face];
-    if (const auto flat = surface.flat_faces.find(surface.positions, point.face, corners, point.weights))
-        return *flat;
+    if (vertex_at(surface, point) == NONE)
+        if (const auto flat = surface.flat_faces.find(surface, point)) return *flat;
     FlatFaces::Point same{corners, point.weights, {}};
     for (size_t k = 0; k < 3; ++k)
         for_each_face_beyond(surface, point.face, corners[(k + 1) % 3], corners[(k + 2) % 3],

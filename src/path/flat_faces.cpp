@@ -1,7 +1,8 @@
 #include "src/path/flat_faces.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <functional>
 
 #include <Eigen/Geometry>
 
@@ -14,6 +15,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double ROUNDING = 1e-9; // by how much weights may be below 0
+// How far a point may be off the plane of a face, in lengths of the edges to its corners.
+constexpr double OFF_PLANE = 1e-4;
 
 // Weights of the foot of a point in the plane of a face, by the corners `first` and two others.
 std::array<double, 3> weights_of(const Vector3d& first, const Vector3d& second, const Vector3d& third,
@@ -38,25 +41,46 @@ std::array<double, 3> without_rounding(std::array<double, 3> weights) {
 }
 
 FlatFaces::FlatFaces(const Mesh& mesh) {
-    const std::optional<Mesh> flipped = flip_flat_edges(mesh);
+    const std::optional<FlippedEdges> flipped = flip_flat_edges(mesh);
     if (!flipped) return;
+    const auto& planes = flipped->plane_of_face;
+    const size_t count = planes.size() - static_cast<size_t>(std::ranges::count(planes, NONE));
+    for (auto* list : {&replaced_, &plane_}) list->reserve(count);
+    for (auto* list : {&faces_, &across_}) list->reserve(count);
+    at_vertices_.reserve(3 * count);
     for (uint32_t f = 0; f < mesh.face_count(); ++f)
-        if (flipped->faces[f] != mesh.faces[f]) {
-            for (const uint32_t corner : flipped->faces[f])
+        if (planes[f] != NONE) {
+            for (const uint32_t corner : flipped->mesh.faces[f])
                 at_vertices_.emplace_back(corner, static_cast<uint32_t>(faces_.size()));
             replaced_.push_back(f);
-            faces_.push_back(flipped->faces[f]);
+            plane_.push_back(planes[f]);
+            faces_.push_back(flipped->mesh.faces[f]);
         }
     std::ranges::sort(at_vertices_);
     for (const uint32_t f : replaced_) {
         auto& across = across_.emplace_back();
         for (size_t k = 0; k < 3; ++k) {
-            const auto beside = flipped->edge_faces[flipped->face_edges[f][k]];
-            across[k] = NOTHING;
-            if (beside.size() > 1) across[k] = OTHER;
-            if (beside.size() == 2) across[k] = place_of(beside[beside[0] == f]).value_or(OTHER);
+            const auto beside = flipped->mesh.edge_faces[flipped->mesh.face_edges[f][k]];
+            across[k] = beside.size() > 1 ? OTHER : NOTHING;
+            if (beside.size() != 2) continue;
+            const uint32_t other = beside[beside[0] == f];
+            if (planes[other] == planes[f]) across[k] = *place_of(other);
         }
     }
+}
+
+// The nearest corner sees a point past the fewest faces.
+FlatFaces::Corners FlatFaces::corners_of(std::span<const Vector3d> positions,
+                                         const std::array<uint32_t, 3>& corners,
+                                         const std::array<double, 3>& weights) {
+    Corners point{corners, Vector3d::Zero()};
+    std::array<size_t, 3> order{0, 1, 2};
+    std::ranges::sort(order, std::greater(), [&](size_t k) { return weights[k]; });
+    for (size_t k = 0; k < 3; ++k) {
+        point.vertices[k] = corners[order[k]];
+        point.position += weights[k] * positions[corners[k]];
+    }
+    return point;
 }
 
 std::optional<uint32_t> FlatFaces::place_of(uint32_t face) const {
@@ -66,56 +90,92 @@ std::optional<uint32_t> FlatFaces::place_of(uint32_t face) const {
 }
 
 std::span<const std::pair<uint32_t, uint32_t>> FlatFaces::around(uint32_t vertex) const {
-    const auto found =
-        std::ranges::equal_range(at_vertices_, vertex, {}, &std::pair<uint32_t, uint32_t>::first);
-    return {found.begin(), found.end()};
+    const auto begin = std::ranges::lower_bound(at_vertices_, std::pair(vertex, 0u));
+    const auto end =
+        std::find_if(begin, at_vertices_.end(), [&](const auto& at) { return at.first != vertex; });
+    return {begin, end};
 }
 
-// Walks straight from a vertex to a point that it sees, from face to face.
+FlatFaces::Point FlatFaces::point_at(const Located& located) const {
+    Point point{faces_[located.place], without_rounding(located.weights), {}};
+    for (size_t k = 0; k < 3; ++k) point.has_face_beyond[k] = across_[located.place][k] != NOTHING;
+    return point;
+}
+
+// Walks straight from one point of a plane to another one, from face to face.
 class FlatFaces::Walk {
 public:
-    Walk(const FlatFaces& flat, std::span<const Vector3d> positions, uint32_t vertex, const Vector3d& point)
-        : flat_(flat), at_(positions), vertex_(vertex), point_(point) {}
+    Walk(const FlatFaces& flat, std::span<const Vector3d> positions, const Vector3d& from, const Vector3d& to)
+        : flat_(flat), at_(positions), from_(from), way_(to - from), to_(to) {}
 
-    std::optional<Point> run() {
-        if (!begin()) return std::nullopt;
+    // Begins at a vertex, in the one of the plane's faces around it that the way leads into. Returns whether
+    // there is one.
+    bool begin_at(uint32_t vertex, uint32_t plane) {
+        double best = -ROUNDING;
+        place_ = NONE;
+        for (const auto& [v, place] : flat_.around(vertex)) {
+            if (flat_.plane_[place] != plane) continue;
+            const auto& corners = flat_.faces_[place];
+            const auto k = static_cast<size_t>(std::ranges::find(corners, vertex) - corners.begin());
+            const uint32_t right = corners[(k + 1) % 3], left = corners[(k + 2) % 3];
+            const auto weights = weights_of(from_, at_[right], at_[left], to_);
+            const double ahead = weights[1] + weights[2], between = std::min(weights[1], weights[2]) / ahead;
+            if (!(ahead > 0 && between >= best)) continue;
+            best = between;
+            leave(place, right, left);
+        }
+        return place_ != NONE;
+    }
+
+    // Begins inside of a face. Returns whether the way leads out of it over an edge.
+    bool begin_in(uint32_t place) {
+        place_ = NONE;
+        const auto& corners = flat_.faces_[place];
+        to_left_ = normal_of(place).cross(way_);
+        for (size_t k = 0; k < 3; ++k)
+            if (!is_left(corners[k]) && is_left(corners[(k + 1) % 3]))
+                leave(place, corners[k], corners[(k + 1) % 3]);
+        return place_ != NONE;
+    }
+
+    // Goes on to the face with the end of the way, if the way leaves the plane nowhere before.
+    std::optional<Located> run() {
         for (size_t step = 0; step <= flat_.faces_.size(); ++step) {
             const auto& [a, b, c] = flat_.faces_[place_];
-            const auto weights = weights_of(at_[a], at_[b], at_[c], point_);
-            if (is_inside(weights)) return point_with(weights);
+            const auto weights = weights_of(at_[a], at_[b], at_[c], to_);
+            if (is_inside(weights)) {
+                if (!is_in_plane_of_face()) return std::nullopt;
+                return Located{place_, weights};
+            }
             if (!cross()) return std::nullopt;
         }
         return std::nullopt;
     }
 
 private:
-    // Of the faces around the vertex, the one that the way begins in: the way lies between two of its edges,
-    // and in its plane.
-    bool begin() {
-        constexpr double SLOPE = 1e-3;
-        const Vector3d way = point_ - at_[vertex_];
-        double best = -ROUNDING;
-        bool found = false;
-        for (const auto& [vertex, place] : flat_.around(vertex_)) {
-            const auto& corners = flat_.faces_[place];
-            const size_t k = static_cast<size_t>(std::ranges::find(corners, vertex_) - corners.begin());
-            const uint32_t right = corners[(k + 1) % 3], left = corners[(k + 2) % 3];
-            const auto weights = weights_of(at_[vertex_], at_[right], at_[left], point_);
-            const Vector3d normal = (at_[right] - at_[vertex_]).cross(at_[left] - at_[vertex_]).normalized();
-            const double between = std::min(weights[1], weights[2]) / (weights[1] + weights[2]);
-            if (!(weights[1] + weights[2] > 0 && between >= best)) continue;
-            if (!(std::abs(normal.dot(way)) <= SLOPE * way.norm())) continue;
-            best = between;
-            found = true;
-            place_ = place;
-            right_ = right;
-            left_ = left;
-            to_left_ = normal.cross(way);
-        }
-        return found;
+    Vector3d normal_of(uint32_t place) const {
+        const auto& [a, b, c] = flat_.faces_[place];
+        return (at_[b] - at_[a]).cross(at_[c] - at_[a]).normalized();
+    }
+    bool is_left(uint32_t vertex) const { return to_left_.dot(at_[vertex] - from_) > 0; }
+
+    bool is_in_plane_of_face() const {
+        const Vector3d normal = normal_of(place_);
+        double longest = 0;
+        for (const uint32_t corner : flat_.faces_[place_])
+            longest = std::max(longest, (at_[corner] - to_).norm());
+        return std::abs(normal.dot(to_ - at_[flat_.faces_[place_][0]])) <= OFF_PLANE * longest;
     }
 
-    // Goes on to the face across the edge between right_ and left_.
+    // The way leaves this face over the edge between two corners, which follow each other around it.
+    void leave(uint32_t place, uint32_t right, uint32_t left) {
+        place_ = place;
+        right_ = right;
+        left_ = left;
+        to_left_ = normal_of(place).cross(way_);
+    }
+
+    // Goes on over that edge.
     bool cross() {
         const auto& corners = flat_.faces_[place_];
         size_t k = 0;
@@ -125,39 +185,40 @@ private:
         place_ = next;
         for (const uint32_t corner : flat_.faces_[next])
             if (corner != right_ && corner != left_) {
-                (to_left_.dot(at_[corner] - at_[vertex_]) > 0 ? left_ : right_) = corner;
+                (is_left(corner) ? left_ : right_) = corner;
                 return true;
             }
         return false;
     }
 
-    Point point_with(const std::array<double, 3>& weights) const {
-        Point found{flat_.faces_[place_], without_rounding(weights), {}};
-        for (size_t k = 0; k < 3; ++k) found.has_face_beyond[k] = flat_.across_[place_][k] != NOTHING;
-        return found;
-    }
-
     const FlatFaces& flat_;
     const std::span<const Vector3d> at_;
-    const uint32_t vertex_;
-    const Vector3d point_;
-    uint32_t place_ = NONE, right_ = NONE,
-             left_ = NONE; // the face, and the edge over which the way leaves it
-    Vector3d to_left_{0, 0, 0};
+    const Vector3d from_, way_, to_;
+    uint32_t place_ = NONE, right_ = NONE, left_ = NONE;
+    Vector3d to_left_{0, 0, 0}; // across the way
 };
 
-// The nearest corner sees the point past the fewest faces; if rounding leads astray from there, the others.
-std::optional<FlatFaces::Point> FlatFaces::find(std::span<const Vector3d> positions, uint32_t face,
-                                                const std::array<uint32_t, 3>& corners,
-                                                const std::array<double, 3>& weights) const {
-    if (!place_of(face)) return std::nullopt;
-    const Vector3d point = weights[0] * positions[corners[0]] + weights[1] * positions[corners[1]] +
-                           weights[2] * positions[corners[2]];
-    std::array<size_t, 3> order{0, 1, 2};
-    std::ranges::sort(order, std::greater(), [&](size_t k) { return weights[k]; });
-    for (const size_t k : order)
-        if (auto found = Walk(*this, positions, corners[k], point).run()) return found;
+// Where rounding leads astray from the nearest corner, the others try.
+std::optional<FlatFaces::Located> FlatFaces::locate(std::span<const Vector3d> positions, const Corners& point,
+                                                    uint32_t of_plane) const {
+    for (const uint32_t vertex : point.vertices) {
+        Walk walk(*this, positions, positions[vertex], point.position);
+        if (!walk.begin_at(vertex, plane_[of_plane])) continue;
+        if (const auto found = walk.run()) return found;
+    }
     return std::nullopt;
+}
+
+double FlatFaces::straight_between(std::span<const Vector3d> positions, const Corners& a, const Corners& b,
+                                   uint32_t of_plane) const {
+    const auto sees = [&](const Corners& from, const Corners& to) {
+        const auto begin = locate(positions, from, of_plane);
+        if (!begin) return false;
+        Walk walk(*this, positions, from.position, to.position);
+        return walk.begin_in(begin->place) && walk.run();
+    };
+    if (!sees(a, b) && !sees(b, a)) return UNREACHABLE;
+    return (a.position - b.position).norm();
 }
 
 }

@@ -10,14 +10,17 @@
 #include <Eigen/Core>
 
 #include "src/mesh/mesh.h"
+#include "src/metric/metric.h"
 
 namespace geodesic {
 
 // The faces that flip_flat_edges() makes of planes, beside those of the mesh that it takes for them. An index
 // is made on these: the distances of their corners, which lie around a point, tell more of it than those of
-// the corners of a sliver. A mesh without such planes has none, and takes no memory.
+// the corners of a sliver. Where nothing is flipped there are none, and they take no memory; else some 60
+// bytes for each face.
 class FlatFaces {
 public:
+    FlatFaces() = default;
     explicit FlatFaces(const Mesh& mesh);
 
     // A point of one of these faces.
@@ -27,22 +30,58 @@ public:
         std::array<bool, 3> has_face_beyond; // over the edge opposite to each corner
     };
 
-    // A point of the mesh, or nothing where its face is no other than in the mesh, or where rounding hides
-    // which one it is. `corners` and `weights` are those of the mesh's face.
-    std::optional<Point> find(std::span<const Eigen::Vector3d> positions, uint32_t face,
-                              const std::array<uint32_t, 3>& corners,
-                              const std::array<double, 3>& weights) const;
+    // A point of the mesh as one of these faces, to rounding at the same place. Nothing where its face is the
+    // same in both, or where rounding hides which one it lies in. `mesh` has positions and faces of the mesh.
+    template <class AnyMesh>
+    std::optional<Point> find(const AnyMesh& mesh, const SurfacePoint& point) const {
+        const auto place = place_of(point.face);
+        if (!place) return std::nullopt;
+        const auto found = locate(mesh.positions, corners_of(mesh, point), *place);
+        if (!found) return std::nullopt;
+        return point_at(*found);
+    }
+
+    // The length of the straight line between two points of the mesh if it does not leave a plane whose faces
+    // these are; infinite otherwise. It is the same in both directions.
+    template <class AnyMesh>
+    double straight(const AnyMesh& mesh, const SurfacePoint& a, const SurfacePoint& b) const {
+        const auto place_of_a = place_of(a.face), place_of_b = place_of(b.face);
+        if (!place_of_a || !place_of_b || plane_[*place_of_a] != plane_[*place_of_b]) return UNREACHABLE;
+        return straight_between(mesh.positions, corners_of(mesh, a), corners_of(mesh, b), *place_of_a);
+    }
 
 private:
-    // What is across an edge: the place of one of these faces, or
-    static constexpr uint32_t NOTHING = NONE, OTHER = NONE - 1; // a face of the mesh, or several
-
+    // A point by a face of the mesh, the nearest corner first.
+    struct Corners {
+        std::array<uint32_t, 3> vertices;
+        Eigen::Vector3d position;
+    };
+    struct Located {
+        uint32_t place; // of one of these faces
+        std::array<double, 3> weights;
+    };
     class Walk;
 
+    // What is across an edge: the place of one of these faces, or
+    static constexpr uint32_t NOTHING = NONE,
+                              OTHER = NONE - 1; // another face, also of another plane, or several
+
+    template <class AnyMesh>
+    static Corners corners_of(const AnyMesh& mesh, const SurfacePoint& point) {
+        return corners_of(mesh.positions, mesh.faces[point.face], point.weights);
+    }
+    static Corners corners_of(std::span<const Eigen::Vector3d> positions,
+                              const std::array<uint32_t, 3>& corners, const std::array<double, 3>& weights);
     std::optional<uint32_t> place_of(uint32_t face) const;
     std::span<const std::pair<uint32_t, uint32_t>> around(uint32_t vertex) const;
+    std::optional<Located> locate(std::span<const Eigen::Vector3d> positions, const Corners& point,
+                                  uint32_t of_plane) const;
+    double straight_between(std::span<const Eigen::Vector3d> positions, const Corners& a, const Corners& b,
+                            uint32_t of_plane) const;
+    Point point_at(const Located& located) const;
 
     std::vector<uint32_t> replaced_; // faces of the mesh, in ascending order
+    std::vector<uint32_t> plane_;    // of each of these, and of the face in its place
     std::vector<std::array<uint32_t, 3>> faces_, across_;
     std::vector<std::pair<uint32_t, uint32_t>> at_vertices_; // vertex and place of a face there, in order
 };

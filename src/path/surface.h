@@ -29,7 +29,7 @@ struct SurfaceCosts {
 struct Surface {
     explicit Surface(Intake&& intake, SurfaceCosts&& costs = {});
 
-    FlatFaces flat_faces;
+    FlatFaces flat_faces; // of surfaces without costs; the first member, since others take what it is made of
     std::vector<Eigen::Vector3d> positions;
     std::vector<std::array<uint32_t, 3>> faces;
     VertexFaces vertex_faces;

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <map>
 #include <set>
 
 #include <Eigen/Geometry>
 
 #include <doctest/doctest.h>
 
+#include "tests/support/drilled_plate.h"
 #include "tests/support/meshes.h"
 #include "tests/support/oracles.h"
 
@@ -20,9 +21,9 @@ namespace {
 constexpr uint32_t ROUNDS = 20;
 
 Mesh flipped(const Soup& soup) {
-    auto mesh = flip_flat_edges(mesh_of(soup));
-    REQUIRE(mesh);
-    return *mesh;
+    const auto flipped = flip_flat_edges(mesh_of(soup));
+    REQUIRE(flipped);
+    return flipped->mesh;
 }
 
 // The corners of each face in the order of their numbers.
@@ -44,11 +45,14 @@ double share_of_others(const Mesh& mesh, const Mesh& other) {
     return static_cast<double>(others) / mesh.face_count();
 }
 
+Eigen::Vector3d area_vector(const Mesh& mesh, uint32_t face) {
+    const auto& [a, b, c] = mesh.faces[face];
+    return (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]) / 2;
+}
+
 double area_of(const Mesh& mesh) {
     double area = 0;
-    for (const auto& [a, b, c] : mesh.faces)
-        area +=
-            (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]).norm() / 2;
+    for (uint32_t f = 0; f < mesh.face_count(); ++f) area += area_vector(mesh, f).norm();
     return area;
 }
 
@@ -154,4 +158,46 @@ TEST_CASE("flat edges: an edge stays if the other diagonal is an edge already") 
     CHECK(flip_flat_edges(mesh_of(Soup{{soup.positions.begin(), soup.positions.end() - 1}, soup.triangles})));
     soup.triangles.push_back({2, 3, 4});
     CHECK(!flip_flat_edges(mesh_of(soup)));
+}
+
+TEST_CASE("flat edges: two flat caps on one edge become round, however flat they are") {
+    for (const double height : {0.1, 1e-3, 1e-4, 1e-5, 1e-7}) {
+        Soup soup;
+        soup.positions = {{0, 0, 0}, {1, 0, 0}, {0.4, height, 0}, {0.6, -height, 0}};
+        soup.triangles = {{0, 1, 2}, {1, 0, 3}};
+        CHECK(faces_of(flipped(soup)) == std::set<std::array<uint32_t, 3>>{{0, 2, 3}, {1, 2, 3}});
+    }
+}
+
+TEST_CASE("flat edges: a crease between two narrow strips stays") {
+    for (const double bend : {0.01, 0.5, 1.57, 3.0})
+        for (const double width : {1e-2, 1e-4, 1e-6}) {
+            Soup soup;
+            soup.positions = {{0, 0, 0},
+                              {1, 0, 0},
+                              {0.01, width, 0},
+                              {0.75, -width * std::cos(bend), width * std::sin(bend)}};
+            soup.triangles = {{0, 1, 2}, {1, 0, 3}};
+            CHECK(!flip_flat_edges(mesh_of(soup)));
+        }
+}
+
+TEST_CASE("flat edges: a plane has the same area in both meshes") {
+    for (const Soup& whole : {jittered_grid(9, 2), cube(5), comb(1), drilled_plate(3, 12, 0.1),
+                              joined(annulus(20, 2), l_shape(5))}) {
+        const Mesh mesh = mesh_of(with_random_diagonals(whole, ROUNDS, 6));
+        const auto made = flip_flat_edges(mesh);
+        REQUIRE(made);
+        std::map<uint32_t, Eigen::Vector3d> area;
+        for (uint32_t f = 0; f < mesh.face_count(); ++f) {
+            const uint32_t plane = made->plane_of_face[f];
+            if (plane == NONE)
+                CHECK(made->mesh.faces[f] == mesh.faces[f]);
+            else
+                area.try_emplace(plane, Eigen::Vector3d::Zero()).first->second +=
+                    area_vector(made->mesh, f) - area_vector(mesh, f);
+        }
+        CHECK(!area.empty());
+        for (const auto& [plane, difference] : area) CHECK(difference.norm() < 1e-12);
+    }
 }

@@ -57,18 +57,18 @@ TEST_CASE("flat faces: each point lies in one of those that edges were flipped f
         const Mesh mesh = mesh_of(with_random_diagonals(whole, 20, 3));
         const auto flipped = flip_flat_edges(mesh);
         REQUIRE(flipped);
-        const Faces before = faces_of(mesh), after = faces_of(*flipped);
+        const Faces before = faces_of(mesh), after = faces_of(flipped->mesh);
         const FlatFaces flat(mesh);
         size_t found = 0, replaced = 0;
         for (uint32_t f = 0; f < mesh.face_count(); ++f)
             for (size_t kind = 0; kind < 24; ++kind) {
                 const auto& corners = mesh.faces[f];
                 const auto weights = weights_of_kind(random, kind);
-                const auto point = flat.find(mesh.positions, f, corners, weights);
-                replaced += flipped->faces[f] != corners;
+                const auto point = flat.find(mesh, {f, weights});
+                replaced += flipped->plane_of_face[f] != NONE;
                 if (!point) continue;
                 ++found;
-                REQUIRE(flipped->faces[f] != corners);
+                REQUIRE(flipped->plane_of_face[f] != NONE);
                 CHECK(after.contains(in_order(point->corners)));
                 CHECK(std::ranges::min(point->weights) >= 0);
                 CHECK(point->weights[0] + point->weights[1] + point->weights[2] == doctest::Approx(1));
@@ -76,9 +76,9 @@ TEST_CASE("flat faces: each point lies in one of those that edges were flipped f
                           .norm() < 1e-7);
                 for (size_t k = 0; k < 3; ++k) {
                     const uint32_t edge =
-                        find_edge(*flipped, point->corners[(k + 1) % 3], point->corners[(k + 2) % 3]);
+                        find_edge(flipped->mesh, point->corners[(k + 1) % 3], point->corners[(k + 2) % 3]);
                     REQUIRE(edge != NONE);
-                    CHECK(point->has_face_beyond[k] == (flipped->edge_faces[edge].size() > 1));
+                    CHECK(point->has_face_beyond[k] == (flipped->mesh.edge_faces[edge].size() > 1));
                 }
             }
         CHECK(replaced > 0);
@@ -86,9 +86,59 @@ TEST_CASE("flat faces: each point lies in one of those that edges were flipped f
     }
 }
 
+// The same square twice, joined along its boundary. Inner vertices of both lie at the same places.
+TEST_CASE("flat faces: of two sheets at one place, those of the point's own sheet") {
+    Soup soup = with_random_diagonals(jittered_grid(10, 4), 20, 1);
+    const uint32_t count = soup.vertex_count();
+    std::vector<uint32_t> other(count);
+    for (uint32_t v = 0; v < count; ++v) {
+        const Eigen::Vector3d at = soup.positions[v];
+        const bool is_inner = at.x() > 0 && at.x() < 1 && at.y() > 0 && at.y() < 1;
+        other[v] = is_inner ? soup.vertex_count() : v;
+        if (is_inner) soup.positions.push_back(at);
+    }
+    const Soup back = with_random_diagonals(jittered_grid(10, 4), 20, 9);
+    const auto front_count = static_cast<uint32_t>(soup.triangles.size());
+    for (const auto& [a, b, c] : back.triangles) soup.triangles.push_back({other[c], other[b], other[a]});
+    const Mesh mesh = mesh_of(soup);
+    const FlatFaces flat(mesh);
+    size_t found = 0;
+    for (uint32_t f = 0; f < mesh.face_count(); ++f)
+        if (const auto point = flat.find(mesh, {f, {0.3, 0.3, 0.4}})) {
+            ++found;
+            const bool is_front = f < front_count;
+            for (const uint32_t corner : point->corners)
+                CHECK((corner < count ? is_front || other[corner] == corner : !is_front));
+        }
+    CHECK(found > mesh.face_count() / 2);
+}
+
+TEST_CASE("flat faces: straight lines are those that do not leave the plane") {
+    size_t straight_ones = 0;
+    for (const Soup& whole : {jittered_grid(9, 1), annulus(24, 2), l_shape(5), drilled_plate(2, 8, 0.4)}) {
+        const PathCase on(with_random_diagonals(whole, 20, 3));
+        const Mesh mesh = mesh_of(on.soup);
+        const FlatFaces flat(mesh);
+        std::mt19937_64 random(1);
+        for (size_t i = 0; i < 8000 / sparse(4); ++i) {
+            const auto a = random_point(on.soup, random, 0), b = random_point(on.soup, random, 0);
+            const SurfacePoint from{a.triangle, std::to_array(a.weights)},
+                to{b.triangle, std::to_array(b.weights)};
+            const double straight = flat.straight(mesh, from, to);
+            CHECK(straight == flat.straight(mesh, to, from));
+            const double exact = on.exact(a, b);
+            if (!(straight < UNREACHABLE)) continue;
+            ++straight_ones;
+            CHECK(straight == doctest::Approx(exact).epsilon(1e-9));
+            CHECK(on.sssd(a, b) == doctest::Approx(exact).epsilon(1e-6));
+        }
+    }
+    CHECK(straight_ones > 20);
+}
+
 TEST_CASE("flat faces: none where there are no planes") {
     const Mesh mesh = mesh_of(sphere(2));
-    CHECK(!FlatFaces(mesh).find(mesh.positions, 5, mesh.faces[5], {0.5, 0.25, 0.25}));
+    CHECK(!FlatFaces(mesh).find(mesh, {5, {0.5, 0.25, 0.25}}));
 }
 
 TEST_CASE("flat faces: points of slivers are answered by the vertices around them") {
