@@ -1,6 +1,7 @@
 #include "src/mesh/flat_edges.h"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_set>
 #include <utility>
 
@@ -12,10 +13,9 @@ namespace {
 
 using Point = Eigen::Vector3d;
 
-// Two faces beside an edge from `a` to `b`: c, a, b and d, b, a. Corner numbers are places in their faces.
+// Two faces beside an edge from `a` to `b`, and their corners that are opposite to it.
 struct Quadrangle {
-    uint32_t first, second; // the faces
-    uint32_t first_corner, second_corner;
+    uint32_t first, second; // first: c, a, b by turns; second: d, b, a, or turned over
     uint32_t a, b, c, d;
 };
 
@@ -26,6 +26,11 @@ constexpr double FLATNESS = 1e-7;
 // By how much the two opposite angles must be more than half a turn together, in radians: of the corners of a
 // square, rounding decides.
 constexpr double ANGLE = 1e-4;
+
+// The sum of the squares of a plane's edges that is left of that before, at most. The errors of paths across
+// an edge grow with the square of its length. What is nearly as good as a Delaunay triangulation is often
+// better: the rows of a grid are straighter borders.
+constexpr double WORTH_IT = 0.8;
 
 struct Angle {
     double sine, cosine;
@@ -59,12 +64,13 @@ bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d) {
 class Flipping {
 public:
     explicit Flipping(const Mesh& mesh)
-        : mesh_(mesh), faces_(mesh.faces), face_edges_(mesh.face_edges), plane_(mesh.face_count(), NONE),
+        : mesh_(mesh), faces_(mesh.faces), face_edges_(mesh.face_edges), plane_(mesh.face_count()),
           is_waiting_(mesh.edge_count(), false) {
         for (uint32_t e = 0; e < mesh.edge_count(); ++e) {
             const auto beside = mesh.edge_faces[e];
             sides_.push_back(beside.size() == 2 ? std::array{beside[0], beside[1]} : std::array{NONE, NONE});
         }
+        join_planes();
     }
 
     // Returns whether any edge was flipped.
@@ -84,13 +90,31 @@ public:
         return any;
     }
 
+    // Puts planes back in which edges have not become much shorter. Returns whether any plane is left.
+    bool keep_what_is_worth_it() {
+        std::vector<double> before(faces_.size(), 0), after(faces_.size(), 0); // by plane
+        for (uint32_t f = 0; f < faces_.size(); ++f) {
+            before[plane_[f]] += squares_of_edges(mesh_.faces[f]);
+            after[plane_[f]] += squares_of_edges(faces_[f]);
+        }
+        bool any = false;
+        for (uint32_t f = 0; f < faces_.size(); ++f) {
+            if (after[plane_[f]] < WORTH_IT * before[plane_[f]]) {
+                any = true;
+            } else {
+                faces_[f] = mesh_.faces[f];
+                plane_[f] = NONE;
+            }
+        }
+        return any;
+    }
+
     FlippedEdges take() {
         FlippedEdges flipped;
         flipped.mesh.positions = mesh_.positions;
         flipped.mesh.faces = std::move(faces_);
+        flipped.plane_of_face = std::move(plane_);
         connect(flipped.mesh);
-        for (uint32_t f = 0; f < plane_.size(); ++f)
-            flipped.plane_of_face.push_back(plane_[f] == NONE ? NONE : plane_of(f));
         return flipped;
     }
 
@@ -109,14 +133,19 @@ private:
 
     Quadrangle quadrangle(uint32_t edge) const {
         const auto [first, second] = sides_[edge];
-        const uint32_t i = corner_opposite(first, edge), j = corner_opposite(second, edge);
         const auto& corners = faces_[first];
-        return {first,      second,           i, j, corners[(i + 1) % 3], corners[(i + 2) % 3],
-                corners[i], faces_[second][j]};
+        const uint32_t i = corner_opposite(first, edge);
+        return {first,
+                second,
+                corners[(i + 1) % 3],
+                corners[(i + 2) % 3],
+                corners[i],
+                faces_[second][corner_opposite(second, edge)]};
     }
 
     bool may_flip(uint32_t edge) const {
         const Quadrangle q = quadrangle(edge);
+        if (plane_[q.first] != plane_[q.second]) return false;
         const auto& at = mesh_.positions;
         const Angle at_c = angle_at(at[q.c], at[q.a], at[q.b]), at_d = angle_at(at[q.d], at[q.a], at[q.b]);
         return !is_delaunay(at_c, at_d) && is_flat(at[q.a], at[q.b], at[q.c], at[q.d]) && q.c != q.d &&
@@ -140,17 +169,43 @@ private:
         face_edges_[q.second] = {bd, bc, edge};
         replace_side(ad, q.second, q.first);
         replace_side(bc, q.first, q.second);
-        plane_[plane_of(q.second)] = plane_of(q.first);
         new_edges_.erase(key(q.a, q.b));
         new_edges_.insert(key(q.c, q.d));
         for (const uint32_t beside : {bc, ca, ad, bd}) put(beside);
     }
 
+    // A plane is what is connected over flat edges of the mesh.
+    void join_planes() {
+        std::iota(plane_.begin(), plane_.end(), 0u);
+        for (uint32_t e = 0; e < mesh_.edge_count(); ++e) {
+            const auto beside = mesh_.edge_faces[e];
+            if (beside.size() == 2 && is_flat_edge(e)) plane_[plane_of(beside[0])] = plane_of(beside[1]);
+        }
+        for (uint32_t f = 0; f < mesh_.face_count(); ++f) plane_[f] = plane_of(f);
+    }
+
+    bool is_flat_edge(uint32_t edge) const {
+        const auto opposite = [&](uint32_t face) {
+            const auto& edges = mesh_.face_edges[face];
+            return mesh_.faces[face][static_cast<size_t>(std::ranges::find(edges, edge) - edges.begin())];
+        };
+        const auto& at = mesh_.positions;
+        const auto beside = mesh_.edge_faces[edge];
+        return is_flat(at[mesh_.edges[edge][0]], at[mesh_.edges[edge][1]], at[opposite(beside[0])],
+                       at[opposite(beside[1])]);
+    }
+
     // The number of a plane is that of one of its faces. The others lead to it.
     uint32_t plane_of(uint32_t face) {
-        if (plane_[face] == NONE) plane_[face] = face;
         while (plane_[face] != face) face = plane_[face] = plane_[plane_[face]];
         return face;
+    }
+
+    double squares_of_edges(const std::array<uint32_t, 3>& corners) const {
+        double sum = 0;
+        for (size_t k = 0; k < 3; ++k)
+            sum += (mesh_.positions[corners[k]] - mesh_.positions[corners[(k + 1) % 3]]).squaredNorm();
+        return sum;
     }
 
     void replace_side(uint32_t edge, uint32_t before, uint32_t after) {
@@ -161,7 +216,7 @@ private:
     const Mesh& mesh_;
     std::vector<std::array<uint32_t, 3>> faces_, face_edges_;
     std::vector<std::array<uint32_t, 2>> sides_; // per edge: its faces, or NONE if it does not have two
-    std::vector<uint32_t> plane_;                // per face; NONE where no edge was flipped
+    std::vector<uint32_t> plane_;                // per face: the number of one of its faces
     std::unordered_set<uint64_t> new_edges_;     // that the mesh did not have
     std::vector<uint32_t> waiting_;
     std::vector<bool> is_waiting_;
@@ -171,7 +226,7 @@ private:
 
 std::optional<FlippedEdges> flip_flat_edges(const Mesh& mesh) {
     Flipping flipping(mesh);
-    if (!flipping.run()) return std::nullopt;
+    if (!flipping.run() || !flipping.keep_what_is_worth_it()) return std::nullopt;
     return flipping.take();
 }
 

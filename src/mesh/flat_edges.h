@@ -11,18 +11,19 @@ namespace geodesic {
 // A mesh in which edges of another mesh are flipped. It has the same vertices, and as many faces and edges.
 struct FlippedEdges {
     Mesh mesh;
-    // Per face the number of its plane, as far as edges were flipped: the faces of a plane in both meshes
-    // cover the same part of the surface, and have the same numbers. NONE of a face that is the same in both.
+    // Per face the number of its plane. The faces of a plane cover the same part of the surface in both
+    // meshes, and have the same numbers. NONE where nothing is flipped in the plane of a face.
     std::vector<uint32_t> plane_of_face;
 };
 
 // Makes faces rounder without changing the surface: where two faces lie in one plane, their quadrangle may be
 // cut along either diagonal, and flat edges are flipped until they are locally Delaunay. Programs that cut
 // faces with holes or many corners into triangles leave slivers as long as the face; borders of patches along
-// these have long segments, and exact paths cross many of them. An edge of more or fewer than two faces
-// stays, and so does one whose other diagonal is, or was, another edge. Two faces lie in one plane if no
-// distance over their edge changes by more than 1e-7 of it. Where it takes more than 50 flips for each edge
-// of the mesh, some edges stay as they are then. Nothing if no edge is flipped.
+// these have long segments, and exact paths cross many of them. Planes whose edges would hardly become
+// shorter stay as they are, and so do an edge of more or fewer than two faces, and one whose other diagonal
+// is, or was, another edge. Two faces lie in one plane if no distance over their edge changes by more than
+// 1e-7 of it. Where it takes more than 50 flips for each edge of the mesh, some edges stay as they are then.
+// Nothing if no edge is flipped.
 std::optional<FlippedEdges> flip_flat_edges(const Mesh& mesh);
 
 }

@@ -15,7 +15,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double ROUNDING = 1e-9; // by how much weights may be below 0
-// How far a point may be off the plane of a face, in lengths of the edges to its corners.
+// How far a point may be off the plane of a face, in lengths of the ways to its corners, and the end of a
+// way, in lengths of the way.
 constexpr double OFF_PLANE = 1e-4;
 
 // Weights of the foot of a point in the plane of a face, by the corners `first` and two others.
@@ -127,9 +128,10 @@ public:
         return place_ != NONE;
     }
 
-    // Begins inside of a face. Returns whether the way leads out of it over an edge.
+    // Begins inside of a face. Returns whether the way lies in its plane and leads out of it over an edge.
     bool begin_in(uint32_t place) {
         place_ = NONE;
+        if (!lies_in_plane_of(place)) return false;
         const auto& corners = flat_.faces_[place];
         to_left_ = normal_of(place).cross(way_);
         for (size_t k = 0; k < 3; ++k)
@@ -144,7 +146,7 @@ public:
             const auto& [a, b, c] = flat_.faces_[place_];
             const auto weights = weights_of(at_[a], at_[b], at_[c], to_);
             if (is_inside(weights)) {
-                if (!is_in_plane_of_face()) return std::nullopt;
+                if (!lies_in_plane_of(place_) || !ends_in_plane()) return std::nullopt;
                 return Located{place_, weights};
             }
             if (!cross()) return std::nullopt;
@@ -159,7 +161,12 @@ private:
     }
     bool is_left(uint32_t vertex) const { return to_left_.dot(at_[vertex] - from_) > 0; }
 
-    bool is_in_plane_of_face() const {
+    // Faces without area join the planes on both sides of a crease to one.
+    bool lies_in_plane_of(uint32_t place) const {
+        return std::abs(normal_of(place).dot(way_)) <= OFF_PLANE * way_.norm();
+    }
+
+    bool ends_in_plane() const {
         const Vector3d normal = normal_of(place_);
         double longest = 0;
         for (const uint32_t corner : flat_.faces_[place_])

@@ -56,6 +56,15 @@ double area_of(const Mesh& mesh) {
     return area;
 }
 
+// Two squares at a right angle, of which only the second one has the vertex in the middle of the crease:
+// between them lies a face without area, which is flat with either.
+Soup crease_with_cap() {
+    Soup soup;
+    soup.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {0, 0, 1}, {0.4, 0, 0}};
+    soup.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 6, 1}, {6, 0, 5}, {6, 5, 4}, {6, 4, 1}};
+    return soup;
+}
+
 // Turned about no axis in particular, and rounded as files of floats have it: planes are no longer exactly
 // flat.
 Soup turned(Soup soup) {
@@ -111,6 +120,20 @@ TEST_CASE("flat edges: distances stay, creases and boundaries do, and faces keep
     }
 }
 
+TEST_CASE("flat edges: a face without area in a crease belongs to one side or the other") {
+    for (const uint32_t factor : {1u, 20u}) {
+        Soup soup = crease_with_cap();
+        for (auto& p : soup.positions) p.x() *= factor;
+        const Mesh before = mesh_of(soup);
+        const auto after = flip_flat_edges(before);
+        if (!after) continue;
+        for (uint32_t source = 0; source < before.vertex_count(); ++source)
+            CHECK(largest_relative_difference(exact_field(before, source), exact_field(after->mesh, source)) <
+                  1e-6);
+        CHECK(area_of(after->mesh) == doctest::Approx(area_of(before)));
+    }
+}
+
 TEST_CASE("flat edges: edges of a closed box stay, and sides that face outwards do so afterwards") {
     const Mesh mesh = flipped(with_random_diagonals(cube(5), ROUNDS, 3));
     const Eigen::Vector3d middle(0.5, 0.5, 0.5);
@@ -130,7 +153,7 @@ TEST_CASE("flat edges: faces whose windings disagree are one plane as well") {
 
 TEST_CASE("flat edges: a face without area in a seam of vertices becomes two that have one") {
     Soup soup;
-    soup.positions = {{0, 0, 0}, {1, 0, 0}, {0.4, 0, 0}, {0.5, -1, 0}, {0.5, 1, 0}};
+    soup.positions = {{0, 0, 0}, {1, 0, 0}, {0.4, 0, 0}, {0.5, -0.3, 0}, {0.5, 0.3, 0}};
     soup.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {2, 1, 4}};
     const Mesh mesh = flipped(soup);
     CHECK(faces_of(mesh) == std::set<std::array<uint32_t, 3>>{{0, 2, 3}, {1, 2, 3}, {0, 2, 4}, {1, 2, 4}});
@@ -142,6 +165,7 @@ TEST_CASE("flat edges: nothing is flipped where nothing is to be") {
     CHECK(!flip_flat_edges(mesh_of(sphere(3))));              // no planes
     CHECK(!flip_flat_edges(mesh_of(torus(20, 12, 2, 1))));    // round enough
     CHECK(!flip_flat_edges(mesh_of(delaunay_square(60, 3)))); // Delaunay already
+    CHECK(!flip_flat_edges(mesh_of(jittered_grid(20, 3))));   // nearly so
     for (const double bend : {0.001, 0.3, 3.1}) {             // a crease along the long diagonal of a rhombus
         Soup soup;
         soup.positions = {
