@@ -94,8 +94,8 @@ struct geoidx_solver {
 };
 
 struct geoidx_surface {
-    geoidx_surface(geodesic::Intake&& intake, geodesic::SurfaceCosts&& costs)
-        : surface(std::move(intake), std::move(costs)), boxes(surface) {}
+    geoidx_surface(geodesic::Intake&& intake, geodesic::SurfaceCosts&& costs, geodesic::FlatFaces&& flat)
+        : surface(std::move(intake), std::move(costs), std::move(flat)), boxes(surface) {}
 
     geodesic::Surface surface;
     geodesic::FaceBoxes boxes;

@@ -15,16 +15,15 @@ using Point = Eigen::Vector3d;
 
 // Two faces beside an edge from `a` to `b`, and their corners that are opposite to it.
 struct Quadrangle {
-    uint32_t first, second; // first: c, a, b by turns; second: d, b, a, or turned over
+    uint32_t first, second; // c, a, b in this order around the first one; the second may be turned over
     uint32_t a, b, c, d;
 };
 
-// By how much straight lines over the edge may become shorter, as a share, if its two faces are laid into one
-// plane.
+// By which share a way over an edge may be longer than the straight line between its ends, in one plane.
 constexpr double FLATNESS = 1e-7;
 
-// By how much the two opposite angles must be more than half a turn together, in radians: of the corners of a
-// square, rounding decides.
+// By how much the two angles opposite to an edge must be more than half a turn together, in radians. Without
+// that, rounding would decide which diagonal squares get.
 constexpr double ANGLE = 1e-4;
 
 // The sum of the squares of a plane's edges that is left of that before, at most. The errors of paths across
@@ -127,20 +126,20 @@ private:
         waiting_.push_back(edge);
     }
 
-    uint32_t corner_opposite(uint32_t face, uint32_t edge) const {
+    uint32_t corner_index_opposite(uint32_t face, uint32_t edge) const {
         return static_cast<uint32_t>(std::ranges::find(face_edges_[face], edge) - face_edges_[face].begin());
     }
 
     Quadrangle quadrangle(uint32_t edge) const {
         const auto [first, second] = sides_[edge];
         const auto& corners = faces_[first];
-        const uint32_t i = corner_opposite(first, edge);
+        const uint32_t i = corner_index_opposite(first, edge);
         return {first,
                 second,
                 corners[(i + 1) % 3],
                 corners[(i + 2) % 3],
                 corners[i],
-                faces_[second][corner_opposite(second, edge)]};
+                faces_[second][corner_index_opposite(second, edge)]};
     }
 
     bool may_flip(uint32_t edge) const {
@@ -157,12 +156,12 @@ private:
     // The faces c, a, b and d, b, a become c, a, d and c, d, b.
     void flip(uint32_t edge) {
         const Quadrangle q = quadrangle(edge);
-        const auto opposite = [&](uint32_t face, uint32_t corner) {
+        const auto edge_opposite = [&](uint32_t face, uint32_t corner) {
             return face_edges_[face][static_cast<size_t>(std::ranges::find(faces_[face], corner) -
                                                          faces_[face].begin())];
         };
-        const uint32_t bc = opposite(q.first, q.a), ca = opposite(q.first, q.b);
-        const uint32_t ad = opposite(q.second, q.b), bd = opposite(q.second, q.a);
+        const uint32_t bc = edge_opposite(q.first, q.a), ca = edge_opposite(q.first, q.b);
+        const uint32_t ad = edge_opposite(q.second, q.b), bd = edge_opposite(q.second, q.a);
         faces_[q.first] = {q.c, q.a, q.d};
         face_edges_[q.first] = {ad, edge, ca};
         faces_[q.second] = {q.c, q.d, q.b};
@@ -174,7 +173,8 @@ private:
         for (const uint32_t beside : {bc, ca, ad, bd}) put(beside);
     }
 
-    // A plane is what is connected over flat edges of the mesh.
+    // A plane is what is connected over edges of the mesh that are flat one by one; as a whole it may bend.
+    // Faces without area are flat with any.
     void join_planes() {
         std::iota(plane_.begin(), plane_.end(), 0u);
         for (uint32_t e = 0; e < mesh_.edge_count(); ++e) {
@@ -185,17 +185,17 @@ private:
     }
 
     bool is_flat_edge(uint32_t edge) const {
-        const auto opposite = [&](uint32_t face) {
+        const auto vertex_opposite = [&](uint32_t face) {
             const auto& edges = mesh_.face_edges[face];
             return mesh_.faces[face][static_cast<size_t>(std::ranges::find(edges, edge) - edges.begin())];
         };
         const auto& at = mesh_.positions;
         const auto beside = mesh_.edge_faces[edge];
-        return is_flat(at[mesh_.edges[edge][0]], at[mesh_.edges[edge][1]], at[opposite(beside[0])],
-                       at[opposite(beside[1])]);
+        return is_flat(at[mesh_.edges[edge][0]], at[mesh_.edges[edge][1]], at[vertex_opposite(beside[0])],
+                       at[vertex_opposite(beside[1])]);
     }
 
-    // The number of a plane is that of one of its faces. The others lead to it.
+    // One of its faces stands for a plane. The others lead to it.
     uint32_t plane_of(uint32_t face) {
         while (plane_[face] != face) face = plane_[face] = plane_[plane_[face]];
         return face;
@@ -216,7 +216,7 @@ private:
     const Mesh& mesh_;
     std::vector<std::array<uint32_t, 3>> faces_, face_edges_;
     std::vector<std::array<uint32_t, 2>> sides_; // per edge: its faces, or NONE if it does not have two
-    std::vector<uint32_t> plane_;                // per face: the number of one of its faces
+    std::vector<uint32_t> plane_;                // per face: the one that stands for its plane
     std::unordered_set<uint64_t> new_edges_;     // that the mesh did not have
     std::vector<uint32_t> waiting_;
     std::vector<bool> is_waiting_;

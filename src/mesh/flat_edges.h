@@ -11,8 +11,9 @@ namespace geodesic {
 // A mesh in which edges of another mesh are flipped. It has the same vertices, and as many faces and edges.
 struct FlippedEdges {
     Mesh mesh;
-    // Per face the number of its plane. The faces of a plane cover the same part of the surface in both
-    // meshes, and have the same numbers. NONE where nothing is flipped in the plane of a face.
+    // Per face the number of its plane: of what is connected over edges that are flat one by one. The faces
+    // of a plane cover the same part of the surface in both meshes. NONE where nothing is flipped in the
+    // plane.
     std::vector<uint32_t> plane_of_face;
 };
 
@@ -22,8 +23,8 @@ struct FlippedEdges {
 // these have long segments, and exact paths cross many of them. Planes whose edges would hardly become
 // shorter stay as they are, and so do an edge of more or fewer than two faces, and one whose other diagonal
 // is, or was, another edge. Two faces lie in one plane if no distance over their edge changes by more than
-// 1e-7 of it. Where it takes more than 50 flips for each edge of the mesh, some edges stay as they are then.
-// Nothing if no edge is flipped.
+// 1e-7 of it. After 50 times as many flips as there
+// are edges, the others stay as they are. Nothing if no edge is flipped.
 std::optional<FlippedEdges> flip_flat_edges(const Mesh& mesh);
 
 }

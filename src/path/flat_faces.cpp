@@ -15,9 +15,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double ROUNDING = 1e-9; // by how much weights may be below 0
-// How far a point may be off the plane of a face, in lengths of the ways to its corners, and the end of a
-// way, in lengths of the way.
-constexpr double OFF_PLANE = 1e-4;
+// How far a point may be off the plane of a face, as a share of how far its corners are, and a way off the
+// surface, as a share of its length. Planes may be bent a little, see flip_flat_edges().
+constexpr double OFF_SURFACE = 1e-3;
 
 // Weights of the foot of a point in the plane of a face, by the corners `first` and two others.
 std::array<double, 3> weights_of(const Vector3d& first, const Vector3d& second, const Vector3d& third,
@@ -65,16 +65,16 @@ FlatFaces::FlatFaces(const Mesh& mesh) {
             across[k] = beside.size() > 1 ? OTHER : NOTHING;
             if (beside.size() != 2) continue;
             const uint32_t other = beside[beside[0] == f];
-            if (planes[other] == planes[f]) across[k] = *place_of(other);
+            if (planes[other] == planes[f]) across[k] = *slot_of(other);
         }
     }
 }
 
-// The nearest corner sees a point past the fewest faces.
+// Mostly, the corner with the largest weight sees the point past the fewest faces.
 FlatFaces::Corners FlatFaces::corners_of(std::span<const Vector3d> positions,
                                          const std::array<uint32_t, 3>& corners,
                                          const std::array<double, 3>& weights) {
-    Corners point{corners, Vector3d::Zero()};
+    Corners point{corners, Vector3d::Zero(), std::ranges::max(weights) == 1};
     std::array<size_t, 3> order{0, 1, 2};
     std::ranges::sort(order, std::greater(), [&](size_t k) { return weights[k]; });
     for (size_t k = 0; k < 3; ++k) {
@@ -84,7 +84,7 @@ FlatFaces::Corners FlatFaces::corners_of(std::span<const Vector3d> positions,
     return point;
 }
 
-std::optional<uint32_t> FlatFaces::place_of(uint32_t face) const {
+std::optional<uint32_t> FlatFaces::slot_of(uint32_t face) const {
     const auto found = std::ranges::lower_bound(replaced_, face);
     if (found == replaced_.end() || *found != face) return std::nullopt;
     return static_cast<uint32_t>(found - replaced_.begin());
@@ -98,8 +98,8 @@ std::span<const std::pair<uint32_t, uint32_t>> FlatFaces::around(uint32_t vertex
 }
 
 FlatFaces::Point FlatFaces::point_at(const Located& located) const {
-    Point point{faces_[located.place], without_rounding(located.weights), {}};
-    for (size_t k = 0; k < 3; ++k) point.has_face_beyond[k] = across_[located.place][k] != NOTHING;
+    Point point{faces_[located.slot], without_rounding(located.weights), {}};
+    for (size_t k = 0; k < 3; ++k) point.has_face_beyond[k] = across_[located.slot][k] != NOTHING;
     return point;
 }
 
@@ -109,45 +109,45 @@ public:
     Walk(const FlatFaces& flat, std::span<const Vector3d> positions, const Vector3d& from, const Vector3d& to)
         : flat_(flat), at_(positions), from_(from), way_(to - from), to_(to) {}
 
-    // Begins at a vertex, in the one of the plane's faces around it that the way leads into. Returns whether
-    // there is one.
+    // Begins at a vertex, in the one of the plane's faces around it that the way leads into; in any of them
+    // if the way ends there. Returns whether there is one.
     bool begin_at(uint32_t vertex, uint32_t plane) {
         double best = -ROUNDING;
-        place_ = NONE;
-        for (const auto& [v, place] : flat_.around(vertex)) {
-            if (flat_.plane_[place] != plane) continue;
-            const auto& corners = flat_.faces_[place];
+        slot_ = NONE;
+        for (const auto& [v, slot] : flat_.around(vertex)) {
+            if (flat_.plane_[slot] != plane || !lies_in_plane_of(slot)) continue;
+            const auto& corners = flat_.faces_[slot];
             const auto k = static_cast<size_t>(std::ranges::find(corners, vertex) - corners.begin());
             const uint32_t right = corners[(k + 1) % 3], left = corners[(k + 2) % 3];
             const auto weights = weights_of(from_, at_[right], at_[left], to_);
             const double ahead = weights[1] + weights[2], between = std::min(weights[1], weights[2]) / ahead;
-            if (!(ahead > 0 && between >= best)) continue;
+            if (!way_.isZero(0) && !(ahead > 0 && between >= best)) continue;
             best = between;
-            leave(place, right, left);
+            leave(slot, right, left);
         }
-        return place_ != NONE;
+        return slot_ != NONE;
     }
 
     // Begins inside of a face. Returns whether the way lies in its plane and leads out of it over an edge.
-    bool begin_in(uint32_t place) {
-        place_ = NONE;
-        if (!lies_in_plane_of(place)) return false;
-        const auto& corners = flat_.faces_[place];
-        to_left_ = normal_of(place).cross(way_);
+    bool begin_in(uint32_t slot) {
+        slot_ = NONE;
+        if (!lies_in_plane_of(slot)) return false;
+        const auto& corners = flat_.faces_[slot];
+        to_left_ = normal_of(slot).cross(way_);
         for (size_t k = 0; k < 3; ++k)
             if (!is_left(corners[k]) && is_left(corners[(k + 1) % 3]))
-                leave(place, corners[k], corners[(k + 1) % 3]);
-        return place_ != NONE;
+                leave(slot, corners[k], corners[(k + 1) % 3]);
+        return slot_ != NONE;
     }
 
-    // Goes on to the face with the end of the way, if the way leaves the plane nowhere before.
+    // Goes on to the face with the end of the way, if the way leaves the surface nowhere before.
     std::optional<Located> run() {
         for (size_t step = 0; step <= flat_.faces_.size(); ++step) {
-            const auto& [a, b, c] = flat_.faces_[place_];
+            const auto& [a, b, c] = flat_.faces_[slot_];
             const auto weights = weights_of(at_[a], at_[b], at_[c], to_);
             if (is_inside(weights)) {
-                if (!lies_in_plane_of(place_) || !ends_in_plane()) return std::nullopt;
-                return Located{place_, weights};
+                if (!lies_in_plane_of(slot_) || !ends_in_plane()) return std::nullopt;
+                return Located{slot_, weights};
             }
             if (!cross()) return std::nullopt;
         }
@@ -155,41 +155,49 @@ public:
     }
 
 private:
-    Vector3d normal_of(uint32_t place) const {
-        const auto& [a, b, c] = flat_.faces_[place];
+    Vector3d normal_of(uint32_t slot) const {
+        const auto& [a, b, c] = flat_.faces_[slot];
         return (at_[b] - at_[a]).cross(at_[c] - at_[a]).normalized();
     }
-    bool is_left(uint32_t vertex) const { return to_left_.dot(at_[vertex] - from_) > 0; }
+    double off_to_left(uint32_t vertex) const { return to_left_.dot(at_[vertex] - from_); }
+    bool is_left(uint32_t vertex) const { return off_to_left(vertex) > 0; }
 
-    // Faces without area join the planes on both sides of a crease to one.
-    bool lies_in_plane_of(uint32_t place) const {
-        return std::abs(normal_of(place).dot(way_)) <= OFF_PLANE * way_.norm();
+    bool lies_in_plane_of(uint32_t slot) const {
+        return std::abs(normal_of(slot).dot(way_)) <= OFF_SURFACE * way_.norm();
     }
 
     bool ends_in_plane() const {
-        const Vector3d normal = normal_of(place_);
+        const Vector3d normal = normal_of(slot_);
         double longest = 0;
-        for (const uint32_t corner : flat_.faces_[place_])
+        for (const uint32_t corner : flat_.faces_[slot_])
             longest = std::max(longest, (at_[corner] - to_).norm());
-        return std::abs(normal.dot(to_ - at_[flat_.faces_[place_][0]])) <= OFF_PLANE * longest;
+        return std::abs(normal.dot(to_ - at_[flat_.faces_[slot_][0]])) <= OFF_SURFACE * longest;
     }
 
     // The way leaves this face over the edge between two corners, which follow each other around it.
-    void leave(uint32_t place, uint32_t right, uint32_t left) {
-        place_ = place;
+    void leave(uint32_t slot, uint32_t right, uint32_t left) {
+        slot_ = slot;
         right_ = right;
         left_ = left;
-        to_left_ = normal_of(place).cross(way_);
+        to_left_ = normal_of(slot).cross(way_);
+    }
+
+    // Whether the edge between right_ and left_ meets the way: one plane may have creases.
+    bool meets_edge() const {
+        const double right = off_to_left(right_), left = off_to_left(left_);
+        const Vector3d met = at_[right_] - from_ + right / (right - left) * (at_[left_] - at_[right_]);
+        const Vector3d along = way_.normalized();
+        return (met - along.dot(met) * along).norm() <= OFF_SURFACE * way_.norm();
     }
 
     // Goes on over that edge.
     bool cross() {
-        const auto& corners = flat_.faces_[place_];
+        const auto& corners = flat_.faces_[slot_];
         size_t k = 0;
         while (corners[k] == right_ || corners[k] == left_) ++k;
-        const uint32_t next = flat_.across_[place_][k];
-        if (next == NOTHING || next == OTHER) return false;
-        place_ = next;
+        const uint32_t next = flat_.across_[slot_][k];
+        if (next == NOTHING || next == OTHER || !meets_edge()) return false;
+        slot_ = next;
         for (const uint32_t corner : flat_.faces_[next])
             if (corner != right_ && corner != left_) {
                 (is_left(corner) ? left_ : right_) = corner;
@@ -201,30 +209,34 @@ private:
     const FlatFaces& flat_;
     const std::span<const Vector3d> at_;
     const Vector3d from_, way_, to_;
-    uint32_t place_ = NONE, right_ = NONE, left_ = NONE;
+    uint32_t slot_ = NONE, right_ = NONE, left_ = NONE;
     Vector3d to_left_{0, 0, 0}; // across the way
 };
 
-// Where rounding leads astray from the nearest corner, the others try.
+// Where rounding leads astray from the first corner, the others try.
 std::optional<FlatFaces::Located> FlatFaces::locate(std::span<const Vector3d> positions, const Corners& point,
-                                                    uint32_t of_plane) const {
+                                                    uint32_t plane) const {
     for (const uint32_t vertex : point.vertices) {
         Walk walk(*this, positions, positions[vertex], point.position);
-        if (!walk.begin_at(vertex, plane_[of_plane])) continue;
+        if (!walk.begin_at(vertex, plane)) continue;
         if (const auto found = walk.run()) return found;
     }
     return std::nullopt;
 }
 
 double FlatFaces::straight_between(std::span<const Vector3d> positions, const Corners& a, const Corners& b,
-                                   uint32_t of_plane) const {
-    const auto sees = [&](const Corners& from, const Corners& to) {
-        const auto begin = locate(positions, from, of_plane);
-        if (!begin) return false;
+                                   uint32_t plane) const {
+    const auto at_a = locate(positions, a, plane), at_b = locate(positions, b, plane);
+    if (!at_a || !at_b) return UNREACHABLE;
+    const auto sees = [&](const Corners& from, const Located& at_from, const Corners& to,
+                          const Located& at_to) {
         Walk walk(*this, positions, from.position, to.position);
-        return walk.begin_in(begin->place) && walk.run();
+        if (!(from.is_vertex ? walk.begin_at(from.vertices[0], plane) : walk.begin_in(at_from.slot)))
+            return false;
+        const auto end = walk.run();
+        return end && (end->slot == at_to.slot || to.is_vertex);
     };
-    if (!sees(a, b) && !sees(b, a)) return UNREACHABLE;
+    if (!sees(a, *at_a, b, *at_b) && !sees(b, *at_b, a, *at_a)) return UNREACHABLE;
     return (a.position - b.position).norm();
 }
 

@@ -14,10 +14,10 @@
 
 namespace geodesic {
 
-// The faces that flip_flat_edges() makes of planes, beside those of the mesh that it takes for them. An index
-// is made on these: the distances of their corners, which lie around a point, tell more of it than those of
-// the corners of a sliver. Where nothing is flipped there are none, and they take no memory; else some 60
-// bytes for each face.
+// The faces of planes in which flip_flat_edges() flips edges, beside those that the mesh itself has there. An
+// index is made on these: the distances of their corners, which lie around a point, tell more of it than
+// those of the corners of a sliver. Where nothing is flipped there are none, and they take no memory; else
+// some 60 bytes for each face.
 class FlatFaces {
 public:
     FlatFaces() = default;
@@ -30,41 +30,42 @@ public:
         std::array<bool, 3> has_face_beyond; // over the edge opposite to each corner
     };
 
-    // A point of the mesh as one of these faces, to rounding at the same place. Nothing where its face is the
-    // same in both, or where rounding hides which one it lies in. `mesh` has positions and faces of the mesh.
+    // A point of the mesh as one of these faces. Nothing where nothing is flipped in its plane, or where
+    // rounding hides which face it lies in. `mesh` has positions and faces of the mesh.
     template <class AnyMesh>
     std::optional<Point> find(const AnyMesh& mesh, const SurfacePoint& point) const {
-        const auto place = place_of(point.face);
-        if (!place) return std::nullopt;
-        const auto found = locate(mesh.positions, corners_of(mesh, point), *place);
+        const auto slot = slot_of(point.face);
+        if (!slot) return std::nullopt;
+        const auto found = locate(mesh.positions, corners_of(mesh, point), plane_[*slot]);
         if (!found) return std::nullopt;
         return point_at(*found);
     }
 
-    // The length of the straight line between two points of the mesh if it does not leave a plane whose faces
-    // these are; infinite otherwise. It is the same in both directions.
+    // The length of the straight line between two points of the mesh if it runs over faces of one plane;
+    // infinite otherwise. It is the same in both directions.
     template <class AnyMesh>
     double straight(const AnyMesh& mesh, const SurfacePoint& a, const SurfacePoint& b) const {
-        const auto place_of_a = place_of(a.face), place_of_b = place_of(b.face);
-        if (!place_of_a || !place_of_b || plane_[*place_of_a] != plane_[*place_of_b]) return UNREACHABLE;
-        return straight_between(mesh.positions, corners_of(mesh, a), corners_of(mesh, b), *place_of_a);
+        const auto slot_of_a = slot_of(a.face), slot_of_b = slot_of(b.face);
+        if (!slot_of_a || !slot_of_b || plane_[*slot_of_a] != plane_[*slot_of_b]) return UNREACHABLE;
+        return straight_between(mesh.positions, corners_of(mesh, a), corners_of(mesh, b), plane_[*slot_of_a]);
     }
 
 private:
-    // A point by a face of the mesh, the nearest corner first.
+    // A point by a face of the mesh, the corner with the largest weight first.
     struct Corners {
         std::array<uint32_t, 3> vertices;
         Eigen::Vector3d position;
+        bool is_vertex; // the first one
     };
+    // A slot is the place of a face in all lists but the last one.
     struct Located {
-        uint32_t place; // of one of these faces
+        uint32_t slot;
         std::array<double, 3> weights;
     };
     class Walk;
 
-    // What is across an edge: the place of one of these faces, or
-    static constexpr uint32_t NOTHING = NONE,
-                              OTHER = NONE - 1; // another face, also of another plane, or several
+    // What is across an edge: the slot of one of these faces in the same plane, or
+    static constexpr uint32_t NOTHING = NONE, OTHER = NONE - 1; // any others
 
     template <class AnyMesh>
     static Corners corners_of(const AnyMesh& mesh, const SurfacePoint& point) {
@@ -72,18 +73,18 @@ private:
     }
     static Corners corners_of(std::span<const Eigen::Vector3d> positions,
                               const std::array<uint32_t, 3>& corners, const std::array<double, 3>& weights);
-    std::optional<uint32_t> place_of(uint32_t face) const;
+    std::optional<uint32_t> slot_of(uint32_t face) const;
     std::span<const std::pair<uint32_t, uint32_t>> around(uint32_t vertex) const;
     std::optional<Located> locate(std::span<const Eigen::Vector3d> positions, const Corners& point,
-                                  uint32_t of_plane) const;
+                                  uint32_t plane) const;
     double straight_between(std::span<const Eigen::Vector3d> positions, const Corners& a, const Corners& b,
-                            uint32_t of_plane) const;
+                            uint32_t plane) const;
     Point point_at(const Located& located) const;
 
-    std::vector<uint32_t> replaced_; // faces of the mesh, in ascending order
-    std::vector<uint32_t> plane_;    // of each of these, and of the face in its place
+    std::vector<uint32_t> replaced_; // the numbers that the faces have in both meshes, in ascending order
+    std::vector<uint32_t> plane_;    // as in FlippedEdges
     std::vector<std::array<uint32_t, 3>> faces_, across_;
-    std::vector<std::pair<uint32_t, uint32_t>> at_vertices_; // vertex and place of a face there, in order
+    std::vector<std::pair<uint32_t, uint32_t>> at_vertices_; // vertex and slot of a face there, in order
 };
 
 }

@@ -32,16 +32,29 @@ double straight_between(const Surface& surface, const SurfacePoint& a, const Sur
     return UNREACHABLE;
 }
 
+template <class Length>
+double least_of_aliases(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b,
+                        const Length& length) {
+    double least = UNREACHABLE;
+    for_each_alias(surface, a, [&](const SurfacePoint& from) {
+        for_each_alias(surface, b,
+                       [&](const SurfacePoint& to) { least = std::min(least, length(from, to)); });
+    });
+    return least;
+}
+
 }
 
 double straight_nearby(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
-    double least = UNREACHABLE;
-    for_each_alias(surface, a, [&](const SurfacePoint& from) {
-        for_each_alias(surface, b, [&](const SurfacePoint& to) {
-            least = std::min(least, straight_between(surface, from, to));
-        });
+    return least_of_aliases(surface, a, b, [&](const SurfacePoint& from, const SurfacePoint& to) {
+        return straight_between(surface, from, to);
     });
-    return least;
+}
+
+double straight_in_plane(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    return least_of_aliases(surface, a, b, [&](const SurfacePoint& from, const SurfacePoint& to) {
+        return surface.flat_faces.straight(surface, from, to);
+    });
 }
 
 std::optional<SurfacePoint> point_in_face(const Surface& surface, const SurfacePoint& point, uint32_t face) {

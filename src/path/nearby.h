@@ -27,6 +27,10 @@ inline Place place_beside(const Eigen::Vector3d& begin, const Eigen::Vector3d& d
 // vertex is a point of all faces there.
 double straight_nearby(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
 
+// The length of the straight line between two points if it runs over faces of one plane in which edges were
+// flipped; infinite otherwise.
+double straight_in_plane(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
+
 // Calls use(point) for the point as one of each face that it lies in.
 template <class Use>
 void for_each_alias(const Surface& surface, const SurfacePoint& point, const Use& use) {

@@ -32,7 +32,7 @@ float PointQueries::with_straight_way(const SurfacePoint& source, const SurfaceP
     constexpr double MUCH_SHORTER = 0.95;
     if (is_same_point(surface_, source, target)) return 0;
     const double straight = unfolds() ? std::min(straight_nearby(surface_, source, target),
-                                                 surface_.flat_faces.straight(surface_, source, target))
+                                                 straight_in_plane(surface_, source, target))
                                       : UNREACHABLE;
     if (straight < UNREACHABLE && source.face == target.face) return static_cast<float>(straight);
     const double chord = (position_of(surface_, source) - position_of(surface_, target)).norm();

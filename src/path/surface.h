@@ -27,9 +27,8 @@ struct SurfaceCosts {
 // are found around one of its ends, however many there are. Vertices and faces are in spatial order, as
 // Intake has them: in the caller's order, paths over scans take up to 17 % longer.
 struct Surface {
-    explicit Surface(Intake&& intake, SurfaceCosts&& costs = {});
+    explicit Surface(Intake&& intake, SurfaceCosts&& costs = {}, FlatFaces&& flat = {});
 
-    FlatFaces flat_faces; // of surfaces without costs; the first member, since others take what it is made of
     std::vector<Eigen::Vector3d> positions;
     std::vector<std::array<uint32_t, 3>> faces;
     VertexFaces vertex_faces;
@@ -41,6 +40,7 @@ struct Surface {
     uint64_t fingerprint = 0;
     double bounding_box_diagonal = 0, average_edge = 0;
     SurfaceCosts costs;
+    FlatFaces flat_faces; // for distances of points; none where there are costs
 
     uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size()); }
     uint32_t face_count() const { return static_cast<uint32_t>(faces.size()); }

@@ -152,3 +152,50 @@ TEST_CASE("flat faces: points of slivers are answered by the vertices around the
     }
     CHECK(sum / static_cast<double>(count) < 0.009);
 }
+
+namespace {
+
+// A floor that is cut into slivers, and a ridge across it: two slopes from x = -1 and x = 1 up to x = 0. A
+// vertex in the middle of either foot belongs to the floor's faces only, so that a face without area lies
+// between floor and slope, which is flat with both.
+Soup floor_with_ridge(double height) {
+    Soup soup;
+    const auto add = [&](double x, double y, double z) {
+        soup.positions.push_back({x, y, z});
+        return soup.vertex_count() - 1;
+    };
+    const auto triangle = [&](uint32_t a, uint32_t b, uint32_t c) { soup.triangles.push_back({a, b, c}); };
+    const uint32_t top_0 = add(0, 0, height), top_1 = add(0, 1, height);
+    for (const double side : {-1.0, 1.0}) {
+        const uint32_t foot_0 = add(side, 0, 0), foot_1 = add(side, 1, 0), middle = add(side, 0.4, 0);
+        triangle(top_0, foot_0, foot_1);
+        triangle(top_0, foot_1, top_1);
+        triangle(foot_0, middle, foot_1);
+        // A fan around a far corner, over a rim of many vertices.
+        std::vector<uint32_t> rim{foot_1, middle, foot_0};
+        for (uint32_t i = 1; i <= 12; ++i) rim.push_back(add(side * (1 + 0.5 * i), 0, 0));
+        const uint32_t far = add(side * 7, 1, 0);
+        for (size_t i = 1; i < rim.size(); ++i) triangle(far, rim[i - 1], rim[i]);
+    }
+    return soup;
+}
+
+}
+
+TEST_CASE("flat faces: a straight line in a plane does not pass under a ridge, nor through a thin plate") {
+    for (const Soup& soup : {floor_with_ridge(2), floor_with_ridge(0.05), drilled_plate(2, 16, 1e-4),
+                             drilled_plate(1, 40, 1e-3)}) {
+        const PathCase on(soup);
+        const Mesh mesh = mesh_of(on.soup);
+        const FlatFaces flat(mesh);
+        std::mt19937_64 random(4);
+        for (size_t i = 0; i < 6000 / sparse(4); ++i) {
+            const auto a = random_point(on.soup, random, i), b = random_point(on.soup, random, i / 4);
+            const SurfacePoint from{a.triangle, std::to_array(a.weights)},
+                to{b.triangle, std::to_array(b.weights)};
+            const double straight = flat.straight(mesh, from, to), exact = on.exact(a, b);
+            CHECK(straight == flat.straight(mesh, to, from));
+            if (straight < UNREACHABLE) CHECK(straight == doctest::Approx(exact).epsilon(2e-6));
+        }
+    }
+}
