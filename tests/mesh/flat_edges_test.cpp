@@ -87,7 +87,7 @@ double outside_circle(const Mesh& mesh, const std::array<uint32_t, 3>& face, uin
 }
 
 TEST_CASE("flat edges: a convex plane becomes its Delaunay triangulation, however it was cut") {
-    for (const uint64_t seed : {1, 2, 3}) {
+    for (const uint64_t seed : {1u, 2u, 3u}) {
         const Soup plane = jittered_grid(12, 7 * seed);
         const Mesh mesh = flipped(with_random_diagonals(plane, ROUNDS, seed));
         CHECK(share_of_others(mesh, flipped(with_random_diagonals(plane, 2, seed + 100))) < 0.03);
