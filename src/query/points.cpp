@@ -37,8 +37,8 @@ float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
     return static_cast<float>(distance_over(second, from_corners));
 }
 
-// Lowers point_field_ to the distances from one point, by those from the corners of its face if it is no
-// vertex.
+// Lowers point_field_ to the distances from one point, by those from the corners of its face. A vertex needs
+// no distances within its faces, which metrics of edges do not know.
 void Query::add_point_field(const FacePoint& point, float offset) {
     const uint32_t count = index_.numbering().vertex_count();
     if (point.vertex != NONE) {
@@ -119,19 +119,15 @@ void Query::nearest_sources_by_fields(const PointSources& sources) {
     }
 }
 
-// A vertex needs no distances within its faces, which metrics of edges do not know.
 void Query::prepare_end(size_t end, const FacePoint& point) {
     end_fields_[end].clear();
-    const bool is_vertex = point.vertex != NONE;
-    if (auto* const overlay = std::get_if<OverlayQuery>(&engine_); overlay && (is_vertex || takes(point))) {
+    if (auto* const overlay = std::get_if<OverlayQuery>(&engine_);
+        overlay && (point.vertex != NONE || takes(point))) {
         overlay->prepare_end(end, point);
         return;
     }
     point_field_.assign(index_.numbering().vertex_count(), INFINITE);
-    if (is_vertex)
-        std::visit([&](auto& engine) { engine.msad({&point.vertex, 1}, INFINITE, point_field_); }, engine_);
-    else
-        add_point_field(point, 0);
+    add_point_field(point, 0);
     end_fields_[end].assign(point_field_.begin(), point_field_.end());
 }
 
