@@ -50,7 +50,7 @@ void check_options(const geoidx_build_options& options) {
                         ", which has unknown flags");
 }
 
-// `surface` has the intake's edges, or lies where no edge has a length of its own.
+// `surface` has the edges of the intake's mesh wherever the caller gives lengths for these.
 HierarchyOptions hierarchy_options(const geoidx_mesh& mesh, const Intake& intake, const Mesh& surface,
                                    const geoidx_build_options& options) {
     HierarchyOptions result;

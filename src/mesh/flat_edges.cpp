@@ -53,7 +53,7 @@ bool is_delaunay(const Angle& c, const Angle& d) {
 // Whether the faces of an edge from `a` to `b`, with the opposite corners `c` and `d`, lie in one plane. A
 // line that crosses the edge at a right angle, from as far as the one corner is off it to as far as the other
 // one is, would become shorter by the largest share.
-bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d) {
+bool are_in_one_plane(const Point& a, const Point& b, const Point& c, const Point& d) {
     const Point along = (b - a).normalized();
     const Point to_c = (c - a) - along.dot(c - a) * along, to_d = (d - a) - along.dot(d - a) * along;
     const double height_of_c = to_c.norm(), height_of_d = to_d.norm(), both = height_of_c + height_of_d;
@@ -147,11 +147,14 @@ private:
         if (plane_[q.first] != plane_[q.second]) return false;
         const auto& at = mesh_.positions;
         const Angle at_c = angle_at(at[q.c], at[q.a], at[q.b]), at_d = angle_at(at[q.d], at[q.a], at[q.b]);
-        return !is_delaunay(at_c, at_d) && is_flat(at[q.a], at[q.b], at[q.c], at[q.d]) && q.c != q.d &&
-               find_edge(mesh_, q.c, q.d) == NONE && !new_edges_.contains(key(q.c, q.d));
+        return !is_delaunay(at_c, at_d) && is_flat(q) && find_edge(mesh_, q.c, q.d) == NONE &&
+               !new_edges_.contains(edge_key(q.c, q.d));
     }
 
-    static uint64_t key(uint32_t a, uint32_t b) { return uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+    bool is_flat(const Quadrangle& q) const {
+        const auto& at = mesh_.positions;
+        return are_in_one_plane(at[q.a], at[q.b], at[q.c], at[q.d]);
+    }
 
     // The faces c, a, b and d, b, a become c, a, d and c, d, b.
     void flip(uint32_t edge) {
@@ -168,8 +171,8 @@ private:
         face_edges_[q.second] = {bd, bc, edge};
         replace_side(ad, q.second, q.first);
         replace_side(bc, q.first, q.second);
-        new_edges_.erase(key(q.a, q.b));
-        new_edges_.insert(key(q.c, q.d));
+        new_edges_.erase(edge_key(q.a, q.b));
+        new_edges_.insert(edge_key(q.c, q.d));
         for (const uint32_t beside : {bc, ca, ad, bd}) put(beside);
     }
 
@@ -178,21 +181,11 @@ private:
     void join_planes() {
         std::iota(plane_.begin(), plane_.end(), 0u);
         for (uint32_t e = 0; e < mesh_.edge_count(); ++e) {
-            const auto beside = mesh_.edge_faces[e];
-            if (beside.size() == 2 && is_flat_edge(e)) plane_[plane_of(beside[0])] = plane_of(beside[1]);
+            if (sides_[e][0] == NONE) continue;
+            const Quadrangle q = quadrangle(e);
+            if (is_flat(q)) plane_[plane_of(q.first)] = plane_of(q.second);
         }
         for (uint32_t f = 0; f < mesh_.face_count(); ++f) plane_[f] = plane_of(f);
-    }
-
-    bool is_flat_edge(uint32_t edge) const {
-        const auto vertex_opposite = [&](uint32_t face) {
-            const auto& edges = mesh_.face_edges[face];
-            return mesh_.faces[face][static_cast<size_t>(std::ranges::find(edges, edge) - edges.begin())];
-        };
-        const auto& at = mesh_.positions;
-        const auto beside = mesh_.edge_faces[edge];
-        return is_flat(at[mesh_.edges[edge][0]], at[mesh_.edges[edge][1]], at[vertex_opposite(beside[0])],
-                       at[vertex_opposite(beside[1])]);
     }
 
     // One of its faces stands for a plane. The others lead to it.
@@ -217,7 +210,7 @@ private:
     std::vector<std::array<uint32_t, 3>> faces_, face_edges_;
     std::vector<std::array<uint32_t, 2>> sides_; // per edge: its faces, or NONE if it does not have two
     std::vector<uint32_t> plane_;                // per face: the one that stands for its plane
-    std::unordered_set<uint64_t> new_edges_;     // that the mesh did not have
+    std::unordered_set<uint64_t> new_edges_;     // by edge_key(); that the mesh did not have
     std::vector<uint32_t> waiting_;
     std::vector<bool> is_waiting_;
 };

@@ -65,6 +65,8 @@ ListOfLists<uint32_t> edge_ends_at_vertices(const Mesh& mesh) {
     return group_by(ends, mesh.vertex_count());
 }
 
+uint64_t edge_key(uint32_t a, uint32_t b) { return uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+
 uint32_t find_edge(const Mesh& mesh, uint32_t a, uint32_t b) {
     const std::array<uint32_t, 2> wanted{std::min(a, b), std::max(a, b)};
     const auto found = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), wanted);

@@ -52,6 +52,9 @@ ListOfLists<uint32_t> edge_ends_at_vertices(const Mesh& mesh);
 // The mean length of all edges.
 double mean_edge(const Mesh& mesh);
 
+// What tells an edge from others, whichever of its vertices comes first.
+uint64_t edge_key(uint32_t a, uint32_t b);
+
 // The edge between two vertices, or NONE.
 uint32_t find_edge(const Mesh& mesh, uint32_t a, uint32_t b);
 

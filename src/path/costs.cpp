@@ -24,8 +24,6 @@ SurfaceCosts surface_costs(const Intake& intake, const geoidx_surface_options& o
     return costs;
 }
 
-uint64_t edge_key(uint32_t a, uint32_t b) { return uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
-
 double edge_cost(const Surface& surface, uint32_t a, uint32_t b) {
     const auto found = surface.costs.of_edge.find(edge_key(a, b));
     return found != surface.costs.of_edge.end() ? found->second

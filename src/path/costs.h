@@ -10,9 +10,6 @@ namespace geodesic {
 // in. Throws Error INVALID_ARGUMENT that names what is wrong with them.
 SurfaceCosts surface_costs(const Intake& intake, const geoidx_surface_options& options);
 
-// What tells an edge from others, whichever of its vertices comes first.
-uint64_t edge_key(uint32_t a, uint32_t b);
-
 // The cost that is given for an edge between two vertices, or else its length.
 double edge_cost(const Surface& surface, uint32_t a, uint32_t b);
 
