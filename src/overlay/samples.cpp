@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -44,7 +45,7 @@ float spacing_of(const OverlayIndex& index, uint32_t patch) {
 // Chooses the samples of all borders, level by level. A vertex that is a sample of one border is a sample of
 // all other borders of the same level and of deeper ones that it lies on: where borders have a piece in
 // common, a way crosses all of them at one vertex, which samples of different vertices would not show.
-// Between such vertices, others are spread evenly.
+// Between such vertices, others are spread evenly, by their number or by length, whichever takes more.
 class SampleChoice {
 public:
     explicit SampleChoice(const OverlayIndex& index)
@@ -65,6 +66,12 @@ public:
     }
 
 private:
+    // How far samples are to be apart at the most: a share of them of all vertices, and the spacing. Where
+    // edges are longer than elsewhere on a border, the spacing counts.
+    struct Apart {
+        double share, spacing;
+    };
+
     uint8_t& is_sample(uint32_t place) { return is_sample_[index_.rings.vertex[place]]; }
 
     void mark(uint32_t patch) {
@@ -72,13 +79,15 @@ private:
         for_each_segment(index_, patch, [&](uint32_t place, float length) {
             if (length > spacing) is_sample(place) = is_sample(place + 1) = 1;
         });
-        const double share = share_of(index_, patch);
-        for (const auto& chain : index_.rings.chains_of(patch)) mark_chain(chain, share);
+        // Segments without length count as none: a border may have no others.
+        const Apart apart{share_of(index_, patch),
+                          spacing > 0 ? double{spacing} : std::numeric_limits<double>::infinity()};
+        for (const auto& chain : index_.rings.chains_of(patch)) mark_chain(chain, apart);
     }
 
     // Goes once around a closed chain, from a vertex that is a sample already if there is one, or from one
     // end of an open chain to the other.
-    void mark_chain(const Rings::Chain& chain, double share) {
+    void mark_chain(const Rings::Chain& chain, const Apart& apart) {
         if (!chain.is_closed) is_sample(chain.first) = is_sample(chain.last) = 1;
         const uint32_t count = chain.last - chain.first + 1, steps = count - !chain.is_closed;
         uint32_t start = 0;
@@ -89,10 +98,29 @@ private:
             if (to < steps && !is_sample(place(to))) continue;
             const uint32_t fewest =
                 to - from < steps ? 1 : std::min(steps, FEWEST_OF_CHAIN - !chain.is_closed);
-            const auto pieces = std::max(fewest, static_cast<uint32_t>(std::lround((to - from) * share)));
-            for (uint32_t i = 0; i < pieces; ++i)
-                is_sample(place(from + static_cast<uint32_t>(uint64_t{i} * (to - from) / pieces))) = 1;
+            mark_between(from, to, place, fewest, apart);
             from = to;
+        }
+    }
+
+    // Spreads samples from one step along a chain to another, where there are samples already.
+    template <class Place>
+    void mark_between(uint32_t from, uint32_t to, const Place& place, uint32_t fewest, const Apart& apart) {
+        const auto pieces_of_segment = [&](uint32_t step) {
+            return std::max(apart.share, double{index_.rings.segment_length[place(step)]} / apart.spacing);
+        };
+        double wanted = 0;
+        for (uint32_t step = from; step < to; ++step) wanted += pieces_of_segment(step);
+        const auto pieces = static_cast<uint32_t>(
+            std::clamp(std::round(wanted), static_cast<double>(fewest), static_cast<double>(to - from)));
+        is_sample(place(from)) = 1;
+        double passed = 0;
+        for (uint32_t step = from + 1, piece = 1; piece < pieces; ++step) {
+            passed += pieces_of_segment(step - 1);
+            const bool is_due = passed + pieces_of_segment(step) > wanted * piece / pieces;
+            if (!is_due && to - step > pieces - piece) continue;
+            is_sample(place(step)) = 1;
+            ++piece;
         }
     }
 

@@ -58,8 +58,10 @@ TEST_CASE("samples: a vertex that is one of a border is one of all borders besid
     CHECK(common > 100);
 }
 
-// The longest way along a chain from a sample to the next one, in vertices.
-uint32_t longest_gap(const Rings::Chain& chain, std::span<const uint16_t> samples, uint32_t first_place) {
+// The samples of a chain by their places over all rings; behind the last one of a closed chain follows the
+// first one again, as if the chain went on.
+std::vector<uint32_t> places_along(const Rings::Chain& chain, std::span<const uint16_t> samples,
+                                   uint32_t first_place) {
     std::vector<uint32_t> places;
     for (const uint16_t place : samples)
         if (first_place + place >= chain.first && first_place + place <= chain.last)
@@ -71,6 +73,12 @@ uint32_t longest_gap(const Rings::Chain& chain, std::span<const uint16_t> sample
         CHECK(places.front() == chain.first);
         CHECK(places.back() == chain.last);
     }
+    return places;
+}
+
+// The longest way along a chain from a sample to the next one, in vertices.
+uint32_t longest_gap(const Rings::Chain& chain, std::span<const uint16_t> samples, uint32_t first_place) {
+    const auto places = places_along(chain, samples, first_place);
     uint32_t longest = 0;
     for (size_t i = 0; i + 1 < places.size(); ++i) longest = std::max(longest, places[i + 1] - places[i]);
     return longest;
@@ -96,6 +104,33 @@ TEST_CASE("samples: about 64 of a border, from every second to every eighth vert
     CHECK(open_chains > 0);
     CHECK(closed_chains > 0);
     CHECK(long_borders > 0);
+}
+
+// One piece may be rounded to none, so that a gap has up to one and a half spacings and what is left of a
+// segment.
+TEST_CASE("samples: no farther apart where edges are longer than elsewhere on a border") {
+    TestMesh mesh = grid(400, 9);
+    for (size_t i = 0; i < mesh.positions.size(); i += 3) {
+        double& x = mesh.positions[i];
+        x = x < 340 ? 0.002 * x : 0.002 * 340 + 0.05 * (x - 340);
+    }
+    const OverlayOf of(mesh, options_of_plane(mesh, {2, 3}));
+    const OverlayIndex& overlay = of.overlay();
+    for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
+        const float spacing = overlay.pairs.samples.spacing[p];
+        for (const auto& chain : overlay.rings.chains_of(p)) {
+            const auto places = places_along(chain, overlay.pairs.samples.of(p), overlay.rings.begin[p]);
+            for (size_t i = 0; i + 1 < places.size(); ++i) {
+                if (places[i + 1] - places[i] == 1) continue; // a segment may have any length
+                double length = 0;
+                for (uint32_t k = places[i]; k < places[i + 1]; ++k) {
+                    const uint32_t place = k <= chain.last ? k : k - (chain.last - chain.first + 1);
+                    length += double{overlay.rings.segment_length[place]};
+                }
+                CHECK(length <= 2.5 * double{spacing});
+            }
+        }
+    }
 }
 
 TEST_CASE("samples: both ends of each segment that is longer than samples are apart") {
