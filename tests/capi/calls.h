@@ -32,6 +32,22 @@ inline geoidx_build_options build_options(uint32_t metric = GEOIDX_METRIC_EXACT,
     return options;
 }
 
+// The metric of a plane without holes, the straight line, quick to build with however many vertices a border
+// has. The mesh must outlive the build.
+inline geoidx_build_options options_of_plane(const TestMesh& mesh, std::initializer_list<uint32_t> patches) {
+    auto options = build_options(GEOIDX_METRIC_CALLBACK, static_cast<uint32_t>(patches.size()));
+    std::copy(patches.begin(), patches.end(), options.patches);
+    options.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
+    options.metric_user = const_cast<TestMesh*>(&mesh);
+    options.metric_callback = [](void* user, uint32_t source, const uint32_t* targets, uint32_t count,
+                                 double* distances) {
+        for (uint32_t i = 0; i < count; ++i)
+            distances[i] = static_cast<const TestMesh*>(user)->straight(source, targets[i]);
+        return geoidx_status{GEOIDX_OK};
+    };
+    return options;
+}
+
 // Those of a user, on two threads or so many.
 inline geoidx_build_options default_options(uint32_t threads = 2) {
     geoidx_build_options options;

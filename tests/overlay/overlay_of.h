@@ -28,22 +28,6 @@ inline TestMesh pressed(TestMesh mesh, double factor) {
     return mesh;
 }
 
-// The metric of a plane without holes, the straight line, quick to build with however many vertices a border
-// has. The mesh must outlive the build.
-inline geoidx_build_options options_of_plane(const TestMesh& mesh, std::initializer_list<uint32_t> patches) {
-    auto options = build_options(GEOIDX_METRIC_CALLBACK, static_cast<uint32_t>(patches.size()));
-    std::copy(patches.begin(), patches.end(), options.patches);
-    options.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
-    options.metric_user = const_cast<TestMesh*>(&mesh);
-    options.metric_callback = [](void* user, uint32_t source, const uint32_t* targets, uint32_t count,
-                                 double* distances) {
-        for (uint32_t i = 0; i < count; ++i)
-            distances[i] = static_cast<const TestMesh*>(user)->straight(source, targets[i]);
-        return geoidx_status{GEOIDX_OK};
-    };
-    return options;
-}
-
 // Borders of 300 vertices and more, with short ones beside them, for patches of {2, 2, 3}.
 inline const TestMesh& mesh_of_long_borders() {
     static const TestMesh mesh = pressed(grid(330, 14), 0.05);

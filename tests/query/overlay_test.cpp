@@ -72,16 +72,9 @@ const TestMesh& large_plane() {
 // An index of the plane with long borders, some pieces of which belong to patches of all levels.
 const geoidx* index_with_long_borders() {
     static const auto index = [] {
-        auto options = overlay_options(GEOIDX_METRIC_CALLBACK, 3, 1);
-        options.patches[0] = 2;
-        options.patches[1] = options.patches[2] = 8;
-        options.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
-        options.metric_callback = [](void*, uint32_t source, const uint32_t* targets, uint32_t target_count,
-                                     double* distances) {
-            for (uint32_t i = 0; i < target_count; ++i)
-                distances[i] = large_plane().straight(source, targets[i]);
-            return geoidx_status{GEOIDX_OK};
-        };
+        auto options = options_of_plane(large_plane(), {2, 8, 8});
+        options.engine = GEOIDX_ENGINE_OVERLAY;
+        options.exact_vertices = 1;
         return build(large_plane(), options);
     }();
     return index.get();
@@ -463,6 +456,35 @@ TEST_CASE("overlay: SSSD on a stretched plane") {
     CHECK(errors.reached_wrongly == 0);
     CHECK(errors.mean() < 1e-4);
     CHECK(errors.largest < 0.05);
+}
+
+// Segments here are longer than samples are apart, and borders have several hundred places, so that ways over
+// samples do not tell which one is the shortest.
+TEST_CASE("overlay: near pairs on an uneven stretched plane are as far apart as in a field" *
+          doctest::skip(SANITIZED)) {
+    TestMesh mesh = grid(400, 40);
+    std::mt19937 random(3);
+    for (size_t i = 0; i < mesh.positions.size(); i += 3)
+        for (const auto& [axis, factor] : {std::pair{0u, 1.0}, std::pair{1u, 40.0}}) {
+            const double aside = static_cast<double>(random() % 1000) / 1000 - 0.5;
+            mesh.positions[i + axis] = factor * (mesh.positions[i + axis] + 0.9 * aside);
+        }
+    const uint32_t count = mesh.vertex_count();
+    auto options = options_of_plane(mesh, {3, 4, 3});
+    options.engine = GEOIDX_ENGINE_OVERLAY;
+    const auto index = build(mesh, options);
+    const QueryHandle query = query_of(index.get());
+    uint64_t pairs = 0, longer = 0;
+    for (uint32_t source = 5; source < count; source += 400) {
+        const auto field = msad(index.get(), source, count);
+        for (uint32_t target = 0; target < count; ++target) {
+            float distance = 0;
+            require_success(geoidx_query_sssd(query.get(), source, target, &distance));
+            longer += distance > 1.02f * field[target];
+            ++pairs;
+        }
+    }
+    CHECK(longer < pairs / 5000);
 }
 
 // The same distances, told to be locally Euclidean or not.

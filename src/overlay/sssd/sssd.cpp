@@ -24,9 +24,9 @@ constexpr float NEAR_SPACINGS = 14, MOST_SPACINGS_OF_SEGMENT = 4;
 // half of a long segment, where the way back is not straightened.
 constexpr float MOST_LONGER = 1.5f, LONGER_BY_SEGMENT = 0.5f;
 
-// Unless its part of the meeting border has more places than that, or its hops have more pairs of places:
-// then candidates take less time. These limits do not hold where WholeHops::are_some().
-constexpr size_t MOST_NEAR_PLACES = 128, MOST_NEAR_PAIRS = size_t{1} << 14;
+// Unless its hops have more pairs of places: that would take as long as a field. This limit does not hold
+// where WholeHops::are_some().
+constexpr size_t MOST_NEAR_PAIRS = size_t{1} << 19;
 
 // Distances over samples come from rounded codes: they may be too short by less than this share.
 constexpr float SAMPLES_ROUNDING = 1e-3f;
@@ -244,7 +244,6 @@ bool OverlaySssd::take_parts_within(float length, const WaysOverSamples& ways, b
     const float longest =
         length + std::max(MOST_LONGER * largest_spacing(), LONGER_BY_SEGMENT * longest_of_long_segments());
     const BorderPart of_meeting_border = part_within(index_, meeting_patch(), ways.lengths, longest);
-    if (!any_size && of_meeting_border.size() > MOST_NEAR_PLACES) return false;
     to_.sampled.go_back(ways.from);
     to_.take_parts_within(index_, longest);
     to_.parts.back() = of_meeting_border;
