@@ -11,9 +11,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-double straight_across(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b, uint32_t edge) {
-    const Vector3d first = surface.positions[surface.faces[a.face][(edge + 1) % 3]],
-                   along = surface.positions[surface.faces[a.face][(edge + 2) % 3]] - first;
+// Over the edge between two vertices. Where the line leads through an end of it, rounding tells whether it
+// crosses the edge, and so the direction of the edge must not depend on which point comes first.
+double straight_across(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b, uint32_t v,
+                       uint32_t w) {
+    const Vector3d first = surface.positions[std::min(v, w)],
+                   along = surface.positions[std::max(v, w)] - first;
     const double length = along.norm();
     const Place from = place_beside(first, along / length, position_of(surface, a)),
                 to = place_beside(first, along / length, position_of(surface, b));
@@ -25,10 +28,12 @@ double straight_across(const Surface& surface, const SurfacePoint& a, const Surf
 
 double straight_between(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
     if (a.face == b.face) return (position_of(surface, a) - position_of(surface, b)).norm();
-    for (uint32_t k = 0; k < 3; ++k)
-        if (corner_of(surface, b.face, surface.faces[a.face][(k + 1) % 3]) != NONE &&
-            corner_of(surface, b.face, surface.faces[a.face][(k + 2) % 3]) != NONE)
-            return straight_across(surface, a, b, k);
+    const auto& corners = surface.faces[a.face];
+    for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t v = corners[(k + 1) % 3], w = corners[(k + 2) % 3];
+        if (has_corner(surface, b.face, v) && has_corner(surface, b.face, w))
+            return straight_across(surface, a, b, v, w);
+    }
     return UNREACHABLE;
 }
 

@@ -1,6 +1,7 @@
 // Distances of points of the surface by an index, compared with the exact metric.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/capi/refusals.h"
 #include "tests/path/path_cases.h"
@@ -24,6 +25,31 @@ struct MeanError {
 };
 
 Soup comb_of_slivers() { return scaled(with_random_diagonals(comb(2), 20, 33), 1, 1e-4, 1); }
+
+// A plane, cut badly and rolled up: edges on both sides of a vertex lie on one line.
+Soup swiss_roll() {
+    Soup soup = with_random_diagonals(grid(150, 10, 1, 3), 1, 1);
+    for (auto& at : soup.positions) {
+        const double turned = 4 * std::numbers::pi * at.x() + 1;
+        at = {turned * std::cos(turned), at.y(), turned * std::sin(turned)};
+    }
+    return soup;
+}
+
+std::vector<std::vector<uint32_t>> triangles_around_vertices(const Soup& soup) {
+    std::vector<std::vector<uint32_t>> around(soup.vertex_count());
+    for (uint32_t t = 0; t < soup.triangles.size(); ++t)
+        for (const uint32_t corner : soup.triangles[t]) around[corner].push_back(t);
+    return around;
+}
+
+geoidx_surface_point random_edge_point(std::mt19937_64& random, uint32_t triangle) {
+    geoidx_surface_point point{triangle, 0, {}};
+    const size_t first = random() % 3;
+    point.weights[first] = uniform(random, 0, 1);
+    point.weights[(first + 1) % 3] = 1 - point.weights[first];
+    return point;
+}
 
 uint32_t id_at(const Soup& soup, const geoidx_surface_point& point) {
     return soup.triangles[point.triangle]
@@ -152,6 +178,21 @@ TEST_CASE("points: straight within a triangle and over an edge of two") {
             if (shared != 2) continue;
             const double exact = on.exact(middle(t), middle(other));
             CHECK(on.sssd(middle(t), middle(other)) == doctest::Approx(exact).epsilon(2e-3));
+        }
+    }
+}
+
+// The line between two such points often passes through an end of an edge that two triangles share.
+TEST_CASE("points: near ones on edges are symmetric") {
+    for (const Soup& soup : {swiss_roll(), torus(24, 12, 1, 0.4)}) {
+        const PathCase on(soup);
+        const auto around = triangles_around_vertices(soup);
+        std::mt19937_64 random(1);
+        for (size_t i = 0; i < 20000 / sparse(4); ++i) {
+            const auto a = random_edge_point(random, static_cast<uint32_t>(random() % soup.triangles.size()));
+            const auto& nearby = around[soup.triangles[a.triangle][random() % 3]];
+            const auto b = random_edge_point(random, nearby[random() % nearby.size()]);
+            CHECK(on.sssd(a, b) == on.sssd(b, a));
         }
     }
 }
