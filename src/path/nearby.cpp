@@ -56,6 +56,24 @@ double straight_nearby(const Surface& surface, const SurfacePoint& a, const Surf
     });
 }
 
+double over_corner(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    double least = UNREACHABLE;
+    for (const uint32_t corner : surface.faces[a.face])
+        if (has_corner(surface, b.face, corner)) {
+            const Vector3d& at = surface.positions[corner];
+            const double from_a = (position_of(surface, a) - at).norm(),
+                         from_b = (position_of(surface, b) - at).norm();
+            least = std::min(least, from_a + from_b);
+        }
+    return least;
+}
+
+double over_any_corner(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    return least_of_aliases(surface, a, b, [&](const SurfacePoint& from, const SurfacePoint& to) {
+        return over_corner(surface, from, to);
+    });
+}
+
 double straight_in_plane(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
     return least_of_aliases(surface, a, b, [&](const SurfacePoint& from, const SurfacePoint& to) {
         return surface.flat_faces.straight(surface, from, to);

@@ -27,6 +27,13 @@ inline Place place_beside(const Eigen::Vector3d& begin, const Eigen::Vector3d& d
 // vertex is a point of all faces there.
 double straight_nearby(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
 
+// The length of the shorter way, in the faces that two points are given on, over a corner that both have;
+// infinite if there is none.
+double over_corner(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
+
+// The same in any faces that the points lie in.
+double over_any_corner(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
+
 // The length of the straight line between two points if it runs over faces of one plane in which edges were
 // flipped; infinite otherwise.
 double straight_in_plane(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);

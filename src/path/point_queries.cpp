@@ -25,8 +25,10 @@ FacePoint PointQueries::face_point_of(const SurfacePoint& point) const {
 }
 
 // The distance of two points, by what the index says of it. No way is shorter than the straight line in
-// space. That over the faces counts even where the index, to its accuracy, says that there is a shorter way.
-// Much shorter ways are there: around a needle that stands between two faces.
+// space, and the distance no longer than the way over a corner that their faces share: the tables of an index
+// round what is far shorter than an edge. The straight line over the faces counts even where the index, to
+// its accuracy, says that there is a shorter way. Much shorter ways are there: around a needle that stands
+// between two faces.
 float PointQueries::with_straight_way(const SurfacePoint& source, const SurfacePoint& target,
                                       float distance) const {
     constexpr double MUCH_SHORTER = 0.95;
@@ -35,6 +37,9 @@ float PointQueries::with_straight_way(const SurfacePoint& source, const SurfaceP
                                                  straight_in_plane(surface_, source, target))
                                       : UNREACHABLE;
     if (straight < UNREACHABLE && source.face == target.face) return static_cast<float>(straight);
+    const double bent =
+        unfolds() ? over_any_corner(surface_, source, target) : over_corner(surface_, source, target);
+    distance = std::min(distance, static_cast<float>(bent));
     const double chord = (position_of(surface_, source) - position_of(surface_, target)).norm();
     distance = std::max(distance, static_cast<float>(chord));
     return double{distance} < MUCH_SHORTER * straight ? distance : static_cast<float>(straight);

@@ -51,6 +51,19 @@ geoidx_surface_point random_edge_point(std::mt19937_64& random, uint32_t triangl
     return point;
 }
 
+// A point of a triangle, away from a vertex of it by that share of the way to the opposite edge.
+geoidx_surface_point point_near(const Soup& soup, std::mt19937_64& random, uint32_t vertex, uint32_t triangle,
+                                double share) {
+    geoidx_surface_point point{triangle, 0, {}};
+    const auto& corners = soup.triangles[triangle];
+    const auto k = static_cast<size_t>(std::ranges::find(corners, vertex) - corners.begin());
+    const double turned = uniform(random, 0, 1);
+    point.weights[k] = 1 - share;
+    point.weights[(k + 1) % 3] = share * turned;
+    point.weights[(k + 2) % 3] = share * (1 - turned);
+    return point;
+}
+
 uint32_t id_at(const Soup& soup, const geoidx_surface_point& point) {
     return soup.triangles[point.triangle]
                          [static_cast<size_t>(std::ranges::max_element(point.weights) - point.weights)];
@@ -195,6 +208,30 @@ TEST_CASE("points: near ones on edges are symmetric") {
             CHECK(on.sssd(a, b) == on.sssd(b, a));
         }
     }
+}
+
+// How near they are to it, tables do not tell.
+TEST_CASE("points: near a common vertex they are no farther apart than the way over it is long") {
+    for (const uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES})
+        for (const uint32_t engine : {GEOIDX_ENGINE_OVERLAY, GEOIDX_ENGINE_GRAPH})
+            for (const Soup& soup : {sphere(3), pinched_sheets(4), cone(saddle_rays(10, 0.9), 4)}) {
+                const PathCase on(soup, path_options(engine, metric));
+                const auto around = triangles_around_vertices(soup);
+                std::mt19937_64 random(3);
+                for (size_t i = 0; i < 600; ++i) {
+                    const auto vertex = static_cast<uint32_t>(random() % soup.vertex_count());
+                    const auto point = [&] {
+                        const uint32_t triangle = around[vertex][random() % around[vertex].size()];
+                        return point_near(soup, random, vertex, triangle, std::pow(0.1, i % 7));
+                    };
+                    const auto a = point(), b = point();
+                    CAPTURE(i);
+                    const double bent = (on.position(a) - soup.positions[vertex]).norm() +
+                                        (on.position(b) - soup.positions[vertex]).norm();
+                    CHECK(double{on.sssd(a, b)} <= bent * (1 + 1e-6));
+                    CHECK(on.sssd(a, b) == on.sssd(b, a));
+                }
+            }
 }
 
 // No way leads over an edge with one face, so that distances of corners from both sides of the hole unfold to
