@@ -737,9 +737,10 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
 
 /* geoidx_query_sssd between points of the surface, symmetric bit for bit. Of points at vertices it gives the
  * same bits. By GEOIDX_METRIC_EXACT, points of one triangle are as far apart as the straight line between
- * them is long, and so are those of triangles that share an edge which that line crosses, unless the index
- * knows a much shorter way; others are to the accuracy of the index. By either metric, points of triangles
- * that share a corner are no farther apart than the way over it is long. +INFINITY where there is no path. */
+ * them is long, and so are those of triangles that share an edge which that line crosses, or a corner around
+ * which it leads over the triangles between the two, unless the index knows a much shorter way; others are to
+ * the accuracy of the index. By either metric, points of triangles that share a corner are no farther apart
+ * than the way over it is long. +INFINITY where there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* source,
                                                  const geoidx_surface_point* target, float* distance);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/base/plane.h"
+#include "src/path/corner_fan.h"
 
 namespace geodesic {
 
@@ -48,6 +49,16 @@ double least_of_aliases(const Surface& surface, const SurfacePoint& a, const Sur
     return least;
 }
 
+// Of the corners that their faces share.
+template <class Length>
+double least_of_corners(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b,
+                        const Length& length) {
+    double least = UNREACHABLE;
+    for (const uint32_t corner : surface.faces[a.face])
+        if (has_corner(surface, b.face, corner)) least = std::min(least, length(corner));
+    return least;
+}
+
 }
 
 double straight_nearby(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
@@ -57,20 +68,25 @@ double straight_nearby(const Surface& surface, const SurfacePoint& a, const Surf
 }
 
 double over_corner(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
-    double least = UNREACHABLE;
-    for (const uint32_t corner : surface.faces[a.face])
-        if (has_corner(surface, b.face, corner)) {
-            const Vector3d& at = surface.positions[corner];
-            const double from_a = (position_of(surface, a) - at).norm(),
-                         from_b = (position_of(surface, b) - at).norm();
-            least = std::min(least, from_a + from_b);
-        }
-    return least;
+    return least_of_corners(surface, a, b, [&](uint32_t corner) {
+        const Vector3d& at = surface.positions[corner];
+        const double from_a = (position_of(surface, a) - at).norm(),
+                     from_b = (position_of(surface, b) - at).norm();
+        return from_a + from_b;
+    });
 }
 
 double over_any_corner(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
     return least_of_aliases(surface, a, b, [&](const SurfacePoint& from, const SurfacePoint& to) {
         return over_corner(surface, from, to);
+    });
+}
+
+double straight_around_any_corner(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    return least_of_aliases(surface, a, b, [&](const SurfacePoint& from, const SurfacePoint& to) {
+        if (from.face == to.face) return UNREACHABLE;
+        return least_of_corners(surface, from, to,
+                                [&](uint32_t corner) { return straight_around(surface, from, to, corner); });
     });
 }
 

@@ -34,6 +34,10 @@ double over_corner(const Surface& surface, const SurfacePoint& a, const SurfaceP
 // The same in any faces that the points lie in.
 double over_any_corner(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
 
+// The length of the straight line between two points of different faces that share a corner, around that
+// corner (see corner_fan.h); infinite if there is none.
+double straight_around_any_corner(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
+
 // The length of the straight line between two points if it runs over faces of one plane in which edges were
 // flipped; infinite otherwise.
 double straight_in_plane(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);

@@ -33,8 +33,9 @@ float PointQueries::with_straight_way(const SurfacePoint& source, const SurfaceP
                                       float distance) const {
     constexpr double MUCH_SHORTER = 0.95;
     if (is_same_point(surface_, source, target)) return 0;
-    const double straight = unfolds() ? std::min(straight_nearby(surface_, source, target),
-                                                 straight_in_plane(surface_, source, target))
+    const double straight = unfolds() ? std::min({straight_nearby(surface_, source, target),
+                                                  straight_in_plane(surface_, source, target),
+                                                  straight_around_any_corner(surface_, source, target)})
                                       : UNREACHABLE;
     if (straight < UNREACHABLE && source.face == target.face) return static_cast<float>(straight);
     const double bent =

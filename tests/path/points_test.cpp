@@ -3,11 +3,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/mesh/angle.h"
 #include "tests/capi/refusals.h"
 #include "tests/path/path_cases.h"
 #include "tests/support/drilled_plate.h"
 #include "tests/support/sanitized.h"
 
+using geodesic::angle_between;
 using namespace geodesic::test;
 
 namespace {
@@ -232,6 +234,60 @@ TEST_CASE("points: near a common vertex they are no farther apart than the way o
                     CHECK(on.sssd(a, b) == on.sssd(b, a));
                 }
             }
+}
+
+// Straight over the unfolded faces or, where these fill half a turn or more on both sides, over the apex.
+double distance_on_cone(double total, double at_a, double at_b, double from_a, double from_b) {
+    const double between = std::abs(at_a - at_b), turned = std::min(between, total - between);
+    if (turned >= std::numbers::pi) return from_a + from_b;
+    return std::hypot(from_a - from_b, 2 * std::sqrt(from_a * from_b) * std::sin(turned / 2));
+}
+
+TEST_CASE("points: near the apex of a cone they are no farther apart than unfolded") {
+    for (const auto& rays :
+         {cone_rays(7, 1.1), cone_rays(40, 0.3), cone_rays(200, 0.8), saddle_rays(10, 0.9)}) {
+        const PathCase on(cone(rays, 4));
+        const double step = angle_between(rays[0], rays[1]), total = step * static_cast<double>(rays.size());
+        const auto around = triangles_around_vertices(on.soup)[0];
+        // How far around the apex a point is: triangle k lies between the rays k and k + 1.
+        const auto turned = [&](const geoidx_surface_point& point) {
+            const auto k = static_cast<size_t>(std::ranges::find(around, point.triangle) - around.begin());
+            return step * static_cast<double>(k) + angle_between(rays[k], on.position(point));
+        };
+        std::mt19937_64 random(5);
+        for (size_t i = 0; i < 600; ++i) {
+            const auto point = [&] {
+                return point_near(on.soup, random, 0, around[random() % around.size()],
+                                  std::pow(0.1, 1 + i % 6));
+            };
+            const auto a = point(), b = point();
+            CAPTURE(i);
+            const double exact =
+                distance_on_cone(total, turned(a), turned(b), on.position(a).norm(), on.position(b).norm());
+            CHECK(double{on.sssd(a, b)} <= exact * (1 + 1e-6));
+            CHECK(on.sssd(a, b) == on.sssd(b, a));
+        }
+    }
+}
+
+// An edge of three triangles is not unfolded.
+TEST_CASE("points: near a common vertex of surfaces they are not too far apart") {
+    for (const Soup& soup : {sphere(3), torus(24, 12, 1, 0.4), moebius(20, 3), pinched_sheets(3),
+                             with_mixed_winding(bumpy_sphere(3, 9), 4)}) {
+        const PathCase on(soup);
+        const auto around = triangles_around_vertices(soup);
+        std::mt19937_64 random(7);
+        for (size_t i = 0; i < 600; ++i) {
+            const auto vertex = static_cast<uint32_t>(random() % soup.vertex_count());
+            const auto point = [&] {
+                const uint32_t triangle = around[vertex][random() % around[vertex].size()];
+                return point_near(soup, random, vertex, triangle, std::pow(0.1, 3 + i % 4));
+            };
+            const auto a = point(), b = point();
+            CAPTURE(i);
+            CHECK(double{on.sssd(a, b)} <= on.exact(a, b) * (1 + 1e-6));
+        }
+    }
 }
 
 // No way leads over an edge with one face, so that distances of corners from both sides of the hole unfold to
