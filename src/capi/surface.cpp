@@ -17,8 +17,7 @@ namespace {
 
 geoidx_surface* make_surface(Intake&& intake, const geoidx_surface_options& options) {
     SurfaceCosts costs = surface_costs(intake, options);
-    const bool has_costs = !costs.of_face.empty() || !costs.of_edge.empty();
-    FlatFaces flat = has_costs ? FlatFaces() : FlatFaces(intake.mesh);
+    FlatFaces flat(intake.mesh);
     return std::make_unique<geoidx_surface>(std::move(intake), std::move(costs), std::move(flat)).release();
 }
 

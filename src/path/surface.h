@@ -40,7 +40,7 @@ struct Surface {
     uint64_t fingerprint = 0;
     double bounding_box_diagonal = 0, average_edge = 0;
     SurfaceCosts costs;
-    FlatFaces flat_faces; // for distances of points; none where there are costs
+    FlatFaces flat_faces; // for distances of points by positions, whatever the costs
 
     uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size()); }
     uint32_t face_count() const { return static_cast<uint32_t>(faces.size()); }

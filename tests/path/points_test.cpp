@@ -313,6 +313,39 @@ TEST_CASE("points: not through a hole that is a triangle") {
     }
 }
 
+// A plane of slivers: the index was made on other faces, which the surface must have, too.
+TEST_CASE("points: an index without costs ignores those of the surface") {
+    const PathCase on(with_random_diagonals(jittered_grid(16, 3), 40, 5));
+    const std::vector<double> costs(on.soup.triangles.size(), 3.0);
+    const uint32_t edge[] = {on.soup.triangles[0][0], on.soup.triangles[0][1]};
+    const double edge_cost = 7;
+    geoidx_surface_options of_faces, of_edges;
+    geoidx_surface_options_init(&of_faces);
+    of_faces.face_costs = costs.data();
+    of_faces.face_cost_count = costs.size();
+    geoidx_surface_options_init(&of_edges);
+    of_edges.edge_cost_vertices = edge;
+    of_edges.edge_costs = &edge_cost;
+    of_edges.edge_cost_count = 1;
+    for (const auto& options : {of_faces, of_edges}) {
+        const geoidx_mesh view = view_of(on.soup);
+        geoidx_surface* created = nullptr;
+        REQUIRE(geoidx_surface_create(&view, &options, &created) == GEOIDX_OK);
+        const SurfaceHandle with_costs(created);
+        std::mt19937_64 random(3);
+        for (size_t i = 0; i < 400; ++i) {
+            const auto a = random_point(on.soup, random, i), b = random_point(on.soup, random, 0);
+            CAPTURE(i);
+            float distance = 0;
+            REQUIRE(geoidx_query_point_sssd(on.query.get(), with_costs.get(), &a, &b, &distance) ==
+                    GEOIDX_OK);
+            CHECK(distance == on.sssd(a, b));
+            CHECK(double{distance} ==
+                  doctest::Approx((on.position(a) - on.position(b)).norm()).epsilon(1e-6));
+        }
+    }
+}
+
 TEST_CASE("points: by edges, a point on an edge has the ways of the triangle that it is given on") {
     Soup soup;
     for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) soup.positions.emplace_back(x, y, 0);
