@@ -21,6 +21,10 @@ std::uint64_t raw_size_of(std::span<const MatrixTarget> matrices) {
     return size;
 }
 
+[[noreturn]] void throw_issue(const Issue& issue) {
+    throw Error(issue.status, issue.message + " (byte " + std::to_string(issue.offset) + ")");
+}
+
 // Returns what decode() returns. An error of it that names no section is one of this section's stored bytes.
 template <class Decode>
 decltype(auto) decode_section(std::uint32_t tag, const Decode& decode) {
@@ -71,9 +75,7 @@ std::vector<std::byte> unpack_bytes(const StoredBytes& stored, std::uint32_t tag
 }
 
 Container Container::parse(std::span<const std::byte> file, std::span<const std::uint32_t> known_tags) {
-    Layout layout = examine(file, known_tags, [](const Issue& issue) {
-        throw Error(issue.status, issue.message + " (byte " + std::to_string(issue.offset) + ")");
-    });
+    Layout layout = examine(file, known_tags, throw_issue);
     Container container;
     container.file_ = file;
     container.version_major_ = layout.header.version_major;
@@ -81,6 +83,16 @@ Container Container::parse(std::span<const std::byte> file, std::span<const std:
     container.mesh_fingerprint_ = layout.header.mesh_fingerprint;
     container.sections_ = std::move(layout.sections);
     return container;
+}
+
+std::uint64_t checked_file_size(std::span<const std::byte> start, std::optional<std::uint64_t> file_size) {
+    return examine_header(start, file_size, throw_issue)->file_size;
+}
+
+bool has_valid_header(std::span<const std::byte> start, std::optional<std::uint64_t> file_size) {
+    bool is_valid = true;
+    examine_header(start, file_size, [&](const Issue&) { is_valid = false; });
+    return is_valid;
 }
 
 std::vector<Issue> inspect(std::span<const std::byte> file, std::span<const std::uint32_t> known_tags) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -182,6 +183,13 @@ private:
 // Whether a file that begins with these bytes seems to have a section, by its section table as far as it is
 // there. Nothing is checked.
 bool names_section(std::span<const std::byte> start, std::uint32_t tag);
+
+// What the header states. Throws as Container::parse does if it has a problem that the first bytes of a file
+// show, all that there are or the first 48 at least, and its size, where it is known: of the magic, the
+// version, the flags, or the sizes.
+std::uint64_t checked_file_size(std::span<const std::byte> start, std::optional<std::uint64_t> file_size);
+// Whether it has none.
+bool has_valid_header(std::span<const std::byte> start, std::optional<std::uint64_t> file_size);
 
 // Every problem that Container::parse would throw, and those behind it: after a problem that leaves the rest
 // readable, the checks go on. Empty when parse would succeed.

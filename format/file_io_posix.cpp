@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "format/error.h"
+#include "format/file_content.h"
 #include "format/file_descriptor_posix.h"
 
 namespace geodesic::format {
@@ -56,12 +57,13 @@ FileDescriptor open_to_read(const std::string& path) {
     return file;
 }
 
-// What a regular file holds now; 0 for a pipe.
-std::size_t expected_size(const FileDescriptor& file, const std::string& path) {
+// What a regular file holds now. The files of /proc say 0 and hold more.
+std::optional<std::uint64_t> known_size(const FileDescriptor& file, const std::string& path) {
     struct stat status {};
     if (::fstat(file.get(), &status) != 0) fail_errno("read", path, errno);
     if (S_ISDIR(status.st_mode)) fail("read", path, "it is a directory");
-    return S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
+    if (!S_ISREG(status.st_mode) || status.st_size == 0) return {};
+    return static_cast<std::uint64_t>(status.st_size);
 }
 
 // ---- Writing
@@ -142,20 +144,10 @@ void write_and_close(FileDescriptor& file, std::span<const std::byte> bytes, std
 
 }
 
-std::vector<std::byte> read_file(const std::string& utf8_path) {
-    constexpr std::size_t MIN_STEP = 65536;
+std::vector<std::byte> read_file(const std::string& utf8_path, const SizeByStart& wanted) {
     const FileDescriptor file = open_to_read(utf8_path);
-    // One byte more than expected, so that the end is seen without growing.
-    std::vector<std::byte> content(expected_size(file, utf8_path) + 1);
-    std::size_t filled = 0;
-    for (;;) {
-        const std::size_t count = read_some(file, std::span(content).subspan(filled), utf8_path);
-        filled += count;
-        if (count == 0) break;
-        if (filled == content.size()) content.resize(2 * filled + MIN_STEP);
-    }
-    content.resize(filled);
-    return content;
+    const auto read = [&](std::span<std::byte> into) { return read_some(file, into, utf8_path); };
+    return read_content(read, known_size(file, utf8_path), wanted);
 }
 
 void write_file_atomically(const std::string& utf8_path, std::span<const std::byte> bytes) {

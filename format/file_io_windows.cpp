@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "format/error.h"
+#include "format/file_content.h"
 #include "format/file_handle_windows.h"
 
 namespace geodesic::format {
@@ -63,6 +65,13 @@ void write_all(const FileHandle& file, std::span<const std::byte> bytes, const s
     }
 }
 
+// Pipes and devices have none.
+std::optional<std::uint64_t> known_size(const FileHandle& file) {
+    LARGE_INTEGER size{};
+    if (!GetFileSizeEx(file.get(), &size) || size.QuadPart <= 0) return {};
+    return static_cast<std::uint64_t>(size.QuadPart);
+}
+
 // A file that is removed again unless it was renamed to its destination.
 class TemporaryFile {
 public:
@@ -106,25 +115,15 @@ private:
 
 }
 
-std::vector<std::byte> read_file(const std::string& utf8_path) {
-    constexpr size_t MIN_STEP = 65536;
+std::vector<std::byte> read_file(const std::string& utf8_path, const SizeByStart& wanted) {
     const std::wstring path = wide(utf8_path);
     if (is_directory(path)) fail("read", utf8_path, "it is a directory");
     const FileHandle file(CreateFileW(path.c_str(), GENERIC_READ,
                                       FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
                                       OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr));
     if (!file.is_open()) fail_code("open", utf8_path, GetLastError());
-    LARGE_INTEGER size{};
-    if (!GetFileSizeEx(file.get(), &size)) size.QuadPart = 0; // a pipe has none
-    // One byte more than expected, so that the end is seen without growing.
-    std::vector<std::byte> content(static_cast<size_t>(size.QuadPart) + 1);
-    size_t filled = 0;
-    while (const size_t count = read_some(file, std::span(content).subspan(filled), utf8_path)) {
-        filled += count;
-        if (filled == content.size()) content.resize(2 * filled + MIN_STEP);
-    }
-    content.resize(filled);
-    return content;
+    const auto read = [&](std::span<std::byte> into) { return read_some(file, into, utf8_path); };
+    return read_content(read, known_size(file), wanted);
 }
 
 void write_file_atomically(const std::string& utf8_path, std::span<const std::byte> bytes) {

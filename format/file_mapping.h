@@ -7,6 +7,8 @@
 #include <span>
 #include <string>
 
+#include "format/file_io.h"
+
 namespace geodesic::format {
 
 // A file as memory that the operating system shares with all who map it. Whoever changes the file changes the
@@ -18,10 +20,10 @@ public:
     // How many bytes of a file `is_wanted` is shown.
     static constexpr std::size_t START = 65536;
 
-    // Maps a regular file if is_wanted(its first bytes). Returns nothing if it is not wanted or cannot be
+    // Maps a regular file if is_wanted(its start). Returns nothing if it is not wanted or cannot be
     // mapped, whatever the reason is: reading the file will tell.
-    static std::optional<FileMapping>
-    of_file(const std::string& utf8_path, const std::function<bool(std::span<const std::byte>)>& is_wanted);
+    static std::optional<FileMapping> of_file(const std::string& utf8_path,
+                                              const std::function<bool(const FileStart&)>& is_wanted);
 
 private:
     struct Unmap {

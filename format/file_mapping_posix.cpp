@@ -42,16 +42,15 @@ void FileMapping::Unmap::operator()(const std::byte* first) const {
     ::munmap(const_cast<std::byte*>(first), size);
 }
 
-std::optional<FileMapping>
-FileMapping::of_file(const std::string& utf8_path,
-                     const std::function<bool(std::span<const std::byte>)>& is_wanted) {
+std::optional<FileMapping> FileMapping::of_file(const std::string& utf8_path,
+                                                const std::function<bool(const FileStart&)>& is_wanted) {
     struct stat status {};
     // A pipe must not be opened here, since who reads it then would miss what it brought.
     if (::stat(utf8_path.c_str(), &status) != 0 || !is_regular(status)) return {};
     const FileDescriptor file(::open(utf8_path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.get() < 0 || ::fstat(file.get(), &status) != 0 || !is_regular(status)) return {};
     const auto size = static_cast<std::size_t>(status.st_size);
-    if (!is_wanted(read_start(file, std::min(size, START)))) return {};
+    if (!is_wanted({read_start(file, std::min(size, START)), size})) return {};
     void* const first = ::mmap(nullptr, size, PROT_READ, FLAGS, file.get(), 0);
     if (first == MAP_FAILED) return {};
     return FileMapping(static_cast<const std::byte*>(first), size);

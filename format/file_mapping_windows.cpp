@@ -19,9 +19,8 @@ std::vector<std::byte> read_start(const FileHandle& file, std::size_t size) {
 
 void FileMapping::Unmap::operator()(const std::byte* first) const { UnmapViewOfFile(first); }
 
-std::optional<FileMapping>
-FileMapping::of_file(const std::string& utf8_path,
-                     const std::function<bool(std::span<const std::byte>)>& is_wanted) {
+std::optional<FileMapping> FileMapping::of_file(const std::string& utf8_path,
+                                                const std::function<bool(const FileStart&)>& is_wanted) {
     const std::wstring path = wide(utf8_path);
     const DWORD attributes = GetFileAttributesW(path.c_str());
     if (attributes == INVALID_FILE_ATTRIBUTES || (attributes & FILE_ATTRIBUTE_DIRECTORY)) return {};
@@ -32,7 +31,7 @@ FileMapping::of_file(const std::string& utf8_path,
     LARGE_INTEGER size{};
     if (!GetFileSizeEx(file.get(), &size) || size.QuadPart <= 0) return {};
     const auto bytes = static_cast<std::size_t>(size.QuadPart);
-    if (!is_wanted(read_start(file, std::min(bytes, START)))) return {};
+    if (!is_wanted({read_start(file, std::min(bytes, START)), bytes})) return {};
     const FileHandle mapping(CreateFileMappingW(file.get(), nullptr, PAGE_READONLY, 0, 0, nullptr));
     if (!mapping.is_open()) return {};
     const void* const first = MapViewOfFile(mapping.get(), FILE_MAP_READ, 0, 0, bytes);

@@ -48,20 +48,18 @@ std::string section_text(const Section& section) {
     return "section " + tag_text(section.tag) + " at offset " + std::to_string(section.offset);
 }
 
-class Examination {
+// The checks of the header alone.
+class HeaderExamination {
 public:
-    Examination(std::span<const std::byte> file, std::span<const std::uint32_t> known_tags,
-                const Report& report)
-        : file_(file), known_tags_(known_tags), report_(report) {}
+    HeaderExamination(std::span<const std::byte> start, std::optional<std::uint64_t> file_size,
+                      const Report& report)
+        : start_(start), file_size_(file_size), report_(report) {}
 
-    Layout run() {
+    std::optional<Header> run() {
         if (!check_magic()) return {};
-        layout_.header = read_header(file_);
-        if (!check_version() || !check_sizes()) return std::move(layout_);
-        check_table();
-        check_header_checksum();
-        check_contents();
-        return std::move(layout_);
+        header_ = read_header(start_);
+        if (!check_version() || !check_sizes()) return {};
+        return header_;
     }
 
 private:
@@ -72,52 +70,81 @@ private:
 
     bool check_magic() const {
         const auto magic = std::as_bytes(std::span(MAGIC));
-        const std::size_t length = std::min(file_.size(), magic.size());
-        if (!std::ranges::equal(file_.first(length), magic.first(length))) {
-            const bool is_text = length == magic.size() && std::ranges::equal(file_.first(5), magic.first(5));
+        const std::size_t length = std::min(start_.size(), magic.size());
+        if (!std::ranges::equal(start_.first(length), magic.first(length))) {
+            const bool is_text =
+                length == magic.size() && std::ranges::equal(start_.first(5), magic.first(5));
             return fail(GEOIDX_ISSUE_MAGIC, GEOIDX_ERROR_NOT_AN_INDEX, 0,
                         is_text ? "the line ends in the magic are changed: the file was transferred as text"
                                 : "the first " + std::to_string(length) + " bytes are not those of an index");
         }
-        if (file_.size() >= HEADER_SIZE) return true;
-        return fail(GEOIDX_ISSUE_HEADER_TRUNCATED, GEOIDX_ERROR_TRUNCATED, file_.size(),
-                    "the file ends after " + std::to_string(file_.size()) + " bytes, within the header of " +
+        if (start_.size() >= HEADER_SIZE) return true;
+        return fail(GEOIDX_ISSUE_HEADER_TRUNCATED, GEOIDX_ERROR_TRUNCATED, start_.size(),
+                    "the file ends after " + std::to_string(start_.size()) + " bytes, within the header of " +
                         std::to_string(HEADER_SIZE));
     }
 
     bool check_version() const {
-        const Header& header = layout_.header;
-        if (header.version_major != FORMAT_MAJOR) {
+        if (header_.version_major != FORMAT_MAJOR) {
             return fail(GEOIDX_ISSUE_VERSION, GEOIDX_ERROR_UNSUPPORTED_VERSION, MAJOR_OFFSET,
-                        "the file has format version " + std::to_string(header.version_major) + "." +
-                            std::to_string(header.version_minor) + ", known is " +
+                        "the file has format version " + std::to_string(header_.version_major) + "." +
+                            std::to_string(header_.version_minor) + ", known is " +
                             std::to_string(FORMAT_MAJOR));
         }
-        if (header.incompatible_flags == 0) return true;
+        if (header_.incompatible_flags == 0) return true;
         return fail(GEOIDX_ISSUE_FEATURE_FLAGS, GEOIDX_ERROR_UNSUPPORTED_VERSION, INCOMPATIBLE_FLAGS_OFFSET,
                     "the file needs features unknown here, flags " +
-                        std::to_string(header.incompatible_flags));
+                        std::to_string(header_.incompatible_flags));
+    }
+
+    void check_file_size(std::uint64_t size) const {
+        const std::string sizes = "the file has " + std::to_string(size) + " bytes, its header says " +
+                                  std::to_string(header_.file_size);
+        if (size < header_.file_size) fail(GEOIDX_ISSUE_FILE_TRUNCATED, GEOIDX_ERROR_TRUNCATED, size, sizes);
+        if (size > header_.file_size)
+            fail(GEOIDX_ISSUE_FILE_TOO_LONG, GEOIDX_ERROR_CORRUPT, FILE_SIZE_OFFSET, sizes);
     }
 
     // False when the section table cannot be read.
     bool check_sizes() const {
-        const Header& header = layout_.header;
-        const std::string sizes = "the file has " + std::to_string(file_.size()) +
-                                  " bytes, its header says " + std::to_string(header.file_size);
-        if (file_.size() < header.file_size)
-            fail(GEOIDX_ISSUE_FILE_TRUNCATED, GEOIDX_ERROR_TRUNCATED, file_.size(), sizes);
-        if (file_.size() > header.file_size)
-            fail(GEOIDX_ISSUE_FILE_TOO_LONG, GEOIDX_ERROR_CORRUPT, FILE_SIZE_OFFSET, sizes);
-        const std::string count = std::to_string(header.section_count) + " sections";
-        if (header.section_count > MAX_SECTIONS) {
+        if (file_size_) check_file_size(*file_size_);
+        const std::string count = std::to_string(header_.section_count) + " sections";
+        if (header_.section_count > MAX_SECTIONS) {
             return fail(GEOIDX_ISSUE_SECTION_COUNT, GEOIDX_ERROR_LIMIT, SECTION_COUNT_OFFSET,
                         count + ", the limit is " + std::to_string(MAX_SECTIONS));
         }
-        if (table_end(header.section_count) > header.file_size) {
+        if (table_end(header_.section_count) > header_.file_size) {
             return fail(GEOIDX_ISSUE_SECTION_TABLE, GEOIDX_ERROR_CORRUPT, SECTION_COUNT_OFFSET,
-                        count + " do not fit into " + std::to_string(header.file_size) + " bytes");
+                        count + " do not fit into " + std::to_string(header_.file_size) + " bytes");
         }
-        return table_end(header.section_count) <= file_.size();
+        return table_end(header_.section_count) <= file_size_.value_or(header_.file_size);
+    }
+
+    std::span<const std::byte> start_;
+    std::optional<std::uint64_t> file_size_;
+    const Report& report_;
+    Header header_;
+};
+
+class Examination {
+public:
+    Examination(std::span<const std::byte> file, std::span<const std::uint32_t> known_tags,
+                const Report& report)
+        : file_(file), known_tags_(known_tags), report_(report) {}
+
+    Layout run() {
+        const auto header = examine_header(file_, file_.size(), report_);
+        if (!header) return {};
+        layout_.header = *header;
+        check_table();
+        check_header_checksum();
+        check_contents();
+        return std::move(layout_);
+    }
+
+private:
+    void fail(std::uint32_t number, geoidx_status status, std::uint64_t offset, std::string message) const {
+        report_({number, status, offset, std::move(message)});
     }
 
     void check_table() {
@@ -265,6 +292,11 @@ std::uint64_t header_checksum(std::span<const std::byte> header_and_table) {
     std::vector<std::byte> covered(header_and_table.begin(), header_and_table.end());
     std::ranges::fill(std::span(covered).subspan(CHECKSUM_OFFSET, sizeof(Header::checksum)), std::byte{0});
     return checksum(covered);
+}
+
+std::optional<Header> examine_header(std::span<const std::byte> start, std::optional<std::uint64_t> file_size,
+                                     const Report& report) {
+    return HeaderExamination(start, file_size, report).run();
 }
 
 Layout examine(std::span<const std::byte> file, std::span<const std::uint32_t> known_tags,

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -62,6 +63,11 @@ struct Layout {
 
 // Told of each problem. It throws to stop at it, or returns to go on where that is possible.
 using Report = std::function<void(Issue)>;
+
+// Those of the checks below that need no more than the start of the file, at least its first HEADER_SIZE
+// bytes if it has as many. Nothing is returned when what is behind the header cannot be read.
+std::optional<Header> examine_header(std::span<const std::byte> start, std::optional<std::uint64_t> file_size,
+                                     const Report& report);
 
 // All checks of SPEC.md that need no decoding, in its order. What it returns is complete only when nothing
 // was reported.

@@ -57,7 +57,14 @@ void check_limits(const format::Container& container, const geoidx_open_options&
     }
 }
 
-bool is_mapped_file(std::span<const std::byte> start) { return format::names_section(start, TAG_HOP_CODES); }
+bool is_mapped_file(const format::FileStart& start) {
+    return format::has_valid_header(start.bytes, start.size) &&
+           format::names_section(start.bytes, TAG_HOP_CODES);
+}
+
+uint64_t index_size(const format::FileStart& start) {
+    return format::checked_file_size(start.bytes, start.size);
+}
 
 // An index that is being opened.
 class Opening {
@@ -73,7 +80,8 @@ public:
 
     geoidx* file(const std::string& utf8_path) {
         index_->mapping = format::FileMapping::of_file(utf8_path, is_mapped_file);
-        return index_->mapping ? kept(index_->mapping->bytes()) : passing(format::read_file(utf8_path));
+        return index_->mapping ? kept(index_->mapping->bytes())
+                               : passing(format::read_file(utf8_path, index_size));
     }
 
     geoidx* memory(std::span<const std::byte> data) {
@@ -86,7 +94,7 @@ public:
 private:
     // From bytes that are gone after the call.
     geoidx* passing(std::span<const std::byte> file) {
-        if (!is_mapped_file(file)) return kept(file);
+        if (!is_mapped_file({file, file.size()})) return kept(file);
         auto& copy = index_->file_copy;
         copy.resize((file.size() + sizeof(uint64_t) - 1) / sizeof(uint64_t));
         std::memcpy(copy.data(), file.data(), file.size());

@@ -12,10 +12,12 @@
 #include <doctest/doctest.h>
 
 #include "tests/format/helpers.h"
+#include "tests/support/filled_pipe.h"
 
 using namespace geodesic;
 using namespace geodesic::format;
 using namespace geodesic::format::test;
+using geodesic::test::FilledPipe;
 
 namespace {
 
@@ -62,6 +64,10 @@ private:
     void (*old_handler_)(int);
     rlimit old_limit_{};
 };
+
+Bytes read_file(const std::string& path) {
+    return format::read_file(path, [](const FileStart&) { return UINT64_MAX; });
+}
 
 geoidx_status write_status(const std::string& path, const Bytes& bytes, std::string* message = nullptr) {
     return status_of([&] { write_file_atomically(path, bytes); }, message);
@@ -202,4 +208,46 @@ TEST_CASE("a file that does not know its size is read to its end") {
     if (!fs::exists("/proc/self/maps")) return;
     CHECK(fs::file_size("/proc/self/maps") == 0);
     CHECK(read_file("/proc/self/maps").size() > 100);
+}
+
+TEST_CASE("of a file as much is read as its start is worth, and what shows that there is more") {
+    const Directory directory;
+    const Bytes bytes = random_bytes(1'000'000, 1);
+    write_file_atomically(directory.file("index"), bytes);
+    for (const std::size_t wanted : {std::size_t{5000}, bytes.size() - 1, bytes.size(), bytes.size() + 1}) {
+        CAPTURE(wanted);
+        Bytes shown;
+        const Bytes content = format::read_file(directory.file("index"), [&](const FileStart& start) {
+            shown.assign(start.bytes.begin(), start.bytes.end());
+            CHECK(start.size == bytes.size());
+            return wanted;
+        });
+        CHECK(shown.size() >= 48);
+        CHECK(std::equal(shown.begin(), shown.end(), bytes.begin()));
+        REQUIRE(content.size() == std::min(wanted + 1, bytes.size()));
+        CHECK(std::equal(content.begin(), content.end(), bytes.begin()));
+    }
+}
+
+TEST_CASE("a pipe is read as far as its start is worth") {
+    if (!fs::exists("/dev/fd")) return;
+    const Bytes bytes = random_bytes(60'000, 1);
+    for (const std::size_t wanted : {std::size_t{30'000}, bytes.size()}) {
+        const FilledPipe pipe(bytes);
+        const Bytes content = format::read_file(pipe.path(), [&](const FileStart& start) {
+            CHECK(!start.size);
+            return wanted;
+        });
+        CHECK(content == Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(content.size())));
+        CHECK(content.size() == std::min(wanted + 1, bytes.size()));
+        CHECK(pipe.left() == bytes.size() - content.size());
+    }
+}
+
+TEST_CASE("a file that is refused by its start is not read on") {
+    if (!fs::exists("/dev/fd")) return;
+    const FilledPipe pipe(Bytes(60'000));
+    const auto refuse = [](const FileStart&) -> std::uint64_t { throw Error(GEOIDX_ERROR_CORRUPT, "no"); };
+    CHECK(status_of([&] { format::read_file(pipe.path(), refuse); }) == GEOIDX_ERROR_CORRUPT);
+    CHECK(pipe.left() > 50'000);
 }

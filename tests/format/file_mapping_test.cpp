@@ -28,7 +28,7 @@ private:
     fs::path path_ = fs::temp_directory_path() / ("geoidx-mapping-" + std::to_string(std::random_device()()));
 };
 
-bool any(std::span<const std::byte>) { return true; }
+bool any(const FileStart&) { return true; }
 
 }
 
@@ -52,11 +52,11 @@ TEST_CASE("file mapping: the start of the file decides") {
         write_file_atomically(folder.file("x"), bytes);
         for (const bool wanted : {false, true}) {
             Bytes shown;
-            const auto mapping =
-                FileMapping::of_file(folder.file("x"), [&](std::span<const std::byte> start) {
-                    shown.assign(start.begin(), start.end());
-                    return wanted;
-                });
+            const auto mapping = FileMapping::of_file(folder.file("x"), [&](const FileStart& start) {
+                shown.assign(start.bytes.begin(), start.bytes.end());
+                CHECK(start.size == size);
+                return wanted;
+            });
             CHECK(mapping.has_value() == wanted);
             REQUIRE(shown.size() == std::min(size, FileMapping::START));
             CHECK(std::equal(shown.begin(), shown.end(), bytes.begin()));

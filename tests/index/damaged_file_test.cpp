@@ -1,8 +1,12 @@
 // A valid index cut at every length and with every byte changed.
 
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 
-#include "tests/capi/calls.h"
+#include "tests/capi/refusals.h"
+#include "tests/support/filled_pipe.h"
+#include "tests/support/temporary_directory.h"
 
 using namespace geodesic::test;
 
@@ -98,6 +102,56 @@ TEST_CASE("an index with bytes after its end is refused") {
     longer.push_back(std::byte{0});
     CHECK(is_refused(longer));
     CHECK(status_of(longer) == GEOIDX_ERROR_CORRUPT);
+}
+
+TEST_CASE("a file that is no index of this version is refused by its first bytes, however long it is") {
+    if (!std::filesystem::exists("/dev/fd")) return;
+    Bytes other_version = small_index();
+    other_version[8] = std::byte{99};
+    for (Bytes start : {Bytes(100), other_version}) {
+        const geoidx_status expected = status_of(start);
+        start.resize(60'000);
+        const FilledPipe pipe(start);
+        geoidx* index = not_null();
+        CHECK(geoidx_open(pipe.path().c_str(), nullptr, &index) == expected);
+        CHECK(index == nullptr);
+        CHECK(pipe.left() > 50'000);
+    }
+}
+
+TEST_CASE("an index that comes through a pipe is opened, and refused if the pipe brings more or less") {
+    if (!std::filesystem::exists("/dev/fd")) return;
+    const Bytes whole = small_index();
+    const auto open_through_pipe = [](const Bytes& bytes) {
+        geoidx* index = nullptr;
+        const geoidx_status status = geoidx_open(FilledPipe(bytes).path().c_str(), nullptr, &index);
+        geoidx_close(index);
+        return status;
+    };
+    CHECK(open_through_pipe(whole) == GEOIDX_OK);
+    CHECK(open_through_pipe(Bytes(whole.begin(), whole.end() - 1)) == GEOIDX_ERROR_TRUNCATED);
+    Bytes longer = whole;
+    longer.resize(50'000);
+    CHECK(open_through_pipe(longer) == GEOIDX_ERROR_CORRUPT);
+}
+
+TEST_CASE("a file of another size than its header says is refused by its header, however long it is") {
+    constexpr std::uintmax_t HUGE_SIZE = std::uintmax_t{1} << 40; // more than there is memory
+    const TemporaryDirectory directory;
+    for (const uint32_t codec : {GEOIDX_CODEC_LOSSLESS, GEOIDX_CODEC_MAPPED}) {
+        CAPTURE(codec);
+        const Bytes bytes = save(build(small_mesh(), default_options()).get(), codec);
+        const std::string path = (directory / "long").string();
+        std::ofstream(path, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        std::error_code error;
+        std::filesystem::resize_file(path, HUGE_SIZE, error);
+        if (error) return; // not every file system has such files
+        geoidx* index = not_null();
+        const std::string sizes =
+            "the file has 1099511627776 bytes, its header says " + std::to_string(bytes.size());
+        check_refused(geoidx_open(path.c_str(), nullptr, &index), GEOIDX_ERROR_CORRUPT, sizes.c_str());
+    }
 }
 
 TEST_CASE("verify goes on after a problem and stops when the callback says so") {

@@ -430,6 +430,7 @@ reading_fails missing.geoidx 'missing\.geoidx: '
 reading_fails folder 'folder: '
 : >empty.geoidx
 reading_fails empty.geoidx 'empty\.geoidx: '
+[ ! -c /dev/zero ] || reading_fails /dev/zero '/dev/zero: the first 8 bytes are not those of an index'
 
 size=$(stat -c %s grid.obj.geoidx)
 for length in 1 7 8 40 100 $((size / 4)) $((size / 2)) $((size - 64)) $((size - 1)); do

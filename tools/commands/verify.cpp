@@ -46,9 +46,23 @@ void print_json(const std::string& path, const std::vector<Problem>& problems, b
     JsonObject().text("index", path).truth("ok", ok).json("problems", "[" + list + "]").print();
 }
 
+int32_t on_start_issue(void* user, const geoidx_issue* issue) {
+    const bool tells_all = issue->number == GEOIDX_ISSUE_MAGIC || issue->number == GEOIDX_ISSUE_VERSION ||
+                           issue->number == GEOIDX_ISSUE_FEATURE_FLAGS;
+    if (tells_all) *static_cast<bool*>(user) = false;
+    return 0;
+}
+
+// Whether more than the first bytes can matter: not those of a file that is no index, which may be endless.
+bool may_be_index(const std::string& start) {
+    bool may_be = true;
+    geoidx_verify(start.data(), start.size(), on_start_issue, &may_be);
+    return may_be;
+}
+
 std::string bytes_of(const std::string& path) {
     try {
-        return read_file(path);
+        return read_file_if(path, may_be_index);
     } catch (const std::runtime_error& error) {
         throw Failure(path + ": " + error.what());
     }
