@@ -555,7 +555,7 @@ typedef struct geoidx_surface_point {
 typedef struct geoidx_surface_options {
     uint32_t struct_size;
     uint32_t reserved;                  /* not read */
-    double weld_tolerance;              /* as in geoidx_build_options; default 0 */
+    double weld_tolerance;              /* that the index was built with; default 0 */
     const uint32_t* edge_cost_vertices; /* two ids an edge */
     const double* edge_costs;
     const double* face_costs;
@@ -572,7 +572,8 @@ static inline void geoidx_surface_options_init(geoidx_surface_options* options) 
 /* Makes a surface of the caller's mesh, by the rules of geoidx_mesh; `options` may be NULL. It takes some 93
  * bytes a vertex of a closed mesh, and some 60 for each triangle of planes that are cut into slivers, from
  * the global heap, and no more for any number of threads. A query takes a surface of the mesh that its index
- * was built from; GEOIDX_ERROR_MESH_MISMATCH for another one. To be closed with geoidx_surface_close. */
+ * was built from; GEOIDX_ERROR_MESH_MISMATCH for another one, GEOIDX_ERROR_INVALID_ARGUMENT for one that is
+ * welded differently. To be closed with geoidx_surface_close. */
 GEOIDX_API geoidx_status geoidx_surface_create(const geoidx_mesh* mesh, const geoidx_surface_options* options,
                                                geoidx_surface** out);
 GEOIDX_API void geoidx_surface_close(geoidx_surface* surface);

@@ -1,6 +1,7 @@
 #include "src/path/face_points.h"
 
 #include <algorithm>
+#include <string>
 
 #include "format/error.h"
 #include "geoidx.h"
@@ -28,6 +29,10 @@ void require_same_mesh(const Index& index, const Surface& surface) {
     if (about.mesh_fingerprint != surface.fingerprint || about.id_count != surface.vertex_of_id.size() ||
         about.triangle_count != surface.face_of_triangle.size())
         throw Error(GEOIDX_ERROR_MESH_MISMATCH, "the surface is of another mesh than the index");
+    if (surface.vertex_count() != index.vertices_with_id)
+        refuse_argument("the surface has " + std::to_string(surface.vertex_count()) +
+                        " different vertices, the index " + std::to_string(index.vertices_with_id) +
+                        ": they differ in weld_tolerance");
 }
 
 uint32_t vertex_at(const Surface& surface, const SurfacePoint& point) {

@@ -6,7 +6,8 @@
 
 namespace geodesic {
 
-// Throws Error MESH_MISMATCH where the surface is of another mesh than the index.
+// Throws Error MESH_MISMATCH where the surface is of another mesh than the index, INVALID_ARGUMENT where it
+// has another number of vertices after welding.
 void require_same_mesh(const Index& index, const Surface& surface);
 
 // The number that the index has for a vertex, or NONE.

@@ -27,6 +27,7 @@ inline geoidx_build_options path_options(uint32_t engine = GEOIDX_ENGINE_OVERLAY
 inline geoidx_surface_options surface_options(const geoidx_build_options& build) {
     geoidx_surface_options options;
     geoidx_surface_options_init(&options);
+    options.weld_tolerance = build.weld_tolerance;
     options.edge_cost_count = build.edge_cost_count;
     options.edge_cost_vertices = build.edge_cost_vertices;
     options.edge_costs = build.edge_costs;

@@ -121,6 +121,19 @@ OFF
 4 3 0 4 7
 MESH
 
+cat >gap.off <<'MESH'
+OFF
+6 2 0
+0 0 0
+1 0 0
+0 1 0
+1.01 0 0
+0 1.01 0
+1 1 0
+3 0 1 2
+3 3 5 4
+MESH
+
 cat >two_parts.stl <<'MESH'
 solid two triangles apart
 facet normal 0 0 1
@@ -190,6 +203,9 @@ near "$(awk 'NR == 3 { print $3 }' out.txt)" 0
 succeeds sssd grid.obj.geoidx 0 440 7 300 --exact grid.obj
 awk 'NF != 5 || $5 < 0 || $5 > 0.1 { exit 1 }' out.txt || fail "sssd --exact: $(cat out.txt)"
 near "$(awk 'NR == 1 { print $4 }' out.txt)" 28.2842712
+succeeds build gap.off -o gap.geoidx --weld-tolerance 0.1
+succeeds sssd gap.geoidx 0 5 --exact gap.off --weld-tolerance 0.1
+fails_with 'gap\.off: .*they differ in weld_tolerance' sssd gap.geoidx 0 5 --exact gap.off
 succeeds sssd two_parts.stl.geoidx 0 1 0 3 --exact two_parts.stl
 grep -qE '^0 3 inf inf 0$' out.txt || fail "unreachable is not inf: $(cat out.txt)"
 

@@ -62,6 +62,18 @@ Solver solver_like(const geoidx& index, const SssdArguments& arguments, const Tr
     return make_solver(mesh, arguments.exact_mesh, options);
 }
 
+// A solver does not tell how many vertices it has; a surface that is welded as it is gets refused for them.
+void require_same_welding(const geoidx& index, const SssdArguments& arguments, const TriangleMesh& mesh) {
+    const Surface surface = make_surface(mesh, arguments.exact_mesh, arguments.weld_tolerance);
+    const Query query = make_query(index, arguments.index);
+    geoidx_surface_point any;
+    float distance = 0;
+    require_ok(geoidx_closest_point(surface.get(), mesh.positions.data(), &any, nullptr),
+               arguments.exact_mesh);
+    require_ok(geoidx_query_point_sssd(query.get(), surface.get(), &any, &any, &distance),
+               arguments.exact_mesh);
+}
+
 double relative_error(double distance, double exact) {
     if (distance == exact) return 0; // also where both are infinite
     return std::abs(distance - exact) / exact;
@@ -123,6 +135,7 @@ void sssd(const SssdArguments& arguments) {
     std::vector<Answer> answers = answers_of(pairs, index_distances(*index, arguments.index, pairs));
     if (with_exact) {
         const Solver solver = solver_like(*index, arguments, mesh);
+        require_same_welding(*index, arguments, mesh);
         for (Answer& answer : answers) add_exact_distance(*solver, arguments.exact_mesh, answer);
     }
     if (arguments.json) return print_json(arguments.index, answers);
