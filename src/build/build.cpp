@@ -5,6 +5,7 @@
 #include <string>
 
 #include "format/error.h"
+#include "src/base/number_text.h"
 #include "src/base/threads.h"
 #include "src/build/filling.h"
 #include "src/build/metric_options.h"
@@ -29,11 +30,11 @@ constexpr double WRONG_PAIRS_END = 0.5, STEEP_EDGES_END = 0.8; // shares of that
 
 void check_options(const geoidx_build_options& options) {
     if (!(options.delta >= 0 && options.delta <= 100))
-        refuse_argument("delta is " + std::to_string(options.delta) + ", not in 0 .. 100 %");
+        refuse_argument("delta is " + number_text(options.delta) + ", not in 0 .. 100 %");
     if (!(options.rounding >= 0 && options.rounding <= 1))
-        refuse_argument("rounding is " + std::to_string(options.rounding) + ", not in 0 .. 1");
+        refuse_argument("rounding is " + number_text(options.rounding) + ", not in 0 .. 1");
     if (!(options.target_error >= 0 && options.target_error <= 1))
-        refuse_argument("target_error is " + std::to_string(options.target_error) + ", not in 0 .. 1");
+        refuse_argument("target_error is " + number_text(options.target_error) + ", not in 0 .. 1");
     if (options.level_count > GEOIDX_MAX_LEVELS)
         refuse_argument("level_count is " + std::to_string(options.level_count) + ", more than " +
                         std::to_string(GEOIDX_MAX_LEVELS));

@@ -11,6 +11,7 @@
 #include <xxhash.h>
 
 #include "format/error.h"
+#include "src/base/number_text.h"
 #include "src/metric/callback.h"
 #include "src/metric/edge_graph.h"
 #include "src/metric/given_costs.h"
@@ -45,7 +46,7 @@ void check_sides(uint64_t triangle, std::span<const double, 3> sides) {
     const std::string name = "triangle " + std::to_string(triangle);
     for (double side : sides)
         if (!(side >= double{FLT_MIN} && side <= double{FLT_MAX}))
-            bad_mesh(name + " has a side of length " + std::to_string(side));
+            bad_mesh(name + " has a side of length " + number_text(side));
     for (size_t k = 0; k < 3; ++k) {
         const double others = sides[(k + 1) % 3] + sides[(k + 2) % 3];
         if (sides[k] > others) bad_mesh(name + " has a side longer than the two others together");
@@ -76,8 +77,8 @@ std::vector<double> given_lengths(const geoidx_mesh& mesh, const Intake& intake,
             const uint32_t a = mesh.triangles[3 * t + (k + 1) % 3], b = mesh.triangles[3 * t + (k + 2) % 3];
             double& length = lengths[find_edge(intake.mesh, intake.vertex_of_id[a], intake.vertex_of_id[b])];
             if (length != 0 && std::abs(length - sides[k]) > AGREEMENT * length)
-                bad_mesh(edge_name(a, b) + " has two lengths: " + std::to_string(length) + " and " +
-                         std::to_string(sides[k]) + " in triangle " + std::to_string(t));
+                bad_mesh(edge_name(a, b) + " has two lengths: " + number_text(length) + " and " +
+                         number_text(sides[k]) + " in triangle " + std::to_string(t));
             if (length == 0) length = sides[k];
         }
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "format/error.h"
+#include "src/base/number_text.h"
 #include "src/base/numbers.h"
 
 namespace geodesic {
@@ -12,9 +13,9 @@ namespace {
 
 void check_weights(const geoidx_surface_point& point, double sum, const std::string& name) {
     for (double weight : point.weights)
-        if (!(weight >= 0)) refuse_argument(name + " has the weight " + std::to_string(weight));
+        if (!(weight >= 0)) refuse_argument(name + " has the weight " + number_text(weight));
     if (!(std::abs(sum - 1) <= 1e-6))
-        refuse_argument(name + " has weights of " + std::to_string(sum) + " in sum");
+        refuse_argument(name + " has weights of " + number_text(sum) + " in sum");
 }
 
 // Weights that are rounding put a point on an edge, or at a corner. Points that the library gave come back

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "format/bytes.h"
+#include "src/base/number_text.h"
 #include "src/base/numbers.h"
 #include "src/file/sections.h"
 #include "src/mesh/intake.h"
@@ -56,11 +57,11 @@ void check_meta(const Description& meta) {
     if (meta.id_count == 0 || meta.id_count > UINT32_MAX - 1)
         corrupt("the mesh has " + std::to_string(meta.id_count) + " vertices");
     if (!(meta.bound_scale >= 0 && meta.bound_scale <= 1))
-        corrupt("the bound scale is " + std::to_string(meta.bound_scale) + ", not in 0 .. 1");
+        corrupt("the bound scale is " + number_text(meta.bound_scale) + ", not in 0 .. 1");
     if (!(meta.delta >= 0 && meta.delta <= 100))
-        corrupt("delta is " + std::to_string(meta.delta) + ", not in 0 .. 100");
+        corrupt("delta is " + number_text(meta.delta) + ", not in 0 .. 100");
     if (!(meta.bounding_box_diagonal >= 0) || !std::isfinite(meta.bounding_box_diagonal))
-        corrupt("the diagonal is " + std::to_string(meta.bounding_box_diagonal));
+        corrupt("the diagonal is " + number_text(meta.bounding_box_diagonal));
     for (double error : {meta.error.mean, meta.error.signed_mean, meta.error.p99, meta.error.p999,
                          meta.error.max, meta.error.mean_at_vertices})
         if (std::isnan(error)) corrupt("a measured error is NaN");

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "format/bytes.h"
+#include "src/base/number_text.h"
 #include "src/base/numbers.h"
 #include "src/file/sections.h"
 #include "src/overlay/codes.h"
@@ -34,7 +35,7 @@ void read_quanta(const format::Container& container, StoredIndex& stored) {
     reader.expect_end();
     for (float quantum : stored.quantum)
         if (!(quantum >= 0) || !std::isfinite(quantum))
-            refuse_as_corrupt("section QUAN: the quantum " + std::to_string(quantum));
+            refuse_as_corrupt("section QUAN: the quantum " + number_text(quantum));
 }
 
 // ---- SEGM
@@ -58,8 +59,7 @@ void read_segments(const format::Container& container, StoredIndex& stored) {
     for (size_t i = 0; i < count; ++i)
         if (stored.segment_end[i] != NONE &&
             (!(stored.segment_length[i] > 0) || !std::isfinite(stored.segment_length[i])))
-            refuse_as_corrupt("section SEGM: a segment of length " +
-                              std::to_string(stored.segment_length[i]));
+            refuse_as_corrupt("section SEGM: a segment of length " + number_text(stored.segment_length[i]));
 }
 
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "src/base/number_text.h"
 #include "src/base/numbers.h"
 #include "src/file/code_tables.h"
 #include "src/file/sections.h"
@@ -24,7 +25,7 @@ uint16_t code_of(float value) {
     if (value == INFINITE) return TableCode::UNREACHED;
     const auto code = static_cast<uint16_t>(std::min(value, float{TableCode::LARGEST}));
     if (static_cast<float>(code) != value)
-        refuse_as_corrupt("a table holds " + std::to_string(value) + ", which is no code of a distance");
+        refuse_as_corrupt("a table holds " + number_text(value) + ", which is no code of a distance");
     return code;
 }
 

@@ -7,6 +7,7 @@
 
 #include "format/bytes.h"
 #include "format/checksum.h"
+#include "src/base/number_text.h"
 #include "src/base/numbers.h"
 #include "src/file/differences.h"
 #include "src/file/sections.h"
@@ -70,11 +71,11 @@ std::vector<uint32_t> differences_of(const StoredIndex& stored, std::span<const 
 void read_grid(format::ByteReader& reader, StoredIndex& stored) {
     stored.position_step = reader.f32();
     if (!(stored.position_step > 0) || !std::isfinite(stored.position_step))
-        refuse_as_corrupt("section POSI: steps of " + std::to_string(stored.position_step));
+        refuse_as_corrupt("section POSI: steps of " + number_text(stored.position_step));
     for (double& coordinate : stored.position_origin) {
         coordinate = reader.f64();
         if (!std::isfinite(coordinate))
-            refuse_as_corrupt("section POSI: the origin has the coordinate " + std::to_string(coordinate));
+            refuse_as_corrupt("section POSI: the origin has the coordinate " + number_text(coordinate));
     }
 }
 

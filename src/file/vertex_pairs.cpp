@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "format/bytes.h"
+#include "src/base/number_text.h"
 #include "src/file/sections.h"
 
 namespace geodesic {
@@ -87,7 +88,7 @@ void read_measured(const format::Container& container, StoredIndex& stored) {
     reader.f32_array(stored.errors_of_measured);
     for (const float error : stored.errors_of_measured)
         if (!(error >= 0) || !std::isfinite(error))
-            refuse_as_corrupt("section PAIR: the error " + std::to_string(error));
+            refuse_as_corrupt("section PAIR: the error " + number_text(error));
     stored.measured_pairs = read_pairs("PAIR", count, most_pairs(stored), stored, reader);
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "format/error.h"
+#include "src/base/number_text.h"
 
 namespace geodesic {
 
@@ -43,7 +44,7 @@ private:
         for (size_t k = 0; k < answer_.size(); ++k)
             if (!(answer_[k] >= 0))
                 throw Error(GEOIDX_ERROR_CALLBACK, "the metric callback gave the distance " +
-                                                       std::to_string(answer_[k]) + " from vertex " +
+                                                       number_text(answer_[k]) + " from vertex " +
                                                        std::to_string(id) + " to vertex " +
                                                        std::to_string(target_ids_[k]));
     }

@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include "format/error.h"
+#include "src/base/number_text.h"
 #include "src/metric/metric.h"
 
 namespace geodesic {
@@ -20,7 +21,7 @@ uint32_t vertex_of_id(const Intake& intake, uint32_t id) {
 
 EdgeCost checked_edge_cost(const Intake& intake, uint32_t a, uint32_t b, double cost) {
     if (!(cost >= 0) || !std::isfinite(cost))
-        refuse_argument(edge_name(a, b) + " has the cost " + std::to_string(cost));
+        refuse_argument(edge_name(a, b) + " has the cost " + number_text(cost));
     const uint32_t from = vertex_of_id(intake, a), to = vertex_of_id(intake, b);
     const uint32_t edge = from == NONE || to == NONE ? NONE : find_edge(intake.mesh, from, to);
     if (edge == NONE) refuse_argument(edge_name(a, b) + " is given a cost, but is no edge of the mesh");
@@ -55,7 +56,7 @@ std::vector<double> checked_face_costs(const Intake& intake, const GivenFaceCost
     for (uint64_t t = 0; t < given.count; ++t) {
         const double cost = given.costs[t];
         if (!(cost > 0) || !std::isfinite(cost))
-            refuse_argument("triangle " + std::to_string(t) + " has the cost " + std::to_string(cost));
+            refuse_argument("triangle " + std::to_string(t) + " has the cost " + number_text(cost));
         const uint32_t face = intake.face_of_triangle[t];
         if (face != NONE) costs[face] = std::min(costs[face], cost);
     }

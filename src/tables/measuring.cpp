@@ -4,13 +4,14 @@
 #include <string>
 
 #include "format/error.h"
+#include "src/base/number_text.h"
 
 namespace geodesic {
 
 float measured_distance(const FieldSolver& solver, uint32_t vertex) {
     const double distance = solver.distance(vertex);
     if (distance > double{FLT_MAX} && distance < UNREACHABLE)
-        throw Error(GEOIDX_ERROR_LIMIT, "the metric gives the distance " + std::to_string(distance) +
+        throw Error(GEOIDX_ERROR_LIMIT, "the metric gives the distance " + number_text(distance) +
                                             ", too large for a 32-bit float");
     return static_cast<float>(distance);
 }

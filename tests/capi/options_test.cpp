@@ -225,7 +225,8 @@ TEST_CASE("edge costs are validated") {
         check_build_refused(mesh, options, GEOIDX_ERROR_INVALID_ARGUMENT, detail);
     };
     refused({0, 1}, NOT_A_NUMBER, "cost");
-    refused({0, 1}, -1, "cost");
+    refused({0, 1}, -1, "cost -1");
+    refused({0, 1}, -1e-300, "cost -1e-300");
     refused({0, 1}, INFINITE, "cost");
     refused({0, 2}, 1, "no edge");
     refused({0, 0}, 1, "no edge");
@@ -291,5 +292,6 @@ TEST_CASE("a metric callback that fails or answers nonsense stops the build") {
         check_build_refused(mesh, options, GEOIDX_ERROR_CALLBACK, "distance");
     }
     script.distance = 1e300;
-    check_build_refused(mesh, options, GEOIDX_ERROR_LIMIT, "32-bit float");
+    check_build_refused(mesh, options, GEOIDX_ERROR_LIMIT,
+                        "the distance 1e+300, too large for a 32-bit float");
 }
