@@ -210,7 +210,8 @@ typedef struct geoidx_build_options {
     /* GEOIDX_METRIC_EDGES: the costs of some edges; the others cost their length. */
     uint32_t edge_cost_count;           /* 0 (default): none, the next two are not read */
     const uint32_t* edge_cost_vertices; /* two ids an edge */
-    const double* edge_costs;           /* finite and not negative; an edge given twice takes the smaller */
+    const double* edge_costs;           /* finite and not negative; an edge given twice takes the smaller;
+                                           under FLT_MIN, but not 0, is GEOIDX_ERROR_LIMIT */
     geoidx_metric_fn metric_callback;   /* GEOIDX_METRIC_CALLBACK only */
     void* metric_user;
     geoidx_progress_fn progress; /* may be NULL */
@@ -221,11 +222,12 @@ typedef struct geoidx_build_options {
     uint32_t metric_flags; /* what GEOIDX_METRIC_CALLBACK declares itself to be: GEOIDX_METRIC_UNFOLDABLE or 0
                               (default: symmetric only); not read for other metrics */
     /* GEOIDX_METRIC_WEIGHTED: what a unit of length costs in each triangle of the mesh, positive and finite
-     * (along an edge the cheapest triangle there counts, as it does of triangles that are there twice).
-     * Distances are those of a graph with points_per_edge evenly spaced points on every edge, 0 .. 1000,
-     * joined straight through every triangle: never below the true ones, and above them by at most the sum,
-     * over the pieces that the triangles cut the true path into, of the piece's cost times half of the
-     * spacing of points at each of its ends. */
+     * (along an edge the cheapest triangle there counts, as it does of triangles that are there twice). A
+     * cost that takes a side of its triangle under FLT_MIN is GEOIDX_ERROR_LIMIT. Distances are those of a
+     * graph with points_per_edge evenly spaced points on every edge, 0 .. 1000, joined straight through every
+     * triangle: never below the true ones, and above them by at most the sum, over the pieces that the
+     * triangles cut the true path into, of the piece's cost times half of the spacing of points at each of
+     * its ends. */
     const double* face_costs;
     uint64_t face_cost_count; /* the mesh's triangle_count */
     uint32_t points_per_edge; /* default 12: within 0.5 % of Snell's law on a grid of 16 x 16 cells */

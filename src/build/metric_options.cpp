@@ -29,16 +29,53 @@ bool is_by_surface(const geoidx_build_options& options) {
     return options.metric == GEOIDX_METRIC_EXACT || options.metric == GEOIDX_METRIC_WEIGHTED;
 }
 
+[[noreturn]] void refuse_small_cost(const std::string& name, double cost) {
+    throw Error(GEOIDX_ERROR_LIMIT, name + " has the cost " + number_text(cost) +
+                                        ", too small: distances would not fit a 32-bit float");
+}
+
+std::string name_of_edge(const Intake& intake, uint32_t edge) {
+    const auto& [a, b] = intake.mesh.edges[edge];
+    const auto [first, second] = std::minmax(intake.id_of_vertex[a], intake.id_of_vertex[b]);
+    return edge_name(first, second);
+}
+
 // The length of each edge or, where the caller gives a cost for it, that cost.
 std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options& options) {
     std::vector<double> costs = edge_lengths(intake.mesh);
-    for (const auto& [edge, cost] : checked_edge_costs(intake, edge_costs_of(options))) costs[edge] = cost;
+    for (const auto& [edge, cost] : checked_edge_costs(intake, edge_costs_of(options))) {
+        if (cost > 0 && cost < double{FLT_MIN}) refuse_small_cost(name_of_edge(intake, edge), cost);
+        costs[edge] = cost;
+    }
     return costs;
 }
 
-std::vector<double> face_costs(const Intake& intake, const geoidx_build_options& options) {
+// Sides that are too short for a float by themselves are no matter of what they cost.
+void require_costs_fit(const Intake& intake, std::span<const double> costs, std::span<const double> lengths) {
+    for (uint64_t t = 0; t < intake.face_of_triangle.size(); ++t) {
+        const uint32_t face = intake.face_of_triangle[t];
+        if (face == NONE) continue;
+        for (const uint32_t edge : intake.mesh.face_edges[face])
+            if (lengths[edge] >= double{FLT_MIN} && costs[face] * lengths[edge] < double{FLT_MIN})
+                refuse_small_cost("triangle " + std::to_string(t), costs[face]);
+    }
+}
+
+std::vector<double> face_costs(const Intake& intake, const geoidx_build_options& options,
+                               std::span<const double> own_lengths) {
     if (!options.face_costs) refuse_argument("metric is GEOIDX_METRIC_WEIGHTED, but face_costs is NULL");
-    return checked_face_costs(intake, face_costs_of(options));
+    std::vector<double> costs = checked_face_costs(intake, face_costs_of(options));
+    const std::vector<double> lengths = edge_lengths(intake.mesh);
+    require_costs_fit(intake, costs, own_lengths.empty() ? lengths : own_lengths);
+    return costs;
+}
+
+std::unique_ptr<Metric> make_weighted_metric(const geoidx_mesh& mesh, const Intake& intake,
+                                             const geoidx_build_options& options) {
+    check_points_per_edge(options.points_per_edge);
+    const std::vector<double> lengths = given_lengths(mesh, intake, options);
+    return std::make_unique<WeightedMetric>(intake.mesh, face_costs(intake, options, lengths),
+                                            options.points_per_edge, lengths);
 }
 
 // The sides of one of the caller's triangles, each opposite to a corner.
@@ -105,10 +142,7 @@ std::unique_ptr<Metric> make_metric(const geoidx_mesh& mesh, const Intake& intak
         return std::make_unique<CallbackMetric>(options.metric_callback, options.metric_user,
                                                 intake.id_of_vertex);
     case GEOIDX_METRIC_WEIGHTED:
-        check_points_per_edge(options.points_per_edge);
-        return std::make_unique<WeightedMetric>(intake.mesh, face_costs(intake, options),
-                                                options.points_per_edge,
-                                                given_lengths(mesh, intake, options));
+        return make_weighted_metric(mesh, intake, options);
     default:
         refuse_argument("metric " + std::to_string(options.metric) + " is not a GEOIDX_METRIC_*");
     }

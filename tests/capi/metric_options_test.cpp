@@ -108,6 +108,49 @@ TEST_CASE("face costs are validated") {
     refused(options, "points_per_edge");
 }
 
+TEST_CASE("costs are refused that leave a float nothing of a distance") {
+    const TestMesh mesh = grid(3, 3, 0);
+    const auto refused = [](const TestMesh& of, const geoidx_build_options& options, const std::string& who) {
+        const std::string detail = who + ", too small: distances would not fit a 32-bit float";
+        check_build_refused(of, options, GEOIDX_ERROR_LIMIT, detail.c_str());
+    };
+    std::vector<double> of_faces(mesh.triangles.size() / 3, 1);
+    of_faces[5] = 1e-39;
+    refused(mesh, weighted(of_faces), "triangle 5 has the cost 1e-39");
+    of_faces[5] = 1e-300;
+    refused(mesh, weighted(of_faces), "triangle 5 has the cost 1e-300");
+    TestMesh small = mesh; // whose sides times the cost are not even doubles
+    for (double& coordinate : small.positions) coordinate *= 1e-30;
+    refused(small, weighted(of_faces), "triangle 5 has the cost 1e-300");
+    const uint32_t vertices[] = {4, 1};
+    double of_edge = 1e-44;
+    auto options = build_options(GEOIDX_METRIC_EDGES);
+    options.edge_cost_count = 1;
+    options.edge_cost_vertices = vertices;
+    options.edge_costs = &of_edge;
+    refused(mesh, options, "the edge between vertices 1 and 4 has the cost 1e-44");
+}
+
+TEST_CASE("costs that a float can hold count, however small, and none is a cost, too") {
+    const TestMesh square = two_triangles(); // 0-1-2-3 around, diagonal 0-2
+    for (const uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
+        CAPTURE(engine);
+        const std::vector<double> of_faces(2, 1e-30);
+        auto faces = weighted(of_faces);
+        faces.engine = engine;
+        const auto by_faces = build(square, faces);
+        CHECK(sssd(by_faces.get(), 0, 1) == doctest::Approx(1e-30).epsilon(1e-3));
+        const uint32_t vertices[] = {0, 1, 1, 2};
+        const double costs[] = {0, 1e-30};
+        auto edges = build_options(GEOIDX_METRIC_EDGES);
+        edges.engine = engine;
+        edges.edge_cost_count = 2;
+        edges.edge_cost_vertices = vertices;
+        edges.edge_costs = costs;
+        CHECK(sssd(build(square, edges).get(), 1, 2) > 0);
+    }
+}
+
 TEST_CASE("a surface given by lengths is the surface that has them") {
     TestMesh mesh = hills(8, 7);
     const auto sides = sides_of(mesh);
