@@ -9,10 +9,24 @@ namespace {
 // A fixed array, so that reporting a lack of memory needs none.
 thread_local char last_error[1024] = "";
 
+bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
+
+// How many bytes of a text have room, without a part of a UTF-8 character at the end. Where that is no
+// character, which has four bytes at most, any byte may be the last one.
+size_t length_of_beginning(const char* text, size_t room) {
+    const size_t length = std::strlen(text);
+    if (length <= room) return length;
+    for (size_t cut = room; cut + 4 > room; --cut)
+        if (!continues_character(text[cut])) return cut;
+    return room;
+}
+
 }
 
 geoidx_status fail(geoidx_status status, const char* detail) noexcept {
-    std::strncpy(last_error, detail, sizeof last_error - 1);
+    const size_t length = length_of_beginning(detail, sizeof last_error - 1);
+    std::memmove(last_error, detail, length);
+    last_error[length] = '\0';
     return status;
 }
 

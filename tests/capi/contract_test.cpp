@@ -288,6 +288,21 @@ TEST_CASE("a detail longer than its buffer ends cleanly") {
     CHECK(std::string(geoidx_last_error()).size() < 200);
 }
 
+TEST_CASE("a detail longer than its buffer ends with a whole character") {
+    for (const std::string character : {"x", "é", "測", "\U0001D11E"})
+        for (size_t shift = 0; shift < character.size(); ++shift) {
+            CAPTURE(character);
+            CAPTURE(shift);
+            std::string path = "/nonexistent/" + std::string(shift, 'x');
+            while (path.size() < 5000) path += character;
+            geoidx* index = nullptr;
+            CHECK(geoidx_open(path.c_str(), nullptr, &index) == GEOIDX_ERROR_IO);
+            const std::string detail = geoidx_last_error();
+            CHECK(detail.size() > 1000);
+            CHECK(detail.ends_with(character));
+        }
+}
+
 TEST_CASE("an edge with three triangles is refused only where the options say so") {
     TestMesh mesh = two_triangles();
     mesh.add_triangle(0, 2, mesh.add_vertex(0, 0, 5));
