@@ -700,11 +700,12 @@ GEOIDX_API geoidx_status geoidx_query_nearest_targets(geoidx_query* query, uint3
 /* Farthest-point sampling: points[i] is the vertex that is farthest from the nearest of the 1 or more sources
  * and of the points before it, and distances[i] how far it is; of several that are as far, one whose choice
  * depends on the index alone. Vertices that cannot be reached are infinitely far, so that each component has
- * a point before any has two. Vertices that no triangle uses are never chosen, nor are two at one place.
- * *count is set to how many were found: point_count, unless there are fewer vertices. `points` and
- * `distances` have room for point_count; distances may be NULL. Each point after the first ones looks only at
- * what lies nearer to it than the farthest vertex. 4 bytes of the index's memory a vertex are taken during
- * the call, and 4 to 8 for the ids are kept. */
+ * a point before any has two. Vertices that no triangle uses are never chosen, nor are two at distance 0 of
+ * each other, as those at one place are, and those that edges without cost join. *count is set to how many
+ * were found: point_count, unless all other vertices are at distance 0 of a source or of a point. `points`
+ * and `distances` have room for point_count; distances may be NULL. Each point after the first ones looks
+ * only at what lies nearer to it than the farthest vertex. 4 bytes of the index's memory a vertex are taken
+ * during the call, and 4 to 8 for the ids are kept. */
 GEOIDX_API geoidx_status geoidx_query_farthest_points(geoidx_query* query, const uint32_t* sources,
                                                       uint32_t source_count, uint32_t point_count,
                                                       uint32_t* points, float* distances, uint32_t* count);

@@ -116,6 +116,29 @@ TEST_CASE("farthest points: all vertices but the source, and none twice") {
     CHECK(std::isinf(sampling.distances[0]));
 }
 
+TEST_CASE("farthest points: one of those that edges without cost join") {
+    constexpr uint32_t COLUMNS = 5, ROWS = 4;
+    const TestMesh mesh = grid(COLUMNS, ROWS, 0);
+    std::vector<uint32_t> along_rows;
+    for (uint32_t y = 0; y < ROWS; ++y)
+        for (uint32_t x = 0; x + 1 < COLUMNS; ++x)
+            along_rows.insert(along_rows.end(), {y * COLUMNS + x, y * COLUMNS + x + 1});
+    const std::vector<double> nothing(along_rows.size() / 2, 0);
+    for (const uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
+        CAPTURE(engine);
+        auto options = build_options(GEOIDX_METRIC_EDGES, 1);
+        options.engine = engine;
+        options.edge_cost_vertices = along_rows.data();
+        options.edge_costs = nothing.data();
+        options.edge_cost_count = static_cast<uint32_t>(nothing.size());
+        const Sampling sampling = farthest_points(build(mesh, options).get(), {3}, mesh.vertex_count());
+        std::vector<uint32_t> rows;
+        for (const uint32_t point : sampling.points) rows.push_back(point / COLUMNS);
+        std::ranges::sort(rows);
+        CHECK(rows == std::vector<uint32_t>{1, 2, 3});
+    }
+}
+
 TEST_CASE("farthest points: what is wrong is refused") {
     const TestMesh mesh = grid(5, 4, 0);
     const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 1));

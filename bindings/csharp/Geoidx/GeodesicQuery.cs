@@ -71,7 +71,10 @@ namespace Geoidx
         /// As long as <paramref name="points"/>, or empty; takes how far each point is, in the mesh's unit, infinite
         /// if it is the first one of a component.
         /// </param>
-        /// <returns>How many points there are: fewer than there is room for only if no vertex is left.</returns>
+        /// <returns>
+        /// How many points there are: fewer than there is room for only if all other vertices are at distance 0 of
+        /// one.
+        /// </returns>
         /// <exception cref="GeodesicArgumentException">A source or the number of distances is wrong.</exception>
         public unsafe int FarthestPoints(
             ReadOnlySpan<int> sources, Span<int> points, Span<float> distances = default)
