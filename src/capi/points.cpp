@@ -21,9 +21,9 @@ void check_weights(const geoidx_surface_point& point, double sum, const std::str
 // Weights that are rounding put a point on an edge, or at a corner. Points that the library gave come back
 // with the same bits.
 std::array<double, 3> scaled_weights(const geoidx_surface_point& point) {
-    constexpr double NEGLIGIBLE = 1e-12, ROUNDING = 1e-15;
+    constexpr double ROUNDING = 1e-15;
     std::array<double, 3> weights;
-    for (size_t k = 0; k < 3; ++k) weights[k] = point.weights[k] < NEGLIGIBLE ? 0 : point.weights[k];
+    for (size_t k = 0; k < 3; ++k) weights[k] = point.weights[k] < NEGLIGIBLE_WEIGHT ? 0 : point.weights[k];
     const double sum = weights[0] + weights[1] + weights[2];
     const bool is_at_corner = std::ranges::count(weights, 0.0) == 2;
     if (is_at_corner || std::abs(sum - 1) > ROUNDING)

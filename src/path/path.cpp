@@ -29,7 +29,8 @@ SurfacePath path_of_strip(const Surface& surface, const Strip& strip, const Stri
     points.reserve(strip.portals.size() + 2);
     points.push_back(strip.source);
     for (size_t i = 0; i < strip.portals.size(); ++i)
-        add_point(surface, point_at(surface, strip.faces[i + 1], strip.portals[i], path.shares[i]), points);
+        add_point(surface, passed_point(surface, strip.faces[i + 1], strip.portals[i], path.shares[i]),
+                  points);
     add_point(surface, strip.target, points);
     return path_of_points(std::move(points), strip.target,
                           [&](const auto& all, size_t i) { return distance_to_next(surface, all, i); });

@@ -48,6 +48,10 @@ struct Surface {
 
 Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point);
 
+// Weights less than this count as 0, of points that callers give and of those that they get: what they get
+// and give back is the same point, on the same edges and vertices.
+inline constexpr double NEGLIGIBLE_WEIGHT = 1e-12;
+
 // The corner of a face that a vertex is, or NONE.
 inline uint32_t corner_of(const Surface& surface, uint32_t face, uint32_t vertex) {
     for (uint32_t k = 0; k < 3; ++k)

@@ -2,6 +2,7 @@
 
 #include "format/error.h"
 #include "geoidx.h"
+#include "src/path/nearby.h"
 
 namespace geodesic {
 
@@ -9,9 +10,14 @@ void no_path() {
     throw Error(GEOIDX_ERROR_NO_PATH, "no path joins the two points, as between different components");
 }
 
+SurfacePoint passed_point(const Surface& surface, uint32_t face, const Portal& portal, double share) {
+    if (share < NEGLIGIBLE_WEIGHT) return point_at(surface, face, portal, 0);
+    if (1 - share < NEGLIGIBLE_WEIGHT) return point_at(surface, face, portal, 1);
+    return point_at(surface, face, portal, share);
+}
+
 void add_point(const Surface& surface, const SurfacePoint& point, std::vector<SurfacePoint>& points) {
-    if (!points.empty() && position_of(surface, points.back()) == position_of(surface, point))
-        points.pop_back();
+    if (!points.empty() && is_same_point(surface, points.back(), point)) points.pop_back();
     points.push_back(point);
 }
 

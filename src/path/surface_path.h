@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "src/path/strip.h"
 #include "src/path/surface.h"
 
 namespace geodesic {
@@ -19,7 +20,12 @@ enum class PathQuality { STRAIGHT, EXACT };
 // Throws Error NO_PATH.
 [[noreturn]] void no_path();
 
-// Adds a point, but replaces one at the same place: the next piece lies in the face of the later one.
+// Where a path passes a portal, as the point of a face there that callers get.
+SurfacePoint passed_point(const Surface& surface, uint32_t face, const Portal& portal, double share);
+
+// Adds a point, but replaces the last one if it is the same point: the next piece lies in the face of the
+// later one. Different points at one place, as on two sides of a face without area, both stay, since pieces
+// to them lie in different faces.
 void add_point(const Surface& surface, const SurfacePoint& point, std::vector<SurfacePoint>& points);
 
 // The path over these points. If there is only one, the target is added, so that there are at least two.

@@ -128,9 +128,9 @@ SurfacePath WeightedPathFinder::path() const {
     for (size_t i = 0; i < strip.faces.size(); ++i) {
         const bool is_last = i == strip.portals.size();
         const SurfacePoint to =
-            is_last ? strip.target : point_at(surface_, strip.faces[i], strip.portals[i], shares[i]);
+            is_last ? strip.target : passed_point(surface_, strip.faces[i], strip.portals[i], shares[i]);
         add_point(surface_, in_cheapest_face(from, to), points);
-        if (!is_last) from = point_at(surface_, strip.faces[i + 1], strip.portals[i], shares[i]);
+        if (!is_last) from = passed_point(surface_, strip.faces[i + 1], strip.portals[i], shares[i]);
     }
     add_point(surface_, strip.target, points);
     return path_of_points(std::move(points), strip.target, [&](const auto& all, size_t i) {

@@ -37,6 +37,23 @@ inline geoidx_surface_options surface_options(const geoidx_build_options& build)
     return options;
 }
 
+// A sheet on which every second triangle is split from a point of its first edge, with a triangle without
+// area between that and the other side of the edge.
+inline Soup split_edges(uint32_t cells) {
+    Soup soup = grid(cells, cells, 1, 1);
+    for (Eigen::Vector3d& at : soup.positions) at.z() = 0.2 * at.x() * at.y();
+    const size_t count = soup.triangles.size();
+    for (size_t i = 0; i < count; i += 2) {
+        const auto [a, b, c] = soup.triangles[i];
+        const auto split = static_cast<uint32_t>(soup.positions.size());
+        soup.positions.push_back(0.3 * soup.positions[a] + 0.7 * soup.positions[b]);
+        soup.triangles[i] = {a, split, c};
+        soup.triangles.push_back({split, b, c});
+        soup.triangles.push_back({a, split, b});
+    }
+    return soup;
+}
+
 struct PathCase {
     explicit PathCase(Soup given, const geoidx_build_options& options = path_options())
         : soup(std::move(given)) {

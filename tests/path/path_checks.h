@@ -37,6 +37,17 @@ inline double distance_from_triangle(const Soup& soup, uint32_t triangle, const 
     return is_inside ? std::min(least, std::abs((at - corners[0]).dot(normal)) / normal.norm()) : least;
 }
 
+// Whether a point lies in a triangle by its weights: at corners of it, as those that lie at one place are.
+inline bool is_in_triangle(const Soup& soup, const geoidx_surface_point& point, uint32_t triangle) {
+    for (size_t k = 0; k < 3; ++k) {
+        const auto is_here = [&](uint32_t corner) {
+            return soup.positions[corner] == soup.positions[soup.triangles[point.triangle][k]];
+        };
+        if (point.weights[k] > 0 && std::ranges::none_of(soup.triangles[triangle], is_here)) return false;
+    }
+    return true;
+}
+
 // That it leads over triangles from one point to the other and is as long as it says: the sum of its pieces,
 // each times the cost of its triangle, if there are any.
 inline void check_path(const PathCase& on, const geoidx_surface_point& from, const geoidx_surface_point& to,
@@ -61,6 +72,7 @@ inline void check_path(const PathCase& on, const geoidx_surface_point& from, con
         CHECK((on.position(points[i].point) - at(i)).norm() < CLOSE);
         if (i + 1 == points.size()) break;
         CHECK(distance_from_triangle(on.soup, points[i].point.triangle, at(i + 1)) < 1e-8);
+        CHECK(is_in_triangle(on.soup, points[i + 1].point, points[i].point.triangle));
         sum += (cost.empty() ? 1 : cost[points[i].point.triangle]) * (at(i + 1) - at(i)).norm();
     }
     CHECK(sum == doctest::Approx(length).epsilon(1e-12));

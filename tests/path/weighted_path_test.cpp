@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tests/path/walks.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 
@@ -278,6 +279,19 @@ TEST_CASE("weighted path: steps lead along it to the target") {
                 const double length = of.length(from, to, GEOIDX_PATH_STRAIGHT);
                 for (const double share : {1.0, 0.6})
                     CHECK(walk(of.on, from, to, share, of.cost) == doctest::Approx(length).epsilon(1e-9));
+            }
+        }
+}
+
+// Their paths pass very near to vertices, and through several points at one place.
+TEST_CASE("weighted path: steps on long triangles and through ones without area end at the target") {
+    std::mt19937_64 random(2);
+    for (const Soup& soup : {split_edges(10), prism(64, 1, 100)})
+        for (size_t of_costs = 0; of_costs < 4; ++of_costs) {
+            const WeightedCase of(soup, random_costs(soup, random, 100), GEOIDX_ENGINE_OVERLAY);
+            for (size_t i = 0; i < 400; i += sparse(1)) {
+                const auto from = random_point(soup, random, i), to = random_point(soup, random, i / 4);
+                walk(of.on, from, to, 1, of.cost);
             }
         }
 }
