@@ -847,8 +847,9 @@ GEOIDX_API geoidx_status geoidx_query_prepare_target(geoidx_query* query, const 
  * other. Steps that begin where the one before ended lead to the target as GEOIDX_PATH_STRAIGHT does; at the
  * target both points are the same. *distance, how long the way is from `from` on, is 0 there; it may be NULL.
  * The first step takes as long as a path, whose triangles are kept. From any point of these a step takes a
- * few microseconds (by other metrics than GEOIDX_METRIC_EXACT from points of the path only); from elsewhere
- * a new path is found.
+ * few microseconds (by other metrics than GEOIDX_METRIC_EXACT from points of the path only); from elsewhere,
+ * and where the way over these triangles is longer than the index says that the target is away, a new path is
+ * found.
  * GEOIDX_ERROR_NO_PATH if the target is in another component; GEOIDX_ERROR_INVALID_ARGUMENT if none was
  * prepared. Where paths lead over vertices, steps do from corner to corner. `surface` is the one of the
  * target. */

@@ -35,8 +35,8 @@ bool is_between(const Eigen::Vector3d& begin, const Eigen::Vector3d& at, const E
 }
 
 // Makes the path begin at a point of the strip, and drops the faces before it. From a point on the path the
-// path stays as it is.
-void go_on_from(const Surface& surface, const StripPlace& place, StripWay& left) {
+// path stays as it is. Returns whether it does.
+bool go_on_from(const Surface& surface, const StripPlace& place, StripWay& left) {
     auto& [strip, path] = left;
     const size_t passed = place.face;
     const Eigen::Vector3d end = passed < strip.portals.size()
@@ -55,7 +55,18 @@ void go_on_from(const Surface& surface, const StripPlace& place, StripWay& left)
         path.length = length_of(surface, strip, path.shares);
     else
         left = straighten(surface, std::move(strip));
+    return is_on_path;
 }
+
+// Whether a way is longer than the index says that the target is away, by more than its errors mostly are.
+// From another point of a face that the path passes, the shortest way may leave over another edge.
+bool is_detour(const Index& index, Query& query, const Surface& surface, const StripWay& way) {
+    constexpr double ERROR = 0.01;
+    const float distance = PointQueries(index, query, surface).sssd(way.strip.source, way.strip.target);
+    return way.path.length > (1 + ERROR) * double{distance};
+}
+
+StripWay shorter(StripWay&& a, StripWay&& b) { return std::move(a.path.length <= b.path.length ? a : b); }
 
 // The first piece of the path that is longer than 0: several portals may lie where it begins.
 Step first_step(const Surface& surface, const StripWay& left) {
@@ -63,9 +74,9 @@ Step first_step(const Surface& surface, const StripWay& left) {
     Step step{strip.source, strip.target, path.length};
     const Eigen::Vector3d begin = position_of(surface, strip.source);
     for (size_t i = 0; i < strip.portals.size(); ++i) {
-        step.to = point_at(surface, strip.faces[i], strip.portals[i], path.shares[i]);
+        step.to = passed_point(surface, strip.faces[i], strip.portals[i], path.shares[i]);
         if (position_of(surface, step.to) != begin) return step;
-        step.from = point_at(surface, strip.faces[i + 1], strip.portals[i], path.shares[i]);
+        step.from = passed_point(surface, strip.faces[i + 1], strip.portals[i], path.shares[i]);
     }
     step.to = strip.target;
     return step;
@@ -108,6 +119,12 @@ Step step_on_path(const Index& index, Query& query, const Surface& surface, cons
         path = find_path(index, query, surface, from, walk.target, PathQuality::STRAIGHT);
         place = PiecePlace{path.points.front(), 0, 0};
     }
+    // Where several points of the path lie at one place, the last of them has a direction.
+    const auto position = [&](size_t i) { return position_of(surface, path.points[i]); };
+    for (size_t i = place->piece; i + 1 < path.pieces.size() && place->share == 0; ++i) {
+        if (position(i) != position(i + 1)) break;
+        place = PiecePlace{path.points[i + 1], i + 1, 0};
+    }
     double distance = -place->share * path.pieces[place->piece];
     for (size_t i = place->piece; i < path.pieces.size(); ++i) distance += path.pieces[i];
     const Step step{place->point, next_in_face(surface, path, place->piece), distance};
@@ -127,10 +144,13 @@ Step next_step(const Index& index, Query& query, const Surface& surface, const S
     if (index.description.metric != GEOIDX_METRIC_EXACT)
         return step_on_path(index, query, surface, from, walk);
     StripWay left = std::exchange(walk.left, {}); // lost if memory runs out on the way
-    if (const auto place = place_in_strip(surface, left.strip, from))
-        go_on_from(surface, *place, left);
-    else
-        left = find_straight_path(index, query, surface, from, walk.target);
+    const auto find = [&] { return find_straight_path(index, query, surface, from, walk.target); };
+    if (const auto place = place_in_strip(surface, left.strip, from)) {
+        if (!go_on_from(surface, *place, left) && is_detour(index, query, surface, left))
+            left = shorter(std::move(left), find());
+    } else {
+        left = find();
+    }
     const Step step = first_step(surface, left);
     walk.left = std::move(left);
     return step;

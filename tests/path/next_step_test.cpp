@@ -79,6 +79,31 @@ TEST_CASE("next step: the distance is that of the index, and other questions do 
     }
 }
 
+// From another point of a triangle, the shortest way may leave it over another edge.
+TEST_CASE("next step: from anywhere in the triangles on the way it is little longer than a path") {
+    std::mt19937_64 random(9);
+    for (const Soup& soup : {cube(1), cube(2), sphere(0), bumpy_sphere(1, 5), split_edges(4)}) {
+        const PathCase on(soup);
+        for (size_t i = 0; i < 60; ++i) {
+            const auto target = random_point(soup, random, 1);
+            prepare(on, target);
+            auto from = random_point(soup, random, 1);
+            for (size_t k = 0; k < 4; ++k) {
+                const Step step = step_from(on, from);
+                check_step(on, from, step);
+                double straight = 0;
+                require_success(geoidx_query_path(on.query.get(), on.surface.get(), &from, &target,
+                                                  GEOIDX_PATH_STRAIGHT, &straight));
+                CHECK(step.distance <= 1.05 * straight);
+                CHECK(step.distance >= on.exact(from, target) * (1 - 1e-7)); // split edges are rounded
+                const uint32_t triangle = step.points[1].point.triangle;
+                from = random_point(soup, random, 1);
+                from.triangle = triangle;
+            }
+        }
+    }
+}
+
 TEST_CASE("next step: from corner to corner where edges are the metric") {
     for (const uint32_t engine : {GEOIDX_ENGINE_OVERLAY, GEOIDX_ENGINE_GRAPH}) {
         const PathCase on(jittered_grid(9, 2), path_options(engine, GEOIDX_METRIC_EDGES));
