@@ -136,6 +136,7 @@ namespace Geoidx.Tests
             ("Delta is Infinity,", () => Build(new BuildOptions { Delta = double.PositiveInfinity })),
             ("Delta is -Infinity,", () => Build(new BuildOptions { Delta = double.NegativeInfinity })),
             ("Delta is 200", () => Build(new BuildOptions { Delta = 200 })),
+            ("Delta is 4.2949672e+09", () => Build(new BuildOptions { Delta = 4294967200.0 })),
             ("Rounding is NaN,", () => Build(new BuildOptions { Rounding = double.NaN })),
             ("Rounding is 1.5", () => Build(new BuildOptions { Rounding = 1.5 })),
             ("Rounding is -1", () => Build(new BuildOptions { Rounding = -1 })),
@@ -160,7 +161,7 @@ namespace Geoidx.Tests
                 {
                     Metric = MetricKind.Weighted, FaceCosts = new[] { 1.0, 1.0 }, PointsPerEdge = 1001,
                 })),
-            ("the cost -4294967295.0",
+            ("the cost -4.2949673e+09",
                 () => Build(new BuildOptions { Metric = MetricKind.Weighted, FaceCosts = new[] { -4294967295.0, 1 } })),
             ("Metric -1 is not a MetricKind",
                 () => new GeodesicSolver(Shapes.Square(), new BuildOptions { Metric = (MetricKind)(-1) })),
