@@ -575,7 +575,7 @@ static inline void geoidx_surface_options_init(geoidx_surface_options* options) 
  * bytes a vertex of a closed mesh, and some 60 for each triangle of planes that are cut into slivers, from
  * the global heap, and no more for any number of threads. A query takes a surface of the mesh that its index
  * was built from; GEOIDX_ERROR_MESH_MISMATCH for another one, GEOIDX_ERROR_INVALID_ARGUMENT for one that is
- * welded differently. To be closed with geoidx_surface_close. */
+ * welded to more or fewer vertices. To be closed with geoidx_surface_close. */
 GEOIDX_API geoidx_status geoidx_surface_create(const geoidx_mesh* mesh, const geoidx_surface_options* options,
                                                geoidx_surface** out);
 GEOIDX_API void geoidx_surface_close(geoidx_surface* surface);
@@ -702,7 +702,7 @@ GEOIDX_API geoidx_status geoidx_query_nearest_targets(geoidx_query* query, uint3
  * depends on the index alone. Vertices that cannot be reached are infinitely far, so that each component has
  * a point before any has two. Vertices that no triangle uses are never chosen, nor are two at distance 0 of
  * each other, as those at one place are, and those that edges without cost join. *count is set to how many
- * were found: point_count, unless all other vertices are at distance 0 of a source or of a point. `points`
+ * were found: point_count, unless all other vertices of triangles are at distance 0 of these. `points`
  * and `distances` have room for point_count; distances may be NULL. Each point after the first ones looks
  * only at what lies nearer to it than the farthest vertex. 4 bytes of the index's memory a vertex are taken
  * during the call, and 4 to 8 for the ids are kept. */
@@ -741,10 +741,10 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
 
 /* geoidx_query_sssd between points of the surface, symmetric bit for bit. Of points at vertices it gives the
  * same bits. By GEOIDX_METRIC_EXACT, points of one triangle are as far apart as the straight line between
- * them is long, and so are those of triangles that share an edge which that line crosses, or a corner around
- * which it leads over the triangles between the two, unless the index knows a much shorter way; others are to
- * the accuracy of the index. By either metric, points of triangles that share a corner are no farther apart
- * than the way over it is long. +INFINITY where there is no path. */
+ * them is long, and so are those of triangles that share an edge which that line crosses, unless the index
+ * knows a much shorter way; others are to the accuracy of the index. Points of triangles that share a corner
+ * are no farther apart than the way over it is long and, by GEOIDX_METRIC_EXACT, than a straight line around
+ * it over the triangles between the two. +INFINITY where there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* source,
                                                  const geoidx_surface_point* target, float* distance);
@@ -860,8 +860,8 @@ GEOIDX_API geoidx_status geoidx_query_next_step(geoidx_query* query, const geoid
 /* ---- Distances without an index
  * ------------------------------------------------------------------------------ */
 
-/* A mesh and a metric, ready to compute. Of the options, metric and its parameters and weld_tolerance count;
- * options may be NULL. To be closed with geoidx_solver_close. */
+/* A mesh and a metric, ready to compute. Of the options, metric and its parameters and weld_tolerance count,
+ * with the same limits; options may be NULL. To be closed with geoidx_solver_close. */
 GEOIDX_API geoidx_status geoidx_solver_create(const geoidx_mesh* mesh, const geoidx_build_options* options,
                                               geoidx_solver** out);
 GEOIDX_API void geoidx_solver_close(geoidx_solver* solver);

@@ -58,7 +58,7 @@ bool go_on_from(const Surface& surface, const StripPlace& place, StripWay& left)
     return is_on_path;
 }
 
-// Whether a way is longer than the index says that the target is away, by more than its errors mostly are.
+// Whether a way is longer than the index says that the target is away, by more than most of its errors.
 // From another point of a face that the path passes, the shortest way may leave over another edge.
 bool is_detour(const Index& index, Query& query, const Surface& surface, const StripWay& way) {
     constexpr double ERROR = 0.01;

@@ -25,25 +25,28 @@ FacePoint PointQueries::face_point_of(const SurfacePoint& point) const {
 }
 
 // The distance of two points, by what the index says of it. No way is shorter than the straight line in
-// space, and the distance no longer than the way over a corner that their faces share: the tables of an index
-// round what is far shorter than an edge. The straight line over the faces counts even where the index, to
-// its accuracy, says that there is a shorter way. Much shorter ways are there: around a needle that stands
-// between two faces.
+// space. The straight line over the faces counts even where the index, to its accuracy, says that there is a
+// shorter way. Much shorter ways are there: around a needle that stands between two faces.
 float PointQueries::with_straight_way(const SurfacePoint& source, const SurfacePoint& target,
                                       float distance) const {
     constexpr double MUCH_SHORTER = 0.95;
     if (is_same_point(surface_, source, target)) return 0;
-    const double straight = unfolds() ? std::min({straight_nearby(surface_, source, target),
-                                                  straight_in_plane(surface_, source, target),
-                                                  straight_around_any_corner(surface_, source, target)})
+    const double straight = unfolds() ? std::min(straight_nearby(surface_, source, target),
+                                                 straight_in_plane(surface_, source, target))
                                       : UNREACHABLE;
     if (straight < UNREACHABLE && source.face == target.face) return static_cast<float>(straight);
-    const double bent =
-        unfolds() ? over_any_corner(surface_, source, target) : over_corner(surface_, source, target);
-    distance = std::min(distance, static_cast<float>(bent));
+    distance = std::min(distance, static_cast<float>(way_around_corner(source, target)));
     const double chord = (position_of(surface_, source) - position_of(surface_, target)).norm();
     distance = std::max(distance, static_cast<float>(chord));
     return double{distance} < MUCH_SHORTER * straight ? distance : static_cast<float>(straight);
+}
+
+// The length of a way around a corner that the faces of two points share, or over it. Tables of an index
+// round what is far shorter than an edge, so that near a corner they say more.
+double PointQueries::way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const {
+    return unfolds() ? std::min(over_any_corner(surface_, source, target),
+                                straight_around_any_corner(surface_, source, target))
+                     : over_corner(surface_, source, target);
 }
 
 float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target) {

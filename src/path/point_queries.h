@@ -46,6 +46,7 @@ private:
     void add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
                         std::vector<Query::KnownWay>& known) const;
     float with_straight_way(const SurfacePoint& source, const SurfacePoint& target, float distance) const;
+    double way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const;
 
     const Index& index_;
     Query& query_;
