@@ -50,14 +50,15 @@ std::vector<double> edge_costs(const Intake& intake, const geoidx_build_options&
     return costs;
 }
 
-// Sides that are too short for a float by themselves are no matter of what they cost.
+// `costs` are those of the caller's triangles. Sides that are too short for a float by themselves are left
+// out: no cost is to blame for these.
 void require_costs_fit(const Intake& intake, std::span<const double> costs, std::span<const double> lengths) {
     for (uint64_t t = 0; t < intake.face_of_triangle.size(); ++t) {
         const uint32_t face = intake.face_of_triangle[t];
         if (face == NONE) continue;
         for (const uint32_t edge : intake.mesh.face_edges[face])
-            if (lengths[edge] >= double{FLT_MIN} && costs[face] * lengths[edge] < double{FLT_MIN})
-                refuse_small_cost("triangle " + std::to_string(t), costs[face]);
+            if (lengths[edge] >= double{FLT_MIN} && costs[t] * lengths[edge] < double{FLT_MIN})
+                refuse_small_cost("triangle " + std::to_string(t), costs[t]);
     }
 }
 
@@ -65,8 +66,8 @@ std::vector<double> face_costs(const Intake& intake, const geoidx_build_options&
                                std::span<const double> own_lengths) {
     if (!options.face_costs) refuse_argument("metric is GEOIDX_METRIC_WEIGHTED, but face_costs is NULL");
     std::vector<double> costs = checked_face_costs(intake, face_costs_of(options));
-    const std::vector<double> lengths = edge_lengths(intake.mesh);
-    require_costs_fit(intake, costs, own_lengths.empty() ? lengths : own_lengths);
+    require_costs_fit(intake, {options.face_costs, intake.face_of_triangle.size()},
+                      own_lengths.empty() ? edge_lengths(intake.mesh) : own_lengths);
     return costs;
 }
 
