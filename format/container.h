@@ -184,11 +184,11 @@ private:
 // there. Nothing is checked.
 bool names_section(std::span<const std::byte> start, std::uint32_t tag);
 
-// What the header states. Throws as Container::parse does if it has a problem that the first bytes of a file
-// show, all that there are or the first 48 at least, and its size, where it is known: of the magic, the
-// version, the flags, or the sizes.
+// The size of a file as its header states it. `start` has the first 48 bytes of the file or more, or all of a
+// shorter one. Throws as Container::parse does if the magic, the version, the flags or the sizes are wrong;
+// the size is compared with `file_size` where that is known.
 std::uint64_t checked_file_size(std::span<const std::byte> start, std::optional<std::uint64_t> file_size);
-// Whether it has none.
+// Whether checked_file_size() would not throw.
 bool has_valid_header(std::span<const std::byte> start, std::optional<std::uint64_t> file_size);
 
 // Every problem that Container::parse would throw, and those behind it: after a problem that leaves the rest

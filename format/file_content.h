@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,6 +19,7 @@ namespace geodesic::format {
 template <class ReadSome>
 void append_from(const ReadSome& read_some, std::uint64_t count, std::vector<std::byte>& content) {
     std::size_t filled = content.size();
+    if (count > content.max_size() - filled) throw std::bad_alloc();
     content.resize(filled + static_cast<std::size_t>(count));
     while (filled < content.size()) {
         const std::size_t step = read_some(std::span(content).subspan(filled));

@@ -11,8 +11,8 @@ thread_local char last_error[1024] = "";
 
 bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
 
-// How many bytes of a text have room, without a part of a UTF-8 character at the end. Where that is no
-// character, which has four bytes at most, any byte may be the last one.
+// How many bytes of a text have room, without a part of a UTF-8 character at the end. If the last four bytes
+// are no such character, the text is cut anywhere.
 size_t length_of_beginning(const char* text, size_t room) {
     const size_t length = std::strlen(text);
     if (length <= room) return length;

@@ -11,8 +11,9 @@ namespace geodesic {
 namespace {
 
 // A border has about WANTED samples, but no more than MOST_SHARE of its vertices and no fewer than
-// LEAST_SHARE of them. A chain has FEWEST_OF_CHAIN samples or more, or all of its vertices if these are
-// fewer: where nothing unfolds, each vertex is a chain by itself.
+// LEAST_SHARE of them; and up to twice as many where its edges are longer in some places than in others. A
+// chain has FEWEST_OF_CHAIN samples or more, or all of its vertices if these are fewer: where nothing
+// unfolds, each vertex is a chain by itself.
 constexpr double WANTED = 64, MOST_SHARE = 1.0 / 2, LEAST_SHARE = 1.0 / 10;
 constexpr uint32_t FEWEST_OF_CHAIN = 3;
 
@@ -66,8 +67,8 @@ public:
     }
 
 private:
-    // How far samples are to be apart at the most: a share of them of all vertices, and the spacing. Where
-    // edges are longer than elsewhere on a border, the spacing counts.
+    // How many samples are wanted along a piece of a border: `share` for each vertex, or one for each
+    // `spacing` of length, whichever is more.
     struct Apart {
         double share, spacing;
     };

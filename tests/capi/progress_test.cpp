@@ -70,6 +70,7 @@ TEST_CASE("progress goes on while large errors are looked for") {
     build(rough_sheet(40, 16), options);
     CHECK(std::ranges::is_sorted(log.fractions));
     CHECK(log.fractions.back() == 1);
+    // The search has more rounds than that, and tells of each.
     const std::set<float> different(log.fractions.begin(), log.fractions.end());
     CHECK(std::ranges::count_if(different, [](float fraction) { return fraction > LOOKING_BEGINS; }) >= 5);
 }

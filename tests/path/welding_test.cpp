@@ -30,7 +30,7 @@ void check_all_refused(const PathCase& on, const geoidx_surface* surface) {
     float distance = 0;
     std::vector<float> distances(on.soup.vertex_count());
     const auto check = [](geoidx_status status) {
-        check_refused(status, GEOIDX_ERROR_INVALID_ARGUMENT, "they differ in weld_tolerance");
+        check_refused(status, GEOIDX_ERROR_INVALID_ARGUMENT, "different vertices");
     };
     check(geoidx_query_path(on.query.get(), surface, &from, &to, GEOIDX_PATH_STRAIGHT, &length));
     check(geoidx_query_point_sssd(on.query.get(), surface, &from, &to, &distance));

@@ -62,7 +62,8 @@ Solver solver_like(const geoidx& index, const SssdArguments& arguments, const Tr
     return make_solver(mesh, arguments.exact_mesh, options);
 }
 
-// A solver does not tell how many vertices it has; a surface that is welded as it is gets refused for them.
+// A solver does not tell how many vertices it has, so a surface with the same tolerance is made: queries
+// refuse it if it has another number of them than the index.
 void require_same_welding(const geoidx& index, const SssdArguments& arguments, const TriangleMesh& mesh) {
     const Surface surface = make_surface(mesh, arguments.exact_mesh, arguments.weld_tolerance);
     const Query query = make_query(index, arguments.index);

@@ -72,8 +72,8 @@ namespace Geoidx
         /// if it is the first one of a component.
         /// </param>
         /// <returns>
-        /// How many points there are: fewer than there is room for only if all other vertices are at distance 0 of
-        /// one.
+        /// How many points there are: fewer than there is room for only if all other vertices are at distance 0 of a
+        /// source or of a point.
         /// </returns>
         /// <exception cref="GeodesicArgumentException">A source or the number of distances is wrong.</exception>
         public unsafe int FarthestPoints(

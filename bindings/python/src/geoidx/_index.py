@@ -415,7 +415,7 @@ class Index(Closable):
         """Farthest-point sampling: (count,) vertices, each the farthest from the sources and from those before it.
 
         sources: a vertex or (k,) of them, at least one; they are not among the points. Components that no source lies
-        in come first. There are fewer points only if all other vertices are at distance 0 of one.
+        in come first. There are fewer points only if all others are at distance 0 of these.
         """
         with self.query() as query:
             return query.farthest_points(count, sources=sources)
