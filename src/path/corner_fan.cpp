@@ -4,14 +4,14 @@
 
 #include <Eigen/Geometry>
 
+#include "src/path/unfolded_face.h"
+
 namespace geodesic {
 
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // The only other face at the edge between two vertices of a face, or NONE. There are fewer faces to look at
 // around one end than around the hub of a wheel.

@@ -5,6 +5,7 @@
 
 #include "src/base/plane.h"
 #include "src/path/corner_fan.h"
+#include "src/path/face_points.h"
 
 namespace geodesic {
 
@@ -49,10 +50,6 @@ double least_of_aliases(const Surface& surface, const SurfacePoint& a, const Sur
     return least;
 }
 
-bool is_at(const Surface& surface, const SurfacePoint& point, uint32_t vertex) {
-    return point.weights[corner_of(surface, point.face, vertex)] == 1;
-}
-
 // Of the corners that their faces share.
 template <class Length>
 double least_of_corners(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b,
@@ -89,9 +86,10 @@ double over_any_corner(const Surface& surface, const SurfacePoint& a, const Surf
 double straight_around_any_corner(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
     return least_of_aliases(surface, a, b, [&](const SurfacePoint& from, const SurfacePoint& to) {
         if (from.face == to.face) return UNREACHABLE;
+        const uint32_t here = vertex_at(surface, from), there = vertex_at(surface, to);
         return least_of_corners(surface, from, to, [&](uint32_t corner) {
-            const bool is_at_corner = is_at(surface, from, corner) || is_at(surface, to, corner);
-            return is_at_corner ? UNREACHABLE : straight_around(surface, from, to, corner);
+            const bool is_end = corner == here || corner == there;
+            return is_end ? UNREACHABLE : straight_around(surface, from, to, corner);
         });
     });
 }

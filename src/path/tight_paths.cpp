@@ -11,8 +11,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // Of a share that is that of an end but for rounding, or beyond it, the share of that end: what begins there
 // begins in all faces at the vertex.
 double at_end_if_close(double share) {

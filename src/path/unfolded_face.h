@@ -12,6 +12,11 @@
 
 namespace geodesic {
 
+// Twice the area of the triangle that two vectors of the plane span, positive where b is to the left of a.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
+
 // A vertex, and where it is in the plane.
 struct PlacedVertex {
     uint32_t vertex;
