@@ -26,30 +26,38 @@ OpenedFile open_to_read(const std::string& path) {
     return file;
 }
 
-std::string read_block(std::FILE* file) {
-    std::string block(BLOCK, '\0');
-    block.resize(std::fread(block.data(), 1, block.size(), file));
+// Returns whether there was more of the file.
+bool append_block(std::FILE* file, std::string& bytes) {
+    const size_t before = bytes.size();
+    bytes.resize(before + BLOCK);
+    bytes.resize(before + std::fread(bytes.data() + before, 1, BLOCK, file));
     if (std::ferror(file)) throw std::runtime_error(std::string("cannot be read: ") + std::strerror(errno));
-    return block;
+    return bytes.size() > before;
 }
 
 // Read to the end instead of asking for the size, which a pipe does not know.
-std::string read_to_the_end(std::FILE* file) {
-    std::string bytes;
-    for (std::string block = read_block(file); !block.empty(); block = read_block(file)) bytes += block;
-    return bytes;
+void append_rest(std::FILE* file, std::string& bytes) {
+    while (append_block(file, bytes)) {
+    }
 }
 
 }
 
-std::string read_file(const std::string& path) { return read_to_the_end(open_to_read(path).get()); }
+std::string read_file(const std::string& path) {
+    return read_file_if(path, [](const std::string&) { return true; });
+}
 
 std::string read_file_if(const std::string& path, const std::function<bool(const std::string&)>& goes_on) {
     const OpenedFile file = open_to_read(path);
-    const std::string start = read_block(file.get());
-    return goes_on(start) ? start + read_to_the_end(file.get()) : start;
+    std::string bytes;
+    if (append_block(file.get(), bytes) && goes_on(bytes)) append_rest(file.get(), bytes);
+    return bytes;
 }
 
-std::string read_standard_input() { return read_to_the_end(stdin); }
+std::string read_standard_input() {
+    std::string bytes;
+    append_rest(stdin, bytes);
+    return bytes;
+}
 
 }
