@@ -54,29 +54,25 @@ void check_matrix(const geoidx* index, const Ids& sources, const Ids& targets) {
 }
 
 TEST_CASE("matrix: each entry is that of a single question") {
-    for (const auto& [name, mesh] : mesh_zoo())
-        for (const uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
-            auto options = build_options(GEOIDX_METRIC_EXACT, 2);
-            options.engine = engine;
-            const QueryCase test{name + ", matrix, engine " + std::to_string(engine), mesh, options};
-            CAPTURE(test.name);
-            const geoidx* index = index_of(test);
-            const uint32_t count = mesh.vertex_count();
-            for (const auto& [sources, targets] :
-                 {std::pair{1u, 1u}, {1u, 30u}, {30u, 1u}, {3u, 20u}, {11u, 35u}, {35u, 18u}})
-                check_matrix(index, spread_ids(count, sources), spread_ids(count, targets, 3));
-        }
+    for (const QueryCase& test : exact_cases({2})) {
+        CAPTURE(test.name);
+        const geoidx* index = index_of(test);
+        const uint32_t count = test.mesh.vertex_count();
+        for (const auto& [sources, targets] :
+             {std::pair{1u, 1u}, {1u, 30u}, {30u, 1u}, {3u, 20u}, {11u, 35u}, {35u, 18u}})
+            check_matrix(index, spread_ids(count, sources), spread_ids(count, targets, 3));
+    }
 }
 
 TEST_CASE("matrix: pairs where few targets are asked for on a mesh of some size") {
-    const TestMesh mesh = grid(60, 50, 0.3);
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
+    const QueryCase test = case_of_some_size(build_options(GEOIDX_METRIC_EXACT, 2));
+    const geoidx* index = index_of(test);
+    const uint32_t count = test.mesh.vertex_count();
     for (const uint32_t targets : {1u, 2u, 6u, 8u, 40u})
         for (const uint32_t sources : {1u, 2u, 9u, 40u})
-            check_matrix(index.get(), spread_ids(mesh.vertex_count(), sources),
-                         spread_ids(mesh.vertex_count(), targets, 11));
-    const Ids few = spread_ids(mesh.vertex_count(), 6);
-    check_matrix(index.get(), few, few);
+            check_matrix(index, spread_ids(count, sources), spread_ids(count, targets, 11));
+    const Ids few = spread_ids(count, 6);
+    check_matrix(index, few, few);
 }
 
 TEST_CASE("matrix: vertices that no triangle uses, and those that were welded") {

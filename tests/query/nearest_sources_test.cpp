@@ -53,34 +53,24 @@ void check_nearest(const geoidx* index, const Ids& sources, double tolerance) {
 }
 
 TEST_CASE("nearest sources: no other source is nearer") {
-    for (const auto& [name, mesh] : mesh_zoo())
-        for (const uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY})
-            for (const uint32_t levels : {1u, 2u}) {
-                auto options = build_options(GEOIDX_METRIC_EXACT, levels);
-                options.engine = engine;
-                const QueryCase test{name + ", nearest sources, engine " + std::to_string(engine) + ", " +
-                                         std::to_string(levels),
-                                     mesh, options};
-                CAPTURE(test.name);
-                const geoidx* index = index_of(test);
-                const uint32_t count = mesh.vertex_count();
-                const double tolerance = engine == GEOIDX_ENGINE_GRAPH ? ROUNDING : 0.02;
-                check_nearest(index, {count / 2}, 0);
-                check_nearest(index, {0, count - 1}, tolerance);
-                Ids many;
-                for (uint32_t i = 0; i < 9; ++i) many.push_back((i * 31) % count);
-                check_nearest(index, many, tolerance);
-            }
+    for (const QueryCase& test : exact_cases({1, 2})) {
+        CAPTURE(test.name);
+        const geoidx* index = index_of(test);
+        const uint32_t count = test.mesh.vertex_count();
+        const double tolerance = test.options.engine == GEOIDX_ENGINE_GRAPH ? ROUNDING : 0.02;
+        check_nearest(index, {count / 2}, 0);
+        check_nearest(index, {0, count - 1}, tolerance);
+        Ids many;
+        for (uint32_t i = 0; i < 9; ++i) many.push_back((i * 31) % count);
+        check_nearest(index, many, tolerance);
+    }
 }
 
 TEST_CASE("nearest sources: default options, and a bumpy mesh of some size") {
-    const TestMesh mesh = grid(60, 50, 0.4);
-    geoidx_build_options options;
-    geoidx_build_options_init(&options);
-    const auto index = build(mesh, options);
+    const QueryCase test = case_of_some_size(default_options());
     Ids sources;
-    for (uint32_t i = 0; i < 64; ++i) sources.push_back((i * 7919) % mesh.vertex_count());
-    check_nearest(index.get(), sources, 0.02);
+    for (uint32_t i = 0; i < 64; ++i) sources.push_back((i * 7919) % test.mesh.vertex_count());
+    check_nearest(index_of(test), sources, 0.02);
 }
 
 TEST_CASE("nearest sources: none in a component that has none, whichever vertices they are") {

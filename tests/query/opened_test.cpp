@@ -8,22 +8,21 @@
 using namespace geodesic::test;
 
 TEST_CASE("opened: every answer is that of the index as built, bit for bit") {
-    for (const TestMesh& mesh : {hills(40, 40), torus(60, 30), grid(45, 33, 0.25)}) {
-        auto options = build_options(GEOIDX_METRIC_EXACT, 3);
-        options.engine = GEOIDX_ENGINE_OVERLAY;
-        const auto built = build(mesh, options);
-        const auto opened = open(save(built.get()));
-        const uint32_t count = mesh.vertex_count();
+    for (const QueryCase& test : overlays_of_some_size()) {
+        CAPTURE(test.name);
+        const geoidx* built = index_of(test);
+        const auto opened = open(save(built));
+        const uint32_t count = test.mesh.vertex_count();
         uint64_t different = 0;
         for (uint32_t source = 0; source < count; source += sparse(7)) {
-            const auto a = msad(built.get(), source, count), b = msad(opened.get(), source, count);
+            const auto a = msad(built, source, count), b = msad(opened.get(), source, count);
             different += std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) != 0;
         }
         std::mt19937 random(3);
         for (uint32_t pair = 0; pair < 30000; pair += sparse(1)) {
             const uint32_t a = static_cast<uint32_t>(random() % count),
                            b = static_cast<uint32_t>(random() % count);
-            different += sssd(built.get(), a, b) != sssd(opened.get(), a, b);
+            different += sssd(built, a, b) != sssd(opened.get(), a, b);
         }
         CHECK(different == 0);
     }

@@ -18,16 +18,19 @@ geoidx_build_options overlay_options(uint32_t metric, uint32_t levels, uint32_t 
     return options;
 }
 
-// The zoo with tables that are all the metric's own, and with tables that are put together.
+// The zoo with tables that are all the metric's own, and with tables that are put together. With a sanitizer,
+// those have one level and these have three.
 std::vector<QueryCase> overlay_cases(uint32_t metric) {
     std::vector<QueryCase> cases;
     for (const auto& [name, mesh] : mesh_zoo())
         for (uint32_t levels : {1u, 3u})
-            for (uint32_t exact_vertices : {1u, 1000000u})
+            for (uint32_t exact_vertices : {1u, 1000000u}) {
+                if (SANITIZED && (levels == 3) == (exact_vertices > 1)) continue;
                 cases.push_back({name + ", overlay, metric " + std::to_string(metric) + ", " +
                                      std::to_string(levels) + " levels, exact to " +
                                      std::to_string(exact_vertices),
                                  mesh, overlay_options(metric, levels, exact_vertices)});
+            }
     return cases;
 }
 
@@ -118,15 +121,15 @@ TEST_CASE("overlay: distances along edges are the metric's, but for the codes") 
     for (const QueryCase& test : overlay_cases(GEOIDX_METRIC_EDGES)) {
         CAPTURE(test.name);
         const uint32_t count = test.mesh.vertex_count();
-        const auto index = build(test.mesh, test.options);
+        const geoidx* index = index_of(test);
         const auto metric = solver(test.mesh, test.options);
         uint64_t wrong = 0;
         for (uint32_t source : {0u, count / 3, count - 1}) {
             const auto expected = metric_distances(metric.get(), source, count);
             const double rounding = 1e-3 * longest(expected);
-            const auto field = msad(index.get(), source, count);
+            const auto field = msad(index, source, count);
             for (uint32_t target = 0; target < count; ++target) {
-                const double pair = double{sssd(index.get(), source, target)};
+                const double pair = double{sssd(index, source, target)};
                 for (double answer : {double{field[target]}, pair})
                     wrong += !is_within(rounding, answer, expected[target]);
             }
@@ -136,7 +139,7 @@ TEST_CASE("overlay: distances along edges are the metric's, but for the codes") 
 }
 
 TEST_CASE("overlay: a vertex far from all borders finds its way as MSAD does") {
-    constexpr uint32_t SIDE = 40, TIP = 20 * SIDE + 20, COUNT = SIDE * SIDE;
+    constexpr uint32_t SIDE = smaller(40, 24), TIP = SIDE / 2 * (SIDE + 1), COUNT = SIDE * SIDE;
     TestMesh mesh = grid(SIDE, SIDE);
     mesh.positions[3 * TIP + 2] = 3000; // a needle: far longer than the mesh is wide
     for (uint32_t metric : {GEOIDX_METRIC_EDGES, GEOIDX_METRIC_EXACT}) {
@@ -329,11 +332,11 @@ TEST_CASE("overlay: several sources are the nearest of them") {
     for (const QueryCase& test : overlay_cases(GEOIDX_METRIC_EDGES)) {
         CAPTURE(test.name);
         const uint32_t count = test.mesh.vertex_count();
-        const auto index = build(test.mesh, test.options);
+        const geoidx* index = index_of(test);
         const auto metric = solver(test.mesh, test.options);
         const std::vector<uint32_t> sources{count / 2, 0, count - 1, count / 2};
         const auto expected = metric_distances(metric.get(), sources, count);
-        const auto field = msad(index.get(), sources, count);
+        const auto field = msad(index, sources, count);
         uint64_t wrong = 0;
         const double rounding = 1e-3 * longest(expected);
         for (uint32_t target = 0; target < count; ++target)
@@ -448,7 +451,7 @@ TEST_CASE("overlay: SSSD on a stretched plane") {
     const QueryHandle query = query_of(index.get());
     Differences errors;
     for (uint32_t source = 0; source < count; source += sparse(7))
-        for (uint32_t target = 0; target < count; ++target) {
+        for (uint32_t target = 0; target < count; target += sparse(1)) {
             float distance = 0;
             require_success(geoidx_query_sssd(query.get(), source, target, &distance));
             errors.add(double{distance}, mesh.straight(source, target));

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "tests/capi/calls.h"
+#include "tests/support/sanitized.h"
 
 namespace geodesic::test {
 
@@ -12,20 +13,55 @@ struct QueryCase {
     geoidx_build_options options;
 };
 
+// Named after the mesh and what the options may differ in.
+inline QueryCase query_case(const NamedMesh& named, const geoidx_build_options& options) {
+    return {named.name + (options.metric == GEOIDX_METRIC_EXACT ? ", exact" : ", edges") + ", engine " +
+                std::to_string(options.engine) + ", " + std::to_string(options.level_count) +
+                " levels, delta " + std::to_string(options.delta),
+            named.mesh, options};
+}
+
 // Every mesh of the zoo with both metrics, 1 to 3 levels, without and with pruning.
 inline std::vector<QueryCase> query_cases() {
     std::vector<QueryCase> cases;
-    for (const auto& [name, mesh] : mesh_zoo())
+    for (const NamedMesh& named : mesh_zoo())
         for (uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES})
             for (uint32_t levels : {1u, 2u, 3u})
                 for (double delta : {0.0, 2.0})
-                    cases.push_back({name + (metric == GEOIDX_METRIC_EXACT ? ", exact" : ", edges") + ", " +
-                                         std::to_string(levels) + " levels, delta " + std::to_string(delta),
-                                     mesh, build_options(metric, levels, delta)});
+                    cases.push_back(query_case(named, build_options(metric, levels, delta)));
     return cases;
 }
 
-// The index of a case, built once for all tests.
+// Every mesh of the zoo with exact distances, by both engines, with each of these numbers of levels.
+inline std::vector<QueryCase> exact_cases(std::initializer_list<uint32_t> level_counts) {
+    std::vector<QueryCase> cases;
+    for (const NamedMesh& named : mesh_zoo())
+        for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY})
+            for (uint32_t levels : level_counts) {
+                auto options = build_options(GEOIDX_METRIC_EXACT, levels);
+                options.engine = engine;
+                cases.push_back(query_case(named, options));
+            }
+    return cases;
+}
+
+// A bumpy mesh of some size.
+inline QueryCase case_of_some_size(const geoidx_build_options& options) {
+    return query_case({"bumpy grid", grid(smaller(60, 45), smaller(50, 30), 0.4)}, options);
+}
+
+// Meshes of some size of different shapes, by the overlay engine with three levels: hills, a torus and a
+// bumpy grid.
+inline std::vector<QueryCase> overlays_of_some_size() {
+    auto options = build_options(GEOIDX_METRIC_EXACT, 3);
+    options.engine = GEOIDX_ENGINE_OVERLAY;
+    const uint32_t side = smaller(40, 26);
+    return {query_case({"large hills", hills(side, side)}, options),
+            query_case({"large torus", torus(smaller(60, 36), smaller(30, 18))}, options),
+            query_case({"large grid", grid(side, side, 0.25)}, options)};
+}
+
+// The index of a case, built once for all tests that ask for a case of its name.
 inline const geoidx* index_of(const QueryCase& test) {
     static std::map<std::string, IndexHandle> built;
     IndexHandle& index = built[test.name];

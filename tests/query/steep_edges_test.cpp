@@ -98,17 +98,20 @@ std::vector<uint32_t> some_sources() {
 TEST_CASE("steep edges: fields are lowered along them, from every form of file") {
     const auto plain = open(plain_file());
     const uint32_t count = mesh().vertex_count();
+    std::vector<std::vector<float>> expected;
+    for (const uint32_t source : some_sources()) {
+        const auto before = msad(plain.get(), source, count);
+        expected.push_back(lowered(before));
+        CHECK(expected.back() != before);
+    }
     Bytes file = file_with_edges();
     for (const uint32_t codec :
          {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_MAPPED, GEOIDX_CODEC_LOSSLESS, GEOIDX_CODEC_PACKED}) {
         CAPTURE(codec);
         file = save(open(file).get(), codec);
         const auto index = open(file);
-        for (const uint32_t source : some_sources()) {
-            const auto before = msad(plain.get(), source, count);
-            CHECK(msad(index.get(), source, count) == lowered(before));
-            CHECK(lowered(before) != before);
-        }
+        for (size_t i = 0; i < expected.size(); ++i)
+            CHECK(msad(index.get(), some_sources()[i], count) == expected[i]);
     }
     CHECK(file == save(open(file_with_edges()).get()));
 }

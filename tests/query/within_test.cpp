@@ -83,18 +83,11 @@ void check_targets(const geoidx* index, geoidx_query* query, uint32_t source, co
 }
 
 template <class Check>
-void for_each_index(const char* what, const Check& check) {
-    for (const auto& [name, mesh] : mesh_zoo())
-        for (const uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY})
-            for (const uint32_t levels : {1u, 3u}) {
-                auto options = build_options(GEOIDX_METRIC_EXACT, levels);
-                options.engine = engine;
-                const QueryCase test{name + ", " + what + ", engine " + std::to_string(engine) + ", " +
-                                         std::to_string(levels),
-                                     mesh, options};
-                CAPTURE(test.name);
-                check(index_of(test), mesh.vertex_count());
-            }
+void for_each_index(const Check& check) {
+    for (const QueryCase& test : exact_cases({1, 3})) {
+        CAPTURE(test.name);
+        check(index_of(test), test.mesh.vertex_count());
+    }
 }
 
 // Of one query, in turn: what one sweep leaves must not show in the next one.
@@ -113,14 +106,11 @@ void check_within(const geoidx* index, uint32_t count) {
 
 }
 
-TEST_CASE("within: the vertices of fields, in their order") { for_each_index("within", check_within); }
+TEST_CASE("within: the vertices of fields, in their order") { for_each_index(check_within); }
 
 TEST_CASE("within: default options, and a bumpy mesh of some size") {
-    const TestMesh mesh = grid(60, 50, 0.4);
-    geoidx_build_options options;
-    geoidx_build_options_init(&options);
-    const auto index = build(mesh, options);
-    check_within(index.get(), mesh.vertex_count());
+    const QueryCase test = case_of_some_size(default_options());
+    check_within(index_of(test), test.mesh.vertex_count());
 }
 
 // Paths cross long segments far from their ends: a vertex may be within a radius that no vertex of the border
@@ -190,7 +180,7 @@ TEST_CASE("within: vertices that no triangle uses, and those that were welded") 
 }
 
 TEST_CASE("nearest targets: those of fields or of pairs, in their order") {
-    for_each_index("targets", [](const geoidx* index, uint32_t count) {
+    for_each_index([](const geoidx* index, uint32_t count) {
         const QueryHandle query = query_of(index);
         for (const uint32_t source : {0u, count / 2, count - 1})
             for (const uint32_t targets : {1u, 5u, count})
@@ -203,15 +193,15 @@ TEST_CASE("nearest targets: those of fields or of pairs, in their order") {
 }
 
 TEST_CASE("nearest targets: few and many on a mesh of some size") {
-    const TestMesh mesh = grid(60, 50, 0.4);
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
-    const QueryHandle query = query_of(index.get());
+    const QueryCase test = case_of_some_size(build_options(GEOIDX_METRIC_EXACT, 2));
+    const geoidx* index = index_of(test);
+    const QueryHandle query = query_of(index);
     for (const uint32_t targets : {1u, 3u, 7u, 40u, 1000u})
         for (const uint32_t wanted : {1u, 4u, 100u}) {
             Ids ids;
-            for (uint32_t i = 0; i < targets; ++i) ids.push_back((i * 7919 + 3) % mesh.vertex_count());
-            check_targets(index.get(), query.get(), 1234, ids, wanted);
-            check_targets(index.get(), query.get(), 17, ids, wanted);
+            for (uint32_t i = 0; i < targets; ++i) ids.push_back((i * 7919 + 3) % test.mesh.vertex_count());
+            check_targets(index, query.get(), 1234, ids, wanted);
+            check_targets(index, query.get(), 17, ids, wanted);
         }
 }
 
