@@ -4,6 +4,7 @@
 
 #include "tests/capi/calls.h"
 #include "tests/support/drilled_plate.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 
@@ -47,7 +48,7 @@ Errors errors_of(const TestMesh& mesh) {
 }
 
 TEST_CASE("flat faces: a plate that is cut into slivers is answered nearly as exactly as any") {
-    const Errors errors = errors_of(test_mesh_of(drilled_plate(4, 20, 0.02)));
+    const Errors errors = errors_of(test_mesh_of(drilled_plate(smaller(4, 3), 20, 0.02)));
     INFO("mean ", errors.mean, ", max ", errors.max, ", of pairs ", errors.pair_max);
     CHECK(errors.mean < 0.001);
     CHECK(errors.max < 0.03);
