@@ -21,7 +21,10 @@ constexpr Source SOURCES[] = {Source::caller, Source::process};
 constexpr uint32_t ENGINES[] = {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY};
 
 // Of the allocations of a query, each of which is followed by every question.
-constexpr uint64_t ASKING_STRIDE = SANITIZED ? 3 : 1;
+constexpr uint64_t ASKING_STRIDE = SANITIZED ? 11 : 1;
+
+// One, and more: with a sanitizer not each number of them.
+constexpr uint32_t NEXT_THREADS = SANITIZED ? 3 : 1;
 
 // Two parts that borders divide, one that none does, and vertices that no triangle uses.
 TestMesh several_parts() {
@@ -382,7 +385,7 @@ TEST_CASE("out of memory while a query is asked") {
         Asked reference(undisturbed.get(), its_query.get());
         const Answers right = answers_to(QUESTIONS_TO_A_QUERY, reference);
         uint64_t failed = 0;
-        for (uint32_t threads = 1; threads <= 4; ++threads)
+        for (uint32_t threads = 1; threads <= 4; threads += NEXT_THREADS)
             for (size_t q = 0; q < std::size(QUESTIONS_TO_A_QUERY); ++q) {
                 if (threads > 1 && !QUESTIONS_TO_A_QUERY[q].uses_threads) continue;
                 CAPTURE(threads);
@@ -408,7 +411,8 @@ TEST_CASE("out of memory while an index is asked") {
         for (size_t q = 0; q < std::size(QUESTIONS_TO_AN_INDEX); ++q) {
             CAPTURE(QUESTIONS_TO_AN_INDEX[q].name);
             for (Source source : SOURCES) {
-                const uint64_t failed = try_with_faults(source, 1, [&](Fault& fault) {
+                const uint64_t stride = SANITIZED && source == Source::process ? 2 : 1;
+                const uint64_t failed = try_with_faults(source, stride, [&](Fault& fault) {
                     const IndexHandle index = open_with(file, fault.allocator());
                     Asked asked(index.get(), nullptr);
                     ask_with_fault(fault, asked, QUESTIONS_TO_AN_INDEX, q, right);
@@ -427,7 +431,7 @@ TEST_CASE("out of memory while a query is given threads") {
     const Answers right = answers_to(QUESTIONS_TO_A_QUERY, reference);
     for (uint32_t threads = 2; threads <= 4; ++threads)
         for (Source source : SOURCES) {
-            const uint64_t failed = try_with_faults(source, ASKING_STRIDE, [&](Fault& fault) {
+            const uint64_t failed = try_with_faults(source, SANITIZED ? 3 : 1, [&](Fault& fault) {
                 const IndexHandle index = open_with(file, fault.allocator());
                 const QueryHandle query = query_of(index.get());
                 fault.disturb([&] { return geoidx_query_set_threads(query.get(), threads); });
@@ -465,7 +469,7 @@ TEST_CASE("out of memory while building") {
     for_each_kind([](const TestMesh& mesh, uint32_t engine) {
         const geoidx_mesh view = mesh.view();
         const Bytes file = save(build(mesh, options_of(engine)).get());
-        for (uint32_t threads = 1; threads <= 4; ++threads)
+        for (uint32_t threads = 1; threads <= 4; threads += NEXT_THREADS)
             for (Source source : SOURCES) {
                 CAPTURE(threads);
                 const uint64_t stride = source == Source::caller ? 13 : 1499;
@@ -491,7 +495,7 @@ TEST_CASE("out of memory while building a small index") {
         auto options = options_of(engine, 2);
         options.level_count = 1;
         options.metric = GEOIDX_METRIC_EDGES;
-        try_with_faults(Source::process, 5, [&](Fault& fault) {
+        try_with_faults(Source::process, SANITIZED ? 17 : 5, [&](Fault& fault) {
             geoidx* index = nullptr;
             const geoidx_status status = fault.disturb([&] { return geoidx_build(&view, &options, &index); });
             CHECK((status == GEOIDX_OK) == (index != nullptr));
