@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/build/errors_by_distance.h"
 #include "src/mesh/halve_edges.h"
 
 namespace geodesic {
@@ -49,15 +50,15 @@ double unfolded_middle(double to_one_end, double to_other_end, double length) {
 }
 
 // Of the latest solve.
-std::vector<double> deviations(const FieldSolver& solver, const Mesh& mesh,
-                               std::span<const BorderEdge> edges) {
+std::vector<double> deviations(const FieldSolver& solver, const Mesh& mesh, std::span<const BorderEdge> edges,
+                               double too_short) {
     std::vector<double> result(edges.size(), 0);
     for (size_t i = 0; i < edges.size(); ++i) {
         const auto [a, b] = mesh.edges[edges[i].edge];
         const double exact = solver.point_distance(i), length = mesh.edge_length(edges[i].edge);
-        if (exact == UNREACHABLE || !(exact > 0)) continue;
+        if (!has_relative_error(exact, too_short)) continue;
         const double unfolded = unfolded_middle(solver.distance(a), solver.distance(b), length);
-        result[i] = std::abs(unfolded - exact) / exact;
+        result[i] = relative_error(exact, unfolded);
     }
     return result;
 }
@@ -65,14 +66,14 @@ std::vector<double> deviations(const FieldSolver& solver, const Mesh& mesh,
 }
 
 std::vector<BorderEdge> border_edges(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
-                                     std::span<const uint32_t> sources, Workers& workers) {
+                                     std::span<const uint32_t> sources, double too_short, Workers& workers) {
     std::vector<BorderEdge> edges = edges_between_leaves(mesh, leaf_of_face);
     const EdgePoints points = points_of(mesh, edges);
     std::vector<std::vector<double>> of_source(sources.size());
     if (!edges.empty())
         workers.run(sources.size(), [&](FieldSolver& solver, size_t i) {
             solver.solve({{&sources[i], 1}, points.ends, {}, points.middles});
-            of_source[i] = deviations(solver, mesh, edges);
+            of_source[i] = deviations(solver, mesh, edges, too_short);
         });
     for (const auto& added : of_source)
         for (size_t i = 0; i < added.size(); ++i)

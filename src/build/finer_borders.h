@@ -24,9 +24,10 @@ struct BorderEdge {
 // the mean, over the sources, of the relative error that the distance of its middle has if it is unfolded
 // from those of its two ends. Who asks for paths from all vertices alike asks for relative deviations: an
 // edge is crossed by more paths near a source, and there the same length is a larger share of them. The
-// workers' metric is the exact one of this mesh.
+// workers' metric is the exact one of this mesh. Middles that are too near to have a relative error do not
+// count.
 std::vector<BorderEdge> border_edges(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
-                                     std::span<const uint32_t> sources, Workers& workers);
+                                     std::span<const uint32_t> sources, double too_short, Workers& workers);
 
 // How many of these edges, from the first on, have together at least this share of the sum of all
 // deviations. Edges without deviation are never among them.

@@ -19,7 +19,8 @@ class NearSearch::Answers {
 public:
     explicit Answers(const NearSearch& search)
         : index_(search.index_), intake_(search.intake_), radius_(SEARCHED_EDGES * search.average_edge_),
-          query_(index_, std::pmr::get_default_resource()), field_(index_.description.id_count) {}
+          too_short_(search.too_short_), query_(index_, std::pmr::get_default_resource()),
+          field_(index_.description.id_count) {}
 
     // How far from the source answers are compared.
     double radius() const { return radius_; }
@@ -44,7 +45,7 @@ public:
     double disagreement() {
         double most = 0;
         for (uint32_t v = 0; v < intake_.mesh.vertex_count(); ++v)
-            if (const double d = msad(v); d > 0 && d <= radius_ && may_be_worse(v))
+            if (const double d = msad(v); d > too_short_ && d <= radius_ && may_be_worse(v))
                 most = std::max(most, relative_error(d, sssd(v)));
         return most;
     }
@@ -61,7 +62,7 @@ private:
 
     const Index& index_;
     const Intake& intake_;
-    const double radius_;
+    const double radius_, too_short_;
     Query query_;
     uint32_t source_ = NONE;
     std::vector<float> field_; // by id
@@ -71,8 +72,8 @@ private:
 class NearSearch::Comparison {
 public:
     Comparison(const NearSearch& search, FieldSolver& solver)
-        : vertex_count_(search.intake_.mesh.vertex_count()), solver_(solver), answers_(search),
-          errors_(search.average_edge_) {}
+        : vertex_count_(search.intake_.mesh.vertex_count()), too_short_(search.too_short_), solver_(solver),
+          answers_(search), errors_(search.average_edge_) {}
 
     void compare(Source& source) {
         find_near(source.vertex);
@@ -93,7 +94,8 @@ private:
         near_.clear();
         solver_.solve({&source, 1}, {}, answers_.radius());
         for (uint32_t v = 0; v < vertex_count_; ++v)
-            if (const double d = solver_.distance(v); d <= answers_.radius() && has_relative_error(d))
+            if (const double d = solver_.distance(v);
+                d <= answers_.radius() && has_relative_error(d, too_short_))
                 near_.push_back(v);
     }
 
@@ -106,14 +108,15 @@ private:
     }
 
     const uint32_t vertex_count_;
+    const double too_short_;
     FieldSolver& solver_;
     Answers answers_;
     std::vector<uint32_t> near_; // vertices
     ErrorsByDistance errors_;
 };
 
-NearSearch::NearSearch(const Index& index, const Intake& intake, double average_edge)
-    : index_(index), intake_(intake), average_edge_(average_edge),
+NearSearch::NearSearch(const Index& index, const Intake& intake, double average_edge, double too_short)
+    : index_(index), intake_(intake), average_edge_(average_edge), too_short_(too_short),
       is_source_(intake.mesh.vertex_count(), false), errors_(average_edge) {}
 
 void NearSearch::run(const NearEffort& effort, uint64_t seed, Workers& workers) {

@@ -26,7 +26,8 @@ struct NearEffort {
 // together from different tables, and where one is wrong they mostly disagree.
 class NearSearch {
 public:
-    NearSearch(const Index& index, const Intake& intake, double average_edge);
+    // Distances up to `too_short` are not compared.
+    NearSearch(const Index& index, const Intake& intake, double average_edge, double too_short);
 
     void run(const NearEffort& effort, uint64_t seed, Workers& workers);
 
@@ -52,7 +53,7 @@ private:
 
     const Index& index_;
     const Intake& intake_;
-    const double average_edge_;
+    const double average_edge_, too_short_;
     std::vector<Source> sources_;
     size_t compared_ = 0; // of the sources, the first ones
     std::vector<bool> is_source_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geoidx.h"
+#include "src/build/errors_by_distance.h"
 #include "src/graph/query.h"
 #include "src/partition/random.h"
 
@@ -35,11 +36,21 @@ ExactFields exact_fields(uint64_t seed, uint32_t vertex_count, Workers& workers)
     return fields;
 }
 
+double too_short_to_count(const Description& about, const ExactFields& exact) {
+    if (follows_positions(about)) return too_short_beside(about.bounding_box_diagonal);
+    double longest = 0;
+    for (const auto& of_source : exact.distances)
+        for (const double distance : of_source)
+            if (distance < UNREACHABLE) longest = std::max(longest, distance);
+    return too_short_beside(longest);
+}
+
 std::vector<double> relative_errors(const Index& index, Crossing crossing,
                                     std::span<const uint32_t> vertex_of_number, const ExactFields& exact,
                                     Workers& workers) {
     std::vector<uint32_t> number_of_vertex(vertex_of_number.size());
     for (uint32_t n = 0; n < vertex_of_number.size(); ++n) number_of_vertex[vertex_of_number[n]] = n;
+    const double too_short = too_short_to_count(index.description, exact);
     std::vector<std::vector<double>> errors(SOURCES);
     workers.run(SOURCES, [&](FieldSolver&, size_t i) {
         std::vector<float> answered(vertex_of_number.size());
@@ -48,7 +59,7 @@ std::vector<double> relative_errors(const Index& index, Crossing crossing,
             const uint32_t vertex = vertex_of_number[number];
             if (vertex >= exact.distances[i].size()) continue; // an added vertex
             const double distance = exact.distances[i][vertex];
-            if (distance > 0 && distance < UNREACHABLE)
+            if (has_relative_error(distance, too_short))
                 errors[i].push_back((double{answered[number]} - distance) / distance);
         }
     });

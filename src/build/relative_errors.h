@@ -18,8 +18,13 @@ struct ExactFields {
 // Another seed chooses other sources.
 ExactFields exact_fields(uint64_t seed, uint32_t vertex_count, Workers& workers);
 
+// Up to which distance answers have no relative error, see too_short_beside(). Where positions alone do not
+// decide distances, the longest one of these fields is the extent.
+double too_short_to_count(const Description& about, const ExactFields& exact);
+
 // The errors of MSAD from each of these sources alone, relative to the metric. vertex_of_number gives the
-// mesh vertex of each number; those that the fields do not have, added vertices, do not count.
+// mesh vertex of each number; those that the fields do not have, added vertices, do not count,
+// nor do distances that have no relative error.
 std::vector<double> relative_errors(const Index& index, Crossing crossing,
                                     std::span<const uint32_t> vertex_of_number, const ExactFields& exact,
                                     Workers& workers);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "format/error.h"
+#include "src/build/errors_by_distance.h"
 #include "src/metric/window_propagation.h"
 #include "src/partition/random.h"
 
@@ -102,7 +103,9 @@ std::optional<FinerSurface> Rounds::finer_surface(const SplitSurface& surface, d
     workers.begin_stage("finer borders", 1);
     if (!can_be_cut(surface.mesh)) return std::nullopt;
     const auto sources = choosing_sources(options_.seed, vertex_count_);
-    const auto edges = border_edges(surface.mesh, surface.hierarchy.leaf_of_face, sources, workers);
+    const double too_short = too_short_beside(index_.description.bounding_box_diagonal);
+    const auto edges =
+        border_edges(surface.mesh, surface.hierarchy.leaf_of_face, sources, too_short, workers);
     const size_t wanted = count_for_share(edges, share_to_cut(error, options_.target_error));
     return cut_what_fits(surface, std::span(edges).first(wanted), workers);
 }

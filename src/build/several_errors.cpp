@@ -36,7 +36,7 @@ SourceGroup around_one(const Mesh& mesh, uint32_t size, Random& random) {
 // Of each group, solve(solver, i) is called first; distance(solver, i, vertex) then gives its exact
 // distances.
 ErrorSum compare(const Index& index, const Intake& intake, std::span<const SourceGroup> groups,
-                 Workers& workers, const std::function<void(FieldSolver&, size_t)>& solve,
+                 double too_short, Workers& workers, const std::function<void(FieldSolver&, size_t)>& solve,
                  const std::function<double(const FieldSolver&, size_t, uint32_t)>& distance) {
     std::vector<ErrorSum> errors(groups.size());
     workers.run(groups.size(), [&](FieldSolver& solver, size_t i) {
@@ -46,7 +46,7 @@ ErrorSum compare(const Index& index, const Intake& intake, std::span<const Sourc
         std::vector<float> answers(index.description.id_count);
         Query(index, std::pmr::get_default_resource()).msad(ids, INFINITE, answers);
         for (uint32_t v = 0; v < intake.mesh.vertex_count(); ++v)
-            if (const double exact = distance(solver, i, v); has_relative_error(exact))
+            if (const double exact = distance(solver, i, v); has_relative_error(exact, too_short))
                 errors[i].add(relative_error(exact, answers[intake.id_of_vertex[v]]));
     });
     ErrorSum all;
@@ -73,20 +73,21 @@ std::vector<SourceGroup> source_groups(const Index& index, const Intake& intake,
 }
 
 ErrorSum errors_of_groups(const Index& index, const Intake& intake, std::span<const SourceGroup> groups,
-                          Workers& workers) {
+                          double too_short, Workers& workers) {
     return compare(
-        index, intake, groups, workers, [&](FieldSolver& solver, size_t i) { solver.solve(groups[i], {}); },
+        index, intake, groups, too_short, workers,
+        [&](FieldSolver& solver, size_t i) { solver.solve(groups[i], {}); },
         [](const FieldSolver& solver, size_t, uint32_t vertex) { return solver.distance(vertex); });
 }
 
 ErrorSum errors_of_known_groups(const Index& index, const Intake& intake, const ExactFields& exact,
-                                Workers& workers) {
+                                double too_short, Workers& workers) {
     std::vector<SourceGroup> groups;
     for (const uint32_t size : GROUP_SIZES)
         if (size <= exact.sources.size())
             groups.emplace_back(exact.sources.begin(), exact.sources.begin() + size);
     return compare(
-        index, intake, groups, workers, [](FieldSolver&, size_t) {},
+        index, intake, groups, too_short, workers, [](FieldSolver&, size_t) {},
         [&](const FieldSolver&, size_t i, uint32_t vertex) {
             double least = UNREACHABLE;
             for (size_t k = 0; k < groups[i].size(); ++k) least = std::min(least, exact.distances[k][vertex]);

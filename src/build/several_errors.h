@@ -19,12 +19,12 @@ using SourceGroup = std::vector<uint32_t>;
 std::vector<SourceGroup> source_groups(const Index& index, const Intake& intake, uint32_t rounds,
                                        uint64_t seed);
 
-// The errors of MSAD from each group, compared with the metric.
+// The errors of MSAD from each group, compared with the metric, at all distances that are not too short.
 ErrorSum errors_of_groups(const Index& index, const Intake& intake, std::span<const SourceGroup> groups,
-                          Workers& workers);
+                          double too_short, Workers& workers);
 
 // The errors of MSAD from 2 and more of the sources of these fields, for which the metric need not be asked.
 ErrorSum errors_of_known_groups(const Index& index, const Intake& intake, const ExactFields& exact,
-                                Workers& workers);
+                                double too_short, Workers& workers);
 
 }

@@ -58,12 +58,12 @@ Effort effort_for(const Description& about, uint32_t vertex_count) {
     return {near_effort(sources, screened), pairs, 1};
 }
 
-double mean_edge_at_sources(const Mesh& mesh, const ExactFields& exact) {
+double mean_edge_at_sources(const Mesh& mesh, const ExactFields& exact, double too_short) {
     double sum = 0;
     uint64_t count = 0;
     for (size_t i = 0; i < exact.sources.size(); ++i)
         for (const uint32_t v : neighbours(mesh, exact.sources[i]))
-            if (const double length = exact.distances[i][v]; has_relative_error(length)) {
+            if (const double length = exact.distances[i][v]; has_relative_error(length, too_short)) {
                 sum += length;
                 ++count;
             }
@@ -71,8 +71,8 @@ double mean_edge_at_sources(const Mesh& mesh, const ExactFields& exact) {
 }
 
 // The unit of classes of distances.
-double average_edge(const Description& about, const Mesh& mesh, const ExactFields& exact) {
-    return follows_positions(about) ? mean_edge(mesh) : mean_edge_at_sources(mesh, exact);
+double average_edge(const Description& about, const Mesh& mesh, const ExactFields& exact, double too_short) {
+    return follows_positions(about) ? mean_edge(mesh) : mean_edge_at_sources(mesh, exact, too_short);
 }
 
 struct FieldErrors {
@@ -82,7 +82,8 @@ struct FieldErrors {
 
 // The errors of MSAD and of some SSSD from the i-th source.
 FieldErrors errors_of_field(const Index& index, const Intake& intake, const ExactFields& exact, size_t i,
-                            bool counts_in_means, uint32_t pairs, const ErrorsByDistance& none) {
+                            double too_short, bool counts_in_means, uint32_t pairs,
+                            const ErrorsByDistance& none) {
     FieldErrors errors{none, {}};
     Query query(index, std::pmr::get_default_resource());
     const auto& distances = exact.distances[i];
@@ -90,7 +91,7 @@ FieldErrors errors_of_field(const Index& index, const Intake& intake, const Exac
     std::vector<float> answers(index.description.id_count);
     query.msad({&source, 1}, INFINITE, answers);
     for (uint32_t v = 0; v < distances.size(); ++v) {
-        if (!has_relative_error(distances[v])) continue;
+        if (!has_relative_error(distances[v], too_short)) continue;
         const double answer = answers[intake.id_of_vertex[v]];
         const double error = relative_error(distances[v], answer);
         ErrorSum& of_class = errors.by_distance.of(distances[v]);
@@ -100,7 +101,7 @@ FieldErrors errors_of_field(const Index& index, const Intake& intake, const Exac
     Random random(index.description.seed ^ PAIR_SEED ^ i);
     for (uint32_t k = 0; k < pairs; ++k) {
         const uint32_t v = random.below(static_cast<uint32_t>(distances.size()));
-        if (!has_relative_error(distances[v])) continue;
+        if (!has_relative_error(distances[v], too_short)) continue;
         const double answer = query.sssd(source, intake.id_of_vertex[v]);
         errors.by_distance.of(distances[v]).add_to_max(relative_error(distances[v], answer));
     }
@@ -109,11 +110,12 @@ FieldErrors errors_of_field(const Index& index, const Intake& intake, const Exac
 
 // Adds the errors by distance, and returns those of MSAD.
 std::vector<double> add_errors_of_fields(const Index& index, const Intake& intake, const ExactFields& exact,
-                                         bool counts_in_means, uint32_t pairs, const ErrorsByDistance& none,
-                                         Workers& workers, ErrorsByDistance& errors) {
+                                         double too_short, bool counts_in_means, uint32_t pairs,
+                                         const ErrorsByDistance& none, Workers& workers,
+                                         ErrorsByDistance& errors) {
     std::vector<FieldErrors> of_source(exact.sources.size(), {none, {}});
     workers.run(of_source.size(), [&](FieldSolver&, size_t i) {
-        of_source[i] = errors_of_field(index, intake, exact, i, counts_in_means, pairs, none);
+        of_source[i] = errors_of_field(index, intake, exact, i, too_short, counts_in_means, pairs, none);
     });
     std::vector<double> of_msad;
     for (const FieldErrors& of_one : of_source) {
@@ -131,10 +133,10 @@ MeasuredError with_measured_pairs(const MeasuredError& of_tables, std::vector<do
 }
 
 MeanAndMax error_of_several(const Index& index, const Intake& intake, const ExactFields& exact,
-                            uint32_t rounds, Workers& workers) {
-    if (rounds == 0) return errors_of_known_groups(index, intake, exact, workers).result();
+                            double too_short, uint32_t rounds, Workers& workers) {
+    if (rounds == 0) return errors_of_known_groups(index, intake, exact, too_short, workers).result();
     const auto groups = source_groups(index, intake, rounds, index.description.seed ^ GROUP_SEED);
-    return errors_of_groups(index, intake, groups, workers).result();
+    return errors_of_groups(index, intake, groups, too_short, workers).result();
 }
 
 }
@@ -143,24 +145,25 @@ void state_errors(const Intake& intake, std::span<const ExactFields* const> fiel
                   Index& index) {
     const Description& about = index.description;
     const ExactFields& measuring = *fields.front();
-    const double edge = average_edge(about, intake.mesh, measuring);
+    const double too_short = too_short_to_count(about, measuring);
+    const double edge = average_edge(about, intake.mesh, measuring, too_short);
     const Effort effort = effort_for(about, intake.mesh.vertex_count());
     ErrorsByDistance errors(edge);
     const ErrorsByDistance none = errors;
     MeasuredError stated = about.error;
     for (const ExactFields* exact : fields) {
         const bool is_measuring = exact == &measuring;
-        auto of_msad =
-            add_errors_of_fields(index, intake, *exact, is_measuring, effort.pairs, none, workers, errors);
+        auto of_msad = add_errors_of_fields(index, intake, *exact, too_short, is_measuring, effort.pairs,
+                                            none, workers, errors);
         if (is_measuring && crosses_between_vertices(about))
             stated = with_measured_pairs(about.error, std::move(of_msad));
     }
-    NearSearch search(index, intake, edge);
+    NearSearch search(index, intake, edge, too_short);
     search.run(effort.near, about.seed ^ NEAR_SEED, workers);
     errors.add(search.errors());
     stated.by_distance = errors.result();
     for (const MeanAndMax& of_class : stated.by_distance) stated.max = std::max(stated.max, of_class.max);
-    stated.several = error_of_several(index, intake, measuring, effort.rounds, workers);
+    stated.several = error_of_several(index, intake, measuring, too_short, effort.rounds, workers);
     index.description.error = stated;
     release_pairs(index);
 }

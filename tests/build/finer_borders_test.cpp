@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <Eigen/Geometry>
 
@@ -32,12 +33,19 @@ struct Split {
         return std::ranges::any_of(
             faces, [&](uint32_t f) { return hierarchy.leaf_of_face[f] != hierarchy.leaf_of_face[faces[0]]; });
     }
-    std::vector<BorderEdge> edges(std::span<const uint32_t> sources) {
-        return border_edges(mesh, hierarchy.leaf_of_face, sources, workers);
+    std::vector<BorderEdge> edges(std::span<const uint32_t> sources, double too_short = 0) {
+        return border_edges(mesh, hierarchy.leaf_of_face, sources, too_short, workers);
     }
 };
 
 constexpr uint32_t SOURCES[] = {0, 3, 11};
+
+SurfacePoint middle_of_edge(const Mesh& mesh, uint32_t edge) {
+    SurfacePoint middle{mesh.edge_faces[edge][0], {0.5, 0.5, 0.5}};
+    for (size_t k = 0; k < 3; ++k)
+        if (mesh.face_edges[middle.face][k] == edge) middle.weights[k] = 0;
+    return middle;
+}
 
 }
 
@@ -87,6 +95,26 @@ TEST_CASE("border edges: deviations, largest first, against distances to vertice
         CHECK(edges[i].deviation == doctest::Approx(expected[i]).epsilon(1e-6).scale(1e-3));
         if (i > 0) CHECK(edges[i].deviation <= edges[i - 1].deviation);
     }
+}
+
+TEST_CASE("border edges: middles up to a distance that is too short do not count") {
+    Split split(bumpy_sphere(2, 3));
+    const uint32_t source[] = {3};
+    const auto solver = split.metric.make_solver();
+    const auto all = split.edges(source);
+    std::vector<SurfacePoint> middles;
+    for (const BorderEdge& edge : all) middles.push_back(middle_of_edge(split.mesh, edge.edge));
+    solver->solve({source, {}, {}, middles});
+    std::vector<double> distances;
+    for (size_t i = 0; i < all.size(); ++i) distances.push_back(solver->point_distance(i));
+    auto sorted = distances;
+    std::ranges::sort(sorted);
+    const double too_short = sorted[sorted.size() / 2];
+    std::map<uint32_t, double> expected;
+    for (size_t i = 0; i < all.size(); ++i)
+        expected[all[i].edge] = distances[i] > too_short ? all[i].deviation : 0;
+    for (const auto& [edge, deviation] : split.edges(source, too_short))
+        CHECK(deviation == doctest::Approx(expected[edge]));
 }
 
 TEST_CASE("border edges: as many as have a share of all deviations") {
