@@ -179,7 +179,8 @@ enum {
      * may be a little below the metric's. Building takes time linear in the vertices.
      * With GEOIDX_METRIC_EXACT, delta 0 and no edge_lengths, an index also holds the metric's own distances
      * of those pairs, of each vertex and the 480 nearest ones, of which tables are off by more than a
-     * hundredth, at most four for each vertex: all queries from vertices answer these, MSAD from several ones
+     * hundredth, at most four for each vertex, the most wrong ones first, and none that are too short to have
+     * a relative error (see geoidx_info): all queries from vertices answer these, MSAD from several ones
      * source by source. Around such pairs up to 1,920 vertices are compared. Points within triangles and
      * sources with offsets have none. On meshes of more than 400,000 vertices fewer are compared. Building
      * takes some 4 KB of memory a vertex for that, up to 8 KB where many pairs are wrong.
@@ -364,6 +365,10 @@ typedef struct geoidx_info {
     uint32_t format_minor;
     uint32_t level_count;
     uint32_t patch_count[8]; /* of levels 1 .. level_count */
+    /* Errors are relative to the metric's distance. Of distances that are too short to be told from 0 by a
+     * float, none are stated and none count in target_error: those up to 2^-23 (1.2e-7) of the diagonal of
+     * the bounding box or, where costs, lengths or a callback decide distances, of the longest distance from
+     * the random sources. So two vertices that rounding has put 1e-16 apart, as at a pole, say nothing. */
     uint32_t error_sources;
     double error_mean;
     double error_signed_mean;

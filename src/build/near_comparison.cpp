@@ -15,22 +15,48 @@ namespace {
 
 constexpr float LOOKED_AT = 1.1f; // times as far as near vertices: what is beyond is off by more than that
 
+// The largest one of all tables. An answer is the sum of two codes or more, each rounded by half a step.
+double largest_step(const Index& index) {
+    const auto& overlay = std::get<OverlayIndex>(index.engine);
+    double largest = 0;
+    for (size_t p = 0; p < overlay.quantum.size(); ++p)
+        largest = std::max(largest, std::ldexp(double{overlay.quantum[p]}, overlay.shift[p]));
+    return largest;
 }
+
+}
+
+NearComparison::NearComparison(const Index& index, const Intake& intake, const NearDistances& near,
+                               const ListOfLists<uint32_t>& edge_ends, double limit, bool finds_steep)
+    : index_(index), intake_(intake), near_(near), edge_ends_(edge_ends), limit_(limit),
+      finds_steep_(finds_steep), too_short_(too_short_beside(intake.bounding_box_diagonal)),
+      rounded_by_limit_(largest_step(index) / limit), query_(index, std::pmr::get_default_resource()),
+      answer_(index.description.id_count, INFINITE), field_(near.vertex_count(), {0, 0}) {}
 
 void NearComparison::compare(uint32_t source, std::vector<WrongPair>& wrong) {
     source_ = source;
     wrong_ = &wrong;
     fill_field();
-    for (const auto& near : near_.of(source))
+    correct_wrong();
+    if (finds_steep_) correct_steep();
+    for (const auto& near : near_.of(source)) field_[near.vertex] = {0, 0};
+}
+
+void NearComparison::correct_wrong() {
+    for (const auto& near : near_.of(source_)) {
+        if (!has_relative_error(near.distance, too_short_)) continue;
         if (const double error = largest_error(near.vertex); error > limit_) correct(near.vertex, error);
+    }
+}
+
+void NearComparison::correct_steep() {
     open_.clear();
-    for (const auto& near : near_.of(source)) open_.push_back(near.vertex);
+    for (const auto& near : near_.of(source_)) open_.push_back(near.vertex);
     while (!open_.empty()) {
         const uint32_t vertex = open_.back();
         open_.pop_back();
         make_less_steep(vertex);
     }
-    for (const auto& near : near_.of(source)) field_[near.vertex] = {0, 0};
 }
 
 // With the answers of MSAD.
@@ -49,8 +75,9 @@ void NearComparison::fill_field() {
 double NearComparison::largest_error(uint32_t vertex) {
     const Distances& distances = field_[vertex];
     const double of_field = distances.error();
-    const double suspicious = limit_ / 2; // what makes one of MSAD and SSSD wrong makes both
-    if (of_field <= suspicious || of_field > limit_) return of_field;
+    const bool is_suspicious = // what makes one of MSAD and SSSD wrong makes both, but for rounding
+        of_field > limit_ / 2 || distances.exact < rounded_by_limit_;
+    if (!is_suspicious || of_field > limit_) return of_field;
     return std::max(of_field, relative_error(distances.exact, query_.sssd(id_of(source_), id_of(vertex))));
 }
 
@@ -69,18 +96,20 @@ void NearComparison::make_less_steep(uint32_t vertex) {
     for (const uint32_t end : edge_ends_[vertex]) {
         const uint32_t other = intake_.mesh.edges[end / 2][1 - end % 2];
         if (!is_near(other) || !is_too_steep(vertex, other)) continue;
-        const uint32_t worse = deviation(vertex) < deviation(other) ? other : vertex;
-        if (!(deviation(worse) > ROUNDING * field_[worse].exact)) continue;
-        correct(worse, field_[worse].error());
+        const uint32_t worse = field_[vertex].deviation() < field_[other].deviation() ? other : vertex;
+        const Distances& distances = field_[worse];
+        if (!has_relative_error(distances.exact, too_short_)) continue;
+        if (!(distances.deviation() > ROUNDING * distances.exact)) continue;
+        correct(worse, distances.error());
         open_.push_back(worse);
     }
 }
+
+// An edge that is shorter than the rounding of a measured distance is made less steep by none.
 bool NearComparison::is_too_steep(uint32_t a, uint32_t b) const {
-    const double length = (intake_.mesh.positions[a] - intake_.mesh.positions[b]).norm();
-    return std::abs(field_[a].answer - field_[b].answer) > STEEPEST * length;
-}
-float NearComparison::deviation(uint32_t vertex) const {
-    return std::abs(field_[vertex].answer - field_[vertex].exact);
+    const double most = STEEPEST * (intake_.mesh.positions[a] - intake_.mesh.positions[b]).norm();
+    return most > ROUNDING * std::max(field_[a].exact, field_[b].exact) &&
+           std::abs(field_[a].answer - field_[b].answer) > most;
 }
 
 }

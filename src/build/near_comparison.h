@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory_resource>
 #include <vector>
@@ -20,16 +21,15 @@ struct WrongPair {
 // One thread's answers compared with the metric near vertices, from one of them at a time.
 class NearComparison {
 public:
-    // An error up to `limit` is let pass.
+    // An error up to `limit` is let pass, and so are steep edges, unless asked for.
     NearComparison(const Index& index, const Intake& intake, const NearDistances& near,
-                   const ListOfLists<uint32_t>& edge_ends, double limit)
-        : index_(index), intake_(intake), near_(near), edge_ends_(edge_ends), limit_(limit),
-          query_(index, std::pmr::get_default_resource()), answer_(index.description.id_count, INFINITE),
-          field_(near.vertex_count(), {0, 0}) {}
+                   const ListOfLists<uint32_t>& edge_ends, double limit, bool finds_steep);
 
     // Adds the wrong pairs of this source: those of which MSAD is off by more than the limit, or SSSD is and
-    // MSAD by more than half of it; and of two neighbours between which MSAD, with these put right, would
-    // change by more than STEEPEST times the length of their edge, the one that is worse.
+    // either MSAD by more than half of it or the distance is so short that the rounding of tables may do it.
+    // Where steep edges are asked for: also, with an error up to the limit, of two neighbours between which
+    // MSAD, with those put right, would change by more than STEEPEST times the length of their edge, the one
+    // that is worse.
     void compare(uint32_t source, std::vector<WrongPair>& wrong);
 
 private:
@@ -37,21 +37,26 @@ private:
     struct Distances {
         float exact, answer;
         double error() const { return relative_error(exact, answer); }
+        float deviation() const { return std::abs(answer - exact); }
     };
 
     uint32_t id_of(uint32_t vertex) const { return intake_.id_of_vertex[vertex]; }
     void fill_field();
     double largest_error(uint32_t vertex);
     void correct(uint32_t vertex, double error);
+    void correct_wrong();
+    void correct_steep();
     void make_less_steep(uint32_t vertex);
     bool is_too_steep(uint32_t a, uint32_t b) const;
-    float deviation(uint32_t vertex) const;
 
     const Index& index_;
     const Intake& intake_;
     const NearDistances& near_;
     const ListOfLists<uint32_t>& edge_ends_;
     const double limit_;
+    const bool finds_steep_;
+    const double too_short_;        // distances to be compared
+    const double rounded_by_limit_; // up to which distance a step of codes may be the limit
     Query query_;
     uint32_t source_ = NONE;
     std::vector<WrongPair>* wrong_ = nullptr;

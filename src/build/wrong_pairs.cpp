@@ -53,8 +53,8 @@ public:
 
     void run() {
         workers_.begin_stage("accuracy", FIRST_LOOK_END * end_fraction_);
-        for (double limit = LARGEST_ERROR; !hold_all(limit) && limit < 1;) limit *= RAISE;
-        if (held_.size() > most()) keep_worst();
+        while (!hold_all() && limit_ < 1) limit_ *= RAISE;
+        hold_steep();
     }
 
 private:
@@ -62,16 +62,27 @@ private:
 
     // What is held changes the fields of both vertices of a pair, so that those are looked at again. Returns
     // whether there are not too many pairs.
-    bool hold_all(double limit) {
+    bool hold_all() {
         held_.clear();
         hold();
         for (uint32_t pass = 0; pass < MOST_PASSES; ++pass) {
-            if (!find(limit, pass == 0 ? all_vertices() : vertices_with_pairs())) return true;
-            if (pass == 0) look_farther(limit);
+            if (!find(pass == 0 ? all_vertices() : vertices_with_pairs(), false)) return true;
+            if (pass == 0) look_farther();
             if (held_.size() > most()) return false;
             hold();
         }
         return true;
+    }
+
+    // Fields are lowered along steep edges in any case (hold_steep_edges). Where there is room, pairs are
+    // held besides that make edges less steep, since they are more exact than lowered ones. They have smaller
+    // errors than the others and take the place of none.
+    void hold_steep() {
+        for (uint32_t pass = 0; pass < MOST_PASSES && held_.size() < most(); ++pass) {
+            if (!find(pass == 0 ? all_vertices() : vertices_with_pairs(), true)) return;
+            if (held_.size() <= most()) hold();
+        }
+        if (held_.size() > most()) keep_worst();
     }
 
     std::vector<uint32_t> all_vertices() const {
@@ -87,11 +98,11 @@ private:
     }
 
     // Looks from these vertices. Returns whether any pair is new.
-    bool find(double limit, std::span<const uint32_t> sources) {
+    bool find(std::span<const uint32_t> sources, bool finds_steep) {
         const size_t at_once = std::max<size_t>(FEWEST_AT_ONCE, sources.size() / MOST_TASKS);
         std::vector<std::vector<WrongPair>> of_task((sources.size() + at_once - 1) / at_once);
         workers_.run(of_task.size(), [&](FieldSolver&, size_t task) {
-            NearComparison comparison(index_, intake_, near_, edge_ends_, limit);
+            NearComparison comparison(index_, intake_, near_, edge_ends_, limit_, finds_steep);
             const size_t begin = task * at_once, end = std::min(begin + at_once, sources.size());
             const size_t far_too_many = 16 * MOST_PAIRS * (end - begin);
             for (size_t i = begin; i < end && of_task[task].size() < far_too_many; ++i) {
@@ -110,14 +121,14 @@ private:
 
     // Widens what is known around wrong pairs until no more are found at its rim, or half as many are held as
     // may be: then more would soon be too many.
-    void look_farther(double limit) {
+    void look_farther() {
         while (held_.size() <= most() / 2) {
-            const auto sources = choose_to_widen(limit);
+            const auto sources = choose_to_widen();
             if (sources.empty()) return;
             begin_stage_of_widening();
             workers_.run(sources.size(),
                          [&](FieldSolver& solver, size_t i) { near_.widen(sources[i], solver); });
-            find(limit, sources);
+            find(sources, false);
         }
     }
 
@@ -128,10 +139,9 @@ private:
     }
 
     // Chooses the vertices around which more is to be known, as many of them as there is work left for.
-    std::vector<uint32_t> choose_to_widen(double limit) {
+    std::vector<uint32_t> choose_to_widen() {
         std::vector<uint8_t> is_wanted(near_.vertex_count(), 0);
         for (const auto& [pair, error] : held_) {
-            if (!(error > limit)) continue; // held because its edge was steep
             const double wanted = REACH * double{pair.distance};
             for (const uint32_t number : {pair.first, pair.second})
                 for_each_around(vertex_of_number_[number], [&](uint32_t v) {
@@ -184,6 +194,7 @@ private:
     Index& index_;
     const ListOfLists<uint32_t> edge_ends_;
     const double average_edge_;
+    double limit_ = LARGEST_ERROR;           // of errors that are let pass
     std::vector<uint32_t> vertex_of_number_; // NONE of added vertices
     uint64_t most_work_ = 0;                 // so many vertices may be found by looking farther
     uint64_t work_left_ = 0;                 // of these

@@ -77,3 +77,29 @@ TEST_CASE("wrong pairs: around them, farther ones are found") {
     CHECK(before.wrong > 20);
     CHECK(now.wrong < before.wrong / 4);
 }
+
+// Most of its fields are steep along edges as short as the bevel, by the rounding of tables.
+TEST_CASE("wrong pairs: on thin bevels, pairs that are only steep leave room for those that are wrong") {
+    constexpr double NEIGHBOURS = 5; // pairs of vertices of one bevel are up to so many times its width apart
+    for (const auto& [cells, bevel] : {std::pair{6u, 3e-4}, std::pair{7u, 3e-4}, std::pair{8u, 1e-4}}) {
+        const TestMesh mesh = bevelled_box(cells, bevel);
+        const uint32_t count = mesh.vertex_count();
+        const auto index = build(mesh, default_options());
+        const auto metric = solver(mesh, build_options());
+        CHECK(count_wrong(tables_only(index.get()).get(), mesh, sparse(5)).wrong > 0);
+        double largest = 0, largest_of_pairs = 0;
+        for (uint32_t source = 0; source < count; source += sparse(1)) {
+            const auto exact = metric_distances(metric.get(), source, count);
+            const auto field = msad(index.get(), source, count);
+            for (uint32_t v = 0; v < count; ++v) {
+                if (v == source) continue;
+                largest = std::max(largest, std::abs(double{field[v]} / exact[v] - 1));
+                if (exact[v] < NEIGHBOURS * bevel)
+                    largest_of_pairs = std::max(
+                        largest_of_pairs, std::abs(double{sssd(index.get(), source, v)} / exact[v] - 1));
+            }
+        }
+        CHECK(largest < LARGEST_ERROR + ROUNDING);
+        CHECK(largest_of_pairs < LARGEST_ERROR + ROUNDING);
+    }
+}

@@ -145,6 +145,27 @@ inline TestMesh torus(uint32_t around, uint32_t along) {
     return mesh;
 }
 
+// The unit sphere as textbooks write it: `rings` + 1 rows of `around` vertices from pole to pole, stretched
+// to `height`. The first row is one point; the last one is a ring with this radius, about 1.2e-16 if the
+// sine of pi is asked for.
+inline TestMesh textbook_sphere(uint32_t rings, uint32_t around, double height, double last_radius) {
+    constexpr double TURN = 6.283185307179586;
+    TestMesh mesh;
+    for (uint32_t i = 0; i <= rings; ++i)
+        for (uint32_t j = 0; j < around; ++j) {
+            const double v = TURN / 2 * i / rings, u = TURN * j / around;
+            const double radius = i == rings ? last_radius : std::sin(v);
+            mesh.add_vertex(radius * std::cos(u), radius * std::sin(u), height * std::cos(v));
+        }
+    for (uint32_t i = 0; i < rings; ++i)
+        for (uint32_t j = 0; j < around; ++j) {
+            const uint32_t a = i * around + j, b = i * around + (j + 1) % around;
+            mesh.add_triangle(a, b, b + around);
+            mesh.add_triangle(a, b + around, a + around);
+        }
+    return mesh;
+}
+
 // Poles and `rings` circles of `around` vertices on the unit sphere.
 inline TestMesh sphere(uint32_t rings, uint32_t around) {
     constexpr double TURN = 6.283185307179586;
@@ -165,6 +186,46 @@ inline TestMesh sphere(uint32_t rings, uint32_t around) {
             mesh.add_triangle(at(i, j + 1), at(i + 1, j + shift), at(i + 1, j + shift + 1));
         }
     }
+    return mesh;
+}
+
+// A box with a side of 2 whose edges and corners are bevelled, by so little: each face is a grid of
+// cells x cells whose outermost rows are the bevels. Each vertex is there once.
+inline TestMesh bevelled_box(uint32_t cells, double bevel) {
+    TestMesh mesh;
+    using Place = std::array<uint32_t, 3>;
+    std::map<Place, uint32_t> vertices;
+    const auto line = [&](uint32_t i) {
+        if (i == 1) return bevel - 1;
+        if (i + 1 == cells) return 1 - bevel;
+        return 2.0 * i / cells - 1;
+    };
+    const auto vertex = [&](const Place& place) {
+        const auto [at, is_new] = vertices.try_emplace(place, mesh.vertex_count());
+        if (!is_new) return at->second;
+        std::array<double, 3> core, out;
+        for (size_t k = 0; k < 3; ++k) {
+            core[k] = std::clamp(line(place[k]), bevel - 1, 1 - bevel);
+            out[k] = line(place[k]) - core[k];
+        }
+        const double length = std::hypot(out[0], out[1], out[2]);
+        for (size_t k = 0; k < 3; ++k) core[k] += bevel * out[k] / length;
+        return mesh.add_vertex(core[0], core[1], core[2]);
+    };
+    for (size_t axis = 0; axis < 3; ++axis)
+        for (const uint32_t side : {0u, cells})
+            for (uint32_t i = 0; i < cells; ++i)
+                for (uint32_t j = 0; j < cells; ++j) {
+                    const auto corner = [&](uint32_t x, uint32_t y) {
+                        Place place;
+                        place[axis] = side;
+                        place[(axis + 1) % 3] = side == 0 ? y : x;
+                        place[(axis + 2) % 3] = side == 0 ? x : y;
+                        return vertex(place);
+                    };
+                    mesh.add_triangle(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1));
+                    mesh.add_triangle(corner(i, j), corner(i + 1, j + 1), corner(i, j + 1));
+                }
     return mesh;
 }
 

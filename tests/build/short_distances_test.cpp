@@ -1,0 +1,121 @@
+// Distances that are too short to have a relative error, as at a pole whose vertices are 1e-16 apart, decide
+// nothing and are not stated; those that are short beside the edges of the mesh still are.
+#include <algorithm>
+#include <cmath>
+
+#include "src/file/sections.h"
+#include "tests/capi/calls.h"
+#include "tests/support/sanitized.h"
+
+using namespace geodesic::test;
+
+namespace {
+
+constexpr uint32_t RINGS = 16, AROUND = 32;
+constexpr double SINE_OF_PI = 1.2246467991473532e-16;
+constexpr double ROUNDING = 2e-4; // of measured distances
+
+// Not the same from all sides, so that there are errors.
+TestMesh lumpy(double last_radius) {
+    TestMesh mesh = textbook_sphere(RINGS, AROUND, 1.5, last_radius);
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        double* const at = mesh.positions.data() + 3 * v;
+        const double factor = 1 + 0.05 * std::sin(9 * at[0]) * std::cos(7 * at[1]);
+        for (size_t k = 0; k < 3; ++k) at[k] *= factor;
+    }
+    return mesh;
+}
+
+struct Errors {
+    double mean = 0, largest = 0; // of MSAD
+    double largest_of_pairs = 0;  // of SSSD
+};
+
+// Of all distances that are over `shortest` and up to `longest`.
+Errors errors_of(const geoidx* index, const TestMesh& mesh, const geoidx_build_options& options,
+                 double shortest, double longest = 1e9) {
+    const uint32_t count = mesh.vertex_count();
+    const auto metric = solver(mesh, options);
+    Errors errors;
+    double answers = 0;
+    for (uint32_t source = 0; source < count; source += sparse(1)) {
+        const auto exact = metric_distances(metric.get(), source, count);
+        const auto field = msad(index, source, count);
+        for (uint32_t v = 0; v < count; ++v) {
+            if (!(exact[v] > shortest && exact[v] <= longest)) continue;
+            const double error = std::abs(double{field[v]} / exact[v] - 1);
+            errors.mean += error;
+            ++answers;
+            errors.largest = std::max(errors.largest, error);
+            errors.largest_of_pairs =
+                std::max(errors.largest_of_pairs, std::abs(double{sssd(index, source, v)} / exact[v] - 1));
+        }
+    }
+    errors.mean /= answers;
+    return errors;
+}
+
+}
+
+TEST_CASE("short distances: a pole of twins decides nothing and is not stated") {
+    const TestMesh mesh = lumpy(SINE_OF_PI);
+    auto welding = default_options();
+    welding.weld_tolerance = 1e-9;
+    const auto index = build(mesh, default_options());
+    const geoidx_info info = info_of(index.get()), welded = info_of(build(mesh, welding).get());
+    REQUIRE(info.welded_vertex_count == welded.welded_vertex_count + AROUND - 1);
+    const Errors errors = errors_of(index.get(), mesh, build_options(), 1e-6);
+    CHECK(errors.largest < 0.011);
+    CHECK(info.error_mean == doctest::Approx(errors.mean).epsilon(0.3));
+    CHECK(info.error_max < 2 * std::max(errors.largest, errors.largest_of_pairs));
+    CHECK(info.error_several_max < 0.02);
+    CHECK(info.error_mean <= default_options().target_error);
+    CHECK(info.error_mean_at_vertices < 2 * welded.error_mean_at_vertices);
+    CHECK(info.added_vertex_count < 2 * std::max<uint64_t>(welded.added_vertex_count, 50));
+    CHECK(info.table_entries < 1.5 * double(welded.table_entries));
+}
+
+TEST_CASE("short distances: fields do not tell twins from each other") {
+    const TestMesh mesh = lumpy(SINE_OF_PI);
+    const uint32_t count = mesh.vertex_count(), twins = RINGS * AROUND;
+    const auto index = build(mesh, default_options());
+    for (uint32_t source = 0; source < count; source += sparse(3)) {
+        const auto field = msad(index.get(), source, count);
+        const auto [least, most] = std::minmax_element(field.begin() + twins, field.end());
+        CHECK(*most - *least <= 1e-6 * *least + 1e-15);
+    }
+}
+
+TEST_CASE("short distances: by other metrics they are short beside the longest one") {
+    const TestMesh mesh = textbook_sphere(8, 12, 1.5, SINE_OF_PI);
+    const std::vector<double> costs(mesh.triangle_count(), 3);
+    auto weighted = default_options(), along_edges = default_options();
+    weighted.metric = GEOIDX_METRIC_WEIGHTED;
+    weighted.face_costs = costs.data();
+    weighted.face_cost_count = costs.size();
+    along_edges.metric = GEOIDX_METRIC_EDGES;
+    for (const auto& options : {weighted, along_edges}) {
+        CAPTURE(options.metric);
+        const geoidx_info info = info_of(build(mesh, options).get());
+        CHECK(info.error_mean < 0.01);
+        CHECK(info.error_max < 1);
+        CHECK(info.error_several_max < 1);
+        CHECK(info.error_mean_at_vertices < 0.05);
+    }
+}
+
+TEST_CASE("short distances: those of edges 1e-4 times as long as others are compared, held and stated") {
+    const double edge = average_edge(lumpy(SINE_OF_PI)), radius = 1e-4 * edge;
+    const TestMesh mesh = lumpy(radius);
+    const auto index = build(mesh, default_options());
+    const Errors errors = errors_of(index.get(), mesh, build_options(), 1e-7, 0.1 * edge);
+    CHECK(errors.largest < 0.01 + ROUNDING);
+    CHECK(errors.largest_of_pairs < 0.01 + ROUNDING);
+
+    auto along_edges = default_options(); // which holds no pairs: tables round such distances to nothing
+    along_edges.metric = GEOIDX_METRIC_EDGES;
+    const auto rounded = build(mesh, along_edges);
+    const Errors of_rounded = errors_of(rounded.get(), mesh, along_edges, 1e-7, 0.1 * edge);
+    CHECK(of_rounded.largest > 0.5);
+    CHECK(info_of(rounded.get()).error_near_max > 0.5 * of_rounded.largest);
+}
