@@ -12,7 +12,8 @@
  * - Distances are in the mesh's own unit. A vertex that cannot be reached is at +INFINITY.
  * - Ownership. The caller owns every array it passes; the library reads or writes it during the call only and
  *   keeps no pointer to it. The library owns handles; each create/build/open has its close. Closing NULL is
- * fine.
+ *   fine. Where an output array overlaps an input or another output of the call, all of them hold unspecified
+ *   values afterwards, and the call may fail, but nothing outside of them is read or written.
  * - Errors. Functions return a geoidx_status: 0 is success, errors are negative. geoidx_last_error() gives
  * the detail (what, where, which value) of the calling thread's latest failure. On failure an output handle
  * is set to NULL and output arrays hold unspecified values. No exception, abort or print crosses this

@@ -59,7 +59,7 @@ void Query::matrix_of_fields(std::span<const uint32_t> source_ids, std::span<con
         const auto ids = source_ids.subspan(done, fields_at_once(source_ids.size() - done));
         const FieldsByNumber fields = fields_from(ids);
         for (size_t j = 0; j < target_ids.size(); ++j) {
-            const uint32_t number = index_.number_of_id[target_ids[j]];
+            const uint32_t number = number_of(target_ids[j]); // again: an entry may have overwritten it
             for (size_t i = 0; i < ids.size(); ++i)
                 entries.at(done + i, j) = ids[i] == target_ids[j] ? 0 : fields.at(i, number);
         }

@@ -24,6 +24,7 @@ std::variant<GraphQuery, OverlayQuery> make_engine(const Index& index, std::pmr:
 
 Query::Query(const Index& index, std::pmr::memory_resource* memory)
     : index_(index), engine_(make_engine(index, memory)), order_(memory), sources_(memory),
+      unused_sources_(memory), batch_ids_(memory), unused_positions_(memory),
       distance_(index.numbering().vertex_count(), memory), corner_fields_{Array<float>(memory),
                                                                           Array<float>(memory),
                                                                           Array<float>(memory)},
@@ -131,12 +132,18 @@ void Query::write_by_id(const SideBySide& fields) const {
     }
 }
 
-// Takes the numbers of sources, in an order of their own, so that answers do not depend on that of the ids.
+// Takes the numbers of sources, in an order of their own, so that answers do not depend on that of the ids;
+// and the ids of those that no triangle uses. Once distances are written, the ids given are not read again,
+// since both may overlap.
 void Query::take_sources(std::span<const uint32_t> source_ids) {
     if (source_ids.empty()) refuse_argument("there is no source");
     sources_.clear();
+    unused_sources_.clear();
     for (uint32_t id : source_ids)
-        if (const uint32_t source = number_of(id); source != NONE) sources_.push_back(source);
+        if (const uint32_t source = number_of(id); source != NONE)
+            sources_.push_back(source);
+        else
+            unused_sources_.push_back(id);
     std::ranges::sort(sources_);
     sources_.erase(std::unique(sources_.begin(), sources_.end()), sources_.end());
 }
@@ -145,6 +152,7 @@ void Query::take_sources(std::span<const uint32_t> source_ids) {
 std::span<const float> Query::field_within(float radius) {
     const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
     std::visit([&](auto& engine) { engine.msad(sources_, radius, by_number); }, engine_);
+    for (const uint32_t source : sources_) by_number[source] = 0;
     return by_number;
 }
 
@@ -157,7 +165,7 @@ void Query::msad(std::span<const uint32_t> source_ids, float radius, std::span<f
     if (radius < INFINITE)
         for (float& d : distances)
             if (d > radius) d = INFINITE;
-    for (uint32_t id : source_ids) distances[id] = 0; // also a source that no triangle uses
+    for (uint32_t id : unused_sources_) distances[id] = 0;
 }
 
 void Query::set_threads(uint32_t count) {
@@ -175,9 +183,10 @@ size_t Query::fields_at_once(size_t left) const {
 void Query::ssad_each(std::span<const uint32_t> source_ids, std::span<float> distances) {
     check_count("distance_count", distances.size(), source_ids.size());
     for (uint32_t id : source_ids) number_of(id);
-    for (size_t done = 0; done < source_ids.size();) {
-        const size_t count = fields_at_once(source_ids.size() - done);
-        const auto ids = source_ids.subspan(done, count);
+    batch_ids_.assign(source_ids.begin(), source_ids.end()); // see take_sources()
+    for (size_t done = 0; done < batch_ids_.size();) {
+        const size_t count = fields_at_once(batch_ids_.size() - done);
+        const auto ids = std::span<const uint32_t>(batch_ids_).subspan(done, count);
         const auto fields =
             distances.subspan(done * index_.description.id_count, count * index_.description.id_count);
         if (count == 1)

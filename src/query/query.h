@@ -167,9 +167,12 @@ private:
     const Index& index_;
     std::variant<GraphQuery, OverlayQuery> engine_;
     uint32_t prepared_id_ = NONE, prepared_ = NONE;
-    Array<std::pair<uint64_t, uint32_t>> order_; // the vertex numbers of a pair, and its position
-    Array<uint32_t> sources_;                    // of MSAD, by number
-    Array<float> distance_;                      // by number; of ssad_at_once() side by side
+    Array<std::pair<uint64_t, uint32_t>> order_;            // the vertex numbers of a pair, and its position
+    Array<uint32_t> sources_;                               // of MSAD, by number
+    Array<uint32_t> unused_sources_;                        // by id: those that no triangle uses
+    Array<uint32_t> batch_ids_;                             // of ssad_each()
+    Array<std::pair<uint32_t, uint32_t>> unused_positions_; // such ids, and their positions
+    Array<float> distance_;                                 // by number; of ssad_at_once() side by side
     // Of points where the engine takes none: by number from each corner, from all points, and from the ends
     // of a path.
     std::array<Array<float>, 3> corner_fields_;
