@@ -756,7 +756,8 @@ GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoi
                                                  const geoidx_surface_point* target, float* distance);
 
 /* geoidx_query_msad from points of the surface: distances[v] is the least of offsets[i] + the distance from
- * sources[i] to v. `offsets` are finite and not negative; NULL: all are 0. */
+ * sources[i] to v. `offsets` are finite and not negative; NULL: all are 0. An offset that all sources have is
+ * added to the distances without it; where offsets differ, distances of the later ones are less exact. */
 GEOIDX_API geoidx_status geoidx_query_point_msad(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* sources, uint32_t source_count,
                                                  const float* offsets, float* distances,

@@ -102,9 +102,8 @@ void OverlayQuery::point_nearest_sources(std::span<const FacePoint> points, std:
         if (source != NONE) source = position_of_key_[source];
 }
 
-std::span<const WithinSweep::Found> OverlayQuery::point_within(const FacePoint& point, float offset,
-                                                               float radius) {
-    take_points({&point, 1}, {&offset, 1});
+std::span<const WithinSweep::Found> OverlayQuery::point_within(const FacePoint& point, float radius) {
+    take_points({&point, 1}, {});
     return within_sweep().sweep({keys_, points_}, radius);
 }
 

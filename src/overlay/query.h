@@ -84,8 +84,8 @@ public:
     void point_nearest_sources(std::span<const FacePoint> points, std::span<const float> offsets,
                                std::span<float> distance, std::span<uint32_t> position);
 
-    // The vertices for which `offset` + the distance from the point is no more than `radius`.
-    std::span<const WithinSweep::Found> point_within(const FacePoint& point, float offset, float radius);
+    // The vertices that are no farther than `radius` from the point.
+    std::span<const WithinSweep::Found> point_within(const FacePoint& point, float radius);
 
     // Prepares one of the two ends of a path, 0 or 1: end_distance() then answers distances from it.
     void prepare_end(size_t end, const FacePoint& point);

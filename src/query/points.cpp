@@ -6,6 +6,15 @@
 
 namespace geodesic {
 
+namespace {
+
+void add_to_each(std::span<float> distances, float least) {
+    if (least == 0) return;
+    for (float& distance : distances) distance += least;
+}
+
+}
+
 // Whether the engine answers from points itself. If not, distances from the corners of their faces do.
 bool Query::takes(const FacePoint& point) const {
     const auto* const overlay = std::get_if<OverlayQuery>(&engine_);
@@ -65,11 +74,24 @@ bool Query::takes_all(const PointSources& sources) const {
     return std::ranges::all_of(sources.points, [&](const FacePoint& point) { return takes(point); });
 }
 
+// Fills offsets_ with the offsets without the least one, which is returned. Sweeps unfold over borders as if
+// a source with an offset were that much farther away, which it is not. So only by what they differ in are
+// offsets part of a sweep, and one source, or several with equal ones, are as exact as without.
+float Query::take_offsets(const PointSources& sources) {
+    offsets_.assign(sources.offsets.begin(), sources.offsets.end());
+    if (offsets_.empty()) return 0;
+    const float least = std::ranges::min(offsets_);
+    for (float& offset : offsets_) offset -= least;
+    return least;
+}
+
 void Query::point_msad(const PointSources& sources, std::span<float> distances) {
     check_count("distance_count", distances.size(), 1);
     const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
     if (takes_all(sources)) {
-        std::get<OverlayQuery>(engine_).point_msad(sources.points, sources.offsets, by_number);
+        const float least = take_offsets(sources);
+        std::get<OverlayQuery>(engine_).point_msad(sources.points, offsets_, by_number);
+        add_to_each(by_number, least);
     } else {
         point_field_.assign(by_number.size(), INFINITE);
         for (size_t i = 0; i < sources.points.size(); ++i)
@@ -86,11 +108,13 @@ void Query::point_nearest_sources(const PointSources& sources, std::span<uint32_
     check_count("vertex_count", nearest.size(), 1);
     const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
     nearest_.resize(by_number.size());
-    if (takes_all(sources))
-        std::get<OverlayQuery>(engine_).point_nearest_sources(sources.points, sources.offsets, by_number,
-                                                              nearest_);
-    else
+    if (takes_all(sources)) {
+        const float least = take_offsets(sources);
+        std::get<OverlayQuery>(engine_).point_nearest_sources(sources.points, offsets_, by_number, nearest_);
+        add_to_each(by_number, least);
+    } else {
         nearest_sources_by_fields(sources);
+    }
     for (const KnownWay& way : sources.known)
         if (way.length < by_number[way.number]) {
             by_number[way.number] = way.length;

@@ -28,8 +28,9 @@ Query::Query(const Index& index, std::pmr::memory_resource* memory)
       distance_(index.numbering().vertex_count(), memory), corner_fields_{Array<float>(memory),
                                                                           Array<float>(memory),
                                                                           Array<float>(memory)},
-      point_field_(memory), end_fields_{Array<float>(memory), Array<float>(memory)}, pair_ids_(memory),
-      nearest_(memory), position_at_(memory), next_target_(memory), within_(memory), ranked_(memory) {}
+      point_field_(memory), offsets_(memory), end_fields_{Array<float>(memory), Array<float>(memory)},
+      pair_ids_(memory), nearest_(memory), position_at_(memory), next_target_(memory), within_(memory),
+      ranked_(memory) {}
 
 uint32_t Query::number_of(uint32_t id) const {
     if (id >= index_.description.id_count)

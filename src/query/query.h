@@ -139,6 +139,7 @@ private:
     bool takes(const FacePoint& point) const;
     bool takes_all(const PointSources& sources) const;
     float vertex_to_point(uint32_t vertex, const FacePoint& point);
+    float take_offsets(const PointSources& sources);
     void add_point_field(const FacePoint& point, float offset);
     void nearest_sources_by_fields(const PointSources& sources);
     size_t fields_at_once(size_t left) const;
@@ -153,7 +154,7 @@ private:
     void write_positions(std::span<const uint32_t> source_ids, std::span<uint32_t> nearest);
     const IdsOfNumbers& ids_of_numbers();
     std::span<const WithinSweep::Found> numbers_within(uint32_t source, float radius);
-    std::span<const WithinSweep::Found> numbers_within(const PointSources& sources, size_t i, float radius);
+    std::span<const WithinSweep::Found> numbers_within(const FacePoint& point, float radius);
     std::span<const WithinSweep::Found> found_in(std::span<const float> field, float radius);
     void keep_least();
     void replace_numbers();
@@ -177,6 +178,7 @@ private:
     // of a path.
     std::array<Array<float>, 3> corner_fields_;
     Array<float> point_field_;
+    Array<float> offsets_; // of point sources, without the least one
     std::array<Array<float>, 2> end_fields_;
     Array<uint32_t> pair_ids_; // of a row of a matrix
     Array<uint32_t> nearest_;  // by number: the nearest source, by its number

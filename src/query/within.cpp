@@ -1,5 +1,6 @@
 // What is near: the vertices within a radius, and the nearest targets.
 #include <algorithm>
+#include <cmath>
 
 #include "format/error.h"
 #include "src/query/query.h"
@@ -15,6 +16,15 @@ constexpr float GROWTH = 2;
 // Sweeps that find `count` of evenly spread targets visit about vertices * count / targets vertices. A pair
 // takes as long as sweeping this many; that the last sweep looks too far is included.
 constexpr uint64_t SWEPT_VERTICES_PER_PAIR = 64;
+
+// How far a sweep must look so that it misses no distance that, with `offset` added, is rounded to `radius`
+// or less. Negative if there is none.
+float radius_without(float offset, float radius) {
+    if (offset == 0 || radius == INFINITE) return radius;
+    if (radius < offset) return -1;
+    const float beyond = std::nextafter(radius, INFINITE);
+    return std::nextafter(static_cast<float>(double{beyond} - double{offset}), INFINITE);
+}
 
 }
 
@@ -37,12 +47,10 @@ std::span<const WithinSweep::Found> Query::found_in(std::span<const float> field
     return within_;
 }
 
-std::span<const WithinSweep::Found> Query::numbers_within(const PointSources& sources, size_t i,
-                                                          float radius) {
-    const FacePoint& point = sources.points[i];
-    if (takes(point)) return std::get<OverlayQuery>(engine_).point_within(point, sources.offset(i), radius);
+std::span<const WithinSweep::Found> Query::numbers_within(const FacePoint& point, float radius) {
+    if (takes(point)) return std::get<OverlayQuery>(engine_).point_within(point, radius);
     point_field_.assign(index_.numbering().vertex_count(), INFINITE);
-    add_point_field(point, sources.offset(i));
+    add_point_field(point, 0);
     return found_in(point_field_, radius);
 }
 
@@ -66,9 +74,13 @@ std::span<const Query::Found> Query::within(std::span<const uint32_t> source_ids
 std::span<const Query::Found> Query::point_within(const PointSources& sources, float radius) {
     if (!(radius >= 0)) refuse_argument("the radius is negative or NaN");
     ranked_.clear();
-    for (size_t i = 0; i < sources.points.size(); ++i)
-        for (const auto& [number, distance] : numbers_within(sources, i, radius))
-            ranked_.push_back({distance, number});
+    for (size_t i = 0; i < sources.points.size(); ++i) {
+        const float offset = sources.offset(i), swept = radius_without(offset, radius);
+        if (swept < 0) continue;
+        for (const auto& [number, distance] : numbers_within(sources.points[i], swept))
+            if (const float whole = offset + distance; whole <= radius && whole < INFINITE)
+                ranked_.push_back({whole, number});
+    }
     for (const KnownWay& way : sources.known)
         if (way.length <= radius && way.length < INFINITE) ranked_.push_back({way.length, way.number});
     keep_least();
@@ -79,7 +91,7 @@ std::span<const Query::Found> Query::point_within(const PointSources& sources, f
 
 void Query::sweep_within(const PointSources& source, float radius) {
     swept_field_ = !takes(source.points.front());
-    numbers_within(source, 0, radius);
+    numbers_within(source.points.front(), radius);
 }
 
 float Query::distance_within(uint32_t number) const {

@@ -413,6 +413,38 @@ TEST_CASE("points: fields from one and from several, with offsets") {
         }
 }
 
+// Bit for bit: an offset that all sources have takes no part in how ways are unfolded over borders.
+TEST_CASE("points: an offset that all sources have is added to their distances") {
+    for (const uint32_t engine : {GEOIDX_ENGINE_OVERLAY, GEOIDX_ENGINE_GRAPH})
+        for (const Soup& soup : {grid(20, 20, 1, 1), joined(comb(1), torus(40, 22, 1, 0.4))}) {
+            const PathCase on(soup, path_options(engine));
+            std::mt19937_64 random(11);
+            for (const float offset : {0.01f, 0.3f, 1000.0f}) {
+                const geoidx_surface_point sources[] = {random_point(soup, random, 3),
+                                                        random_point(soup, random, 0),
+                                                        random_point(soup, random, 2)};
+                const float offsets[] = {offset, offset, offset};
+                const std::span<const geoidx_surface_point> all(sources);
+                for (const auto& some : {all.first(1), all.subspan(1, 1), all}) {
+                    auto expected = field(on, some);
+                    for (float& distance : expected) distance += offset;
+                    CHECK(field(on, some, offsets) == expected);
+                    std::vector<uint32_t> nearest(soup.vertex_count()), without = nearest;
+                    std::vector<float> distances(soup.vertex_count());
+                    const auto ask = [&](const float* begun, uint32_t* found, float* distance) {
+                        require_success(geoidx_query_point_nearest_sources(
+                            on.query.get(), on.surface.get(), some.data(), static_cast<uint32_t>(some.size()),
+                            begun, found, distance, soup.vertex_count()));
+                    };
+                    ask(offsets, nearest.data(), distances.data());
+                    ask(nullptr, without.data(), nullptr);
+                    CHECK(distances == expected);
+                    CHECK(nearest == without);
+                }
+            }
+        }
+}
+
 TEST_CASE("points: bad input is refused by name") {
     const PathCase on(torus(10, 8, 1, 0.4)), other(torus(10, 8, 1, 0.5));
     geoidx_surface_point fine{0, 0, {1, 0, 0}}, bad{0, 0, {2, -1, 0}};
