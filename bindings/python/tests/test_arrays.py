@@ -134,6 +134,31 @@ class Refusals(unittest.TestCase):
         for dtype in (float, bool, object, "U8"):
             self.refused(TypeError, vertices, faces.astype(dtype))
 
+    def test_masked_values(self):
+        """A mask that hides something is refused; one that hides nothing is as none."""
+        vertices, faces = SQUARE
+        error = geoidx.InvalidArgumentError
+        self.assertIn("mask", self.refused(error, np.ma.array(vertices, mask=np.eye(4, 3)), faces))
+        self.assertIn("mask", self.refused(error, vertices, np.ma.array(faces, mask=np.eye(2, 3))))
+        index = geoidx.Index.build(np.ma.array(vertices), np.ma.array(faces, mask=False))
+        with self.assertRaises(error):
+            index.msad(np.ma.array([0, 1], mask=[False, True]))
+
+    def test_options_too_large_for_a_float(self):
+        for name in ("weld_tolerance", "delta", "rounding", "target_error"):
+            with self.assertRaisesRegex(geoidx.InvalidArgumentError, name):
+                geoidx.Index.build(*SQUARE, **{name: 10**400})
+        for take in (geoidx.Solver, geoidx.Surface):
+            with self.assertRaisesRegex(geoidx.InvalidArgumentError, "weld_tolerance"):
+                take(*SQUARE, weld_tolerance=10**400)
+
+    def test_a_class_is_no_metric(self):
+        """Not even a callback, though it can be called."""
+        for metric in (geoidx.Exact, geoidx.Edges, geoidx.Weighted, geoidx.Callback):
+            for take in (geoidx.Index.build, geoidx.Solver, geoidx.Surface):
+                with self.assertRaisesRegex(TypeError, metric.__name__):
+                    take(*SQUARE, metric=metric)
+
     def test_shapes(self):
         vertices, faces = SQUARE
         error = geoidx.InvalidArgumentError

@@ -66,6 +66,43 @@ class Paths(unittest.TestCase):
         field = self.query.point_msad(self.surface, point, offsets=[3])
         np.testing.assert_allclose(field - 3, self.index.msad(vertex), atol=1e-3 * field.max())
 
+    def test_offsets_are_numbers(self):
+        point = geoidx.surface_points(0, [1, 0, 0])
+        calls = (
+            lambda offsets: self.query.point_msad(self.surface, point, offsets=offsets),
+            lambda offsets: self.query.point_nearest(self.surface, point, offsets=offsets),
+            lambda offsets: self.query.point_within(self.surface, point, 1, offsets=offsets),
+        )
+        for call in calls:
+            for bad in ([1 + 2j], [True], ["1"], [None], np.array([1], object)):
+                with self.assertRaises(TypeError):
+                    call(bad)
+            for bad in ([-1], [math.nan], [math.inf], [1e300], [[1], [2]], []):
+                with self.assertRaises(geoidx.InvalidArgumentError):
+                    call(bad)
+        expected = calls[0]([1])
+        for good in (1, 1.0, np.float32(1), np.array([1.0]), np.array([1], np.int8), np.array([1], ">f4")):
+            np.testing.assert_array_equal(calls[0](good), expected)
+
+    def test_points_are_broadcast(self):
+        for triangles, weights, count in (
+            (0, [1, 0, 0], 1),
+            ([0, 1, 2], [1, 0, 0], 3),
+            ([0, 1, 2], [[1, 0, 0]], 3),
+            (0, [[1, 0, 0], [0, 1, 0]], 2),
+            ([0, 1], [[1, 0, 0], [0, 1, 0]], 2),
+            ([], [], 0),
+            ([], np.empty((0, 3)), 0),
+            ([], [1, 0, 0], 0),
+        ):
+            points = geoidx.surface_points(triangles, weights)
+            self.assertEqual(points.shape, (count,))
+            self.assertTrue(np.all(points["triangle"] == triangles))
+            self.assertTrue(np.all(points["weights"] == np.reshape(weights, (-1, 3))))
+        for triangles, weights in (([0, 1, 2], [[1, 0, 0]] * 2), ([0, 1], []), (0, [1, 0]), (0, [[[1, 0, 0]]])):
+            with self.assertRaises(geoidx.InvalidArgumentError):
+                geoidx.surface_points(triangles, weights)
+
     def test_points_ask_for_what_is_near(self):
         sources = np.concatenate([self.surface.closest_point(p)[0] for p in (self.a, self.b)])
         field = np.empty(len(self.mesh[0]), np.float32)

@@ -16,6 +16,7 @@ UINT64_MAX = 0xFFFFFFFFFFFFFFFF
 
 Ids = NDArray[np.uint32]
 Doubles = NDArray[np.float64]
+Floats = NDArray[np.float32]
 
 Vertex = Union[int, "np.integer[Any]"]
 Vertices = Union[NDArray[Any], Sequence[Any]]
@@ -47,6 +48,8 @@ def vertex(value: SupportsIndex) -> int:
 
 
 def as_array(values: Any, name: str) -> NDArray[Any]:
+    if np.ma.is_masked(values):  # type: ignore[no-untyped-call]
+        raise InvalidArgumentError(f"{name} has masked values: the library knows no masks")
     try:
         return np.asarray(values)
     except ValueError as error:  # rows of different lengths
@@ -113,6 +116,15 @@ def doubles(values: ArrayLike, name: str, *shape: int | None) -> Doubles:
     _check_kind(array, "fiu", name)
     _check_shape(array, name, *shape)
     return np.require(array, np.float64, ["C", "ALIGNED"])
+
+
+def floats(values: ArrayLike, name: str, *shape: int | None) -> Floats:
+    """Numbers of the shape, float32 and C-contiguous; not copied where they are."""
+    array = as_array(values, name)
+    _check_kind(array, "fiu", name)
+    _check_shape(array, name, *shape)
+    with np.errstate(over="ignore"):  # the library refuses what is infinite then
+        return np.require(array, np.float32, ["C", "ALIGNED"])
 
 
 def _rows_are_packed(array: NDArray[Any]) -> bool:

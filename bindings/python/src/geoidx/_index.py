@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _fields, _native
-from ._arrays import UINT64_MAX, Ids, Vertex, Vertices, address, broadcast, ids, whole_number
+from ._arrays import UINT64_MAX, Ids, Vertex, Vertices, address, broadcast, ids, real_number, whole_number
 from ._callbacks import Progress
 from ._errors import Path, check
 from ._fields import Distances
@@ -130,10 +130,10 @@ class Index(Closable):
         struct.engine = as_engine(engine)
         struct.level_count = whole_number(levels, "levels")
         options.set_patches(patches)
-        struct.delta = delta
+        struct.delta = real_number(delta, "delta")
         struct.exact_vertices = whole_number(exact_vertices, "exact_vertices")
-        struct.rounding = rounding
-        struct.target_error = target_error
+        struct.rounding = real_number(rounding, "rounding")
+        struct.target_error = real_number(target_error, "target_error")
         struct.lloyd_iterations = whole_number(lloyd_iterations, "lloyd_iterations")
         struct.seed = whole_number(seed, "seed", UINT64_MAX)
         struct.threads = whole_number(threads, "threads")

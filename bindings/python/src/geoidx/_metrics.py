@@ -139,6 +139,8 @@ _BY_NAME: dict[str, Metric] = {"exact": Exact(), "edges": Edges()}
 def as_metric(metric: MetricLike) -> Metric:
     if isinstance(metric, Metric):
         return metric
+    if isinstance(metric, type) and issubclass(metric, Metric):
+        raise TypeError(f"the metric is the class {metric.__name__}, not one of its instances: {metric.__name__}(...)")
     if callable(metric):
         return Callback(metric)
     if metric not in _BY_NAME:

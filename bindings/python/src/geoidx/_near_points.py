@@ -6,10 +6,10 @@ from ctypes import byref, c_uint32
 from typing import SupportsIndex
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ._arrays import Ids, address, as_array, output, real_number, whole_number
-from ._errors import InvalidArgumentError, check
+from ._arrays import Floats, Ids, address, as_array, floats, output, real_number, whole_number
+from ._errors import check
 from ._fields import Distances
 from ._handle import Closable, OneThread
 from ._native import library
@@ -19,14 +19,11 @@ _LIKELY_COUNT = 1024
 """For so many vertices `point_within` has room at first. Where there are more, it asks again."""
 
 
-def offset_list(offsets: ArrayLike | None, count: int) -> NDArray[np.float32] | None:
+def offset_list(offsets: ArrayLike | None, count: int) -> Floats | None:
     """Distances that `count` sources begin with, or None."""
     if offsets is None:
         return None
-    begin = np.ascontiguousarray(np.atleast_1d(as_array(offsets, "offsets")), np.float32)
-    if begin.shape != (count,):
-        raise InvalidArgumentError(f"offsets has the shape {begin.shape}, not {(count,)}")
-    return begin
+    return floats(np.atleast_1d(as_array(offsets, "offsets")), "offsets", count)
 
 
 class NearPoints(Closable):
@@ -90,7 +87,7 @@ class NearPoints(Closable):
         self,
         surface: Surface,
         points: SurfacePoints,
-        begin: NDArray[np.float32] | None,
+        begin: Floats | None,
         radius: float,
         capacity: int,
     ) -> tuple[Ids, Distances, int]:

@@ -7,7 +7,7 @@ from enum import IntEnum
 from typing import Sequence, TypeVar
 
 from . import _native
-from ._arrays import UINT64_MAX, whole_number
+from ._arrays import UINT64_MAX, real_number, whole_number
 from ._callbacks import Callbacks, Progress
 from ._errors import InvalidArgumentError
 from ._mesh import MeshView
@@ -43,7 +43,7 @@ class BuildOptions:
     def __init__(self, metric: MetricLike, weld_tolerance: float, progress: Progress | None = None) -> None:
         self.struct = _native.BuildOptions()
         library.geoidx_build_options_init_sized(byref(self.struct), sizeof(self.struct))
-        self.struct.weld_tolerance = weld_tolerance
+        self.struct.weld_tolerance = real_number(weld_tolerance, "weld_tolerance")
         metric = as_metric(metric)
         self._arrays = metric.fill(self.struct)
         self.callbacks = Callbacks(progress, metric.function if isinstance(metric, Callback) else None)

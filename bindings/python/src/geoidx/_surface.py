@@ -34,10 +34,13 @@ def surface_points(triangles: ArrayLike, weights: ArrayLike) -> SurfacePoints:
     triangles: (k,) or one position in the array of faces.
     weights: (k, 3) or (3,), of the triangle's corners: not negative, 1 in sum.
     """
-    corners = np.atleast_2d(as_array(weights, "weights"))
-    points: NDArray[Any] = np.zeros(len(corners), SURFACE_POINT)
-    points["triangle"] = broadcast(id_list(triangles, "triangles"), points["triangle"])[0]
-    points["weights"] = doubles(corners, "weights", len(points), 3)
+    given = as_array(weights, "weights")
+    rows = given.reshape(0, 3) if given.shape == (0,) else np.atleast_2d(given)
+    corners = doubles(rows, "weights", None, 3)
+    of_each = broadcast(id_list(triangles, "triangles"), corners[:, 0])[0]
+    points: NDArray[Any] = np.zeros(len(of_each), SURFACE_POINT)
+    points["triangle"] = of_each
+    points["weights"] = corners
     return points
 
 
