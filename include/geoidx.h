@@ -631,8 +631,8 @@ GEOIDX_API geoidx_status geoidx_msad(const geoidx* index, const uint32_t* source
 
 /* The distances of each source by itself, to every vertex: distances[i * vertex_count + v] is that from
  * sources[i] to v, the same bits as geoidx_msad gives with this source alone. distance_count must be
- * source_count times the mesh's vertex_count. By GEOIDX_ENGINE_OVERLAY 16 sources go through the tables at a
- * time (scratch: 64 bytes a vertex). */
+ * source_count times the mesh's vertex_count; both may be 0. By GEOIDX_ENGINE_OVERLAY 16 sources go through
+ * the tables at a time (scratch: 64 bytes a vertex). */
 GEOIDX_API geoidx_status geoidx_ssad_batch(const geoidx* index, const uint32_t* sources,
                                            uint32_t source_count, float* distances, uint64_t distance_count);
 

@@ -36,6 +36,12 @@ void check_msad(const uint32_t* sources, const float* distances) {
     require(distances, "distances is NULL");
 }
 
+void fill_fields(Query& query, std::span<const uint32_t> sources, std::span<float> distances) {
+    require(sources.empty() || sources.data(), "sources is NULL");
+    require(distances.empty() || distances.data(), "distances is NULL");
+    query.ssad_each(sources, distances);
+}
+
 void fill_matrix(Query& query, std::span<const uint32_t> sources, std::span<const uint32_t> targets,
                  std::span<float> distances) {
     require(sources.empty() || sources.data(), "sources is NULL");
@@ -95,8 +101,7 @@ geoidx_status geoidx_ssad_batch(const geoidx* index, const uint32_t* sources, ui
                                 float* distances, uint64_t distance_count) {
     return guarded([&] {
         require(index, "index is NULL");
-        check_msad(sources, distances);
-        BorrowedQuery(*index)->ssad_each({sources, source_count}, {distances, distance_count});
+        fill_fields(*BorrowedQuery(*index), {sources, source_count}, {distances, distance_count});
     });
 }
 
@@ -228,8 +233,7 @@ geoidx_status geoidx_query_ssad_batch(geoidx_query* query, const uint32_t* sourc
                                       float* distances, uint64_t distance_count) {
     return guarded([&] {
         require(query, "query is NULL");
-        check_msad(sources, distances);
-        query->query.ssad_each({sources, source_count}, {distances, distance_count});
+        fill_fields(query->query, {sources, source_count}, {distances, distance_count});
     });
 }
 

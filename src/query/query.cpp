@@ -89,7 +89,6 @@ void Query::check_count(const char* name, uint64_t count, uint64_t fields) const
         refuse_argument(std::string(name) + " is " + std::to_string(count) + ", but the mesh has " +
                         std::to_string(index_.description.id_count) + " vertices" +
                         (fields == 1 ? "" : " and there are " + std::to_string(fields) + " sources"));
-    if (fields == 0) refuse_argument("there is no source");
 }
 
 void Query::write_by_id(std::span<float> field) const {

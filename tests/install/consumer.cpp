@@ -37,6 +37,11 @@ bool finds_what_is_near(const gdx::index& index) {
         query.nearest_targets(2, std::span(corners).first(2), std::span(found).first(1));
     index.matrix(std::span(corners).first(1), corners, entries);
     query.matrix(corners, std::span(corners).first(1), same);
+    index.sssd({}, {}); // of nothing there is nothing to answer
+    index.ssad({}, {});
+    index.matrix({}, {}, {});
+    query.ssad({}, {});
+    query.matrix({}, {}, {});
     bool refused = false;
     try {
         query.nearest_sources(corners, nearest, std::span(distances).first(3));

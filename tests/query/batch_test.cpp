@@ -199,7 +199,9 @@ TEST_CASE("batch: what is wrong is refused") {
         refused(geoidx_ssad_batch(index.get(), ids, 2, distances.data(), count), "distance_count");
         refused(geoidx_ssad_batch(index.get(), ids, 1, distances.data(), 2 * count), "distance_count");
         refused(geoidx_ssad_batch(index.get(), ids, 2, distances.data(), 2 * count), "out of range");
-        refused(geoidx_ssad_batch(index.get(), ids, 0, distances.data(), 0), "no source");
+        refused(geoidx_ssad_batch(index.get(), ids, 0, distances.data(), count), "distance_count");
+        require_success(geoidx_ssad_batch(index.get(), nullptr, 0, nullptr, 0)); // as matrices and pairs
+        require_success(geoidx_query_ssad_batch(query.get(), nullptr, 0, nullptr, 0));
         refused(geoidx_query_ssad_batch(nullptr, ids, 1, distances.data(), count), "query");
         refused(geoidx_query_set_threads(nullptr, 1), "query");
         refused(geoidx_query_set_threads(query.get(), 1025), "threads");

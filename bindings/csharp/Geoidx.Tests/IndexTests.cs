@@ -4,6 +4,7 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Numerics;
+using System.Runtime.InteropServices;
 using Xunit;
 
 namespace Geoidx.Tests
@@ -105,13 +106,61 @@ namespace Geoidx.Tests
             Assert.Equal(plane.ToBytes(), floats.ToBytes());
         }
 
+        private struct Vector3d
+        {
+            public Vector3d(double x, double y) => (X, Y, Z) = (x, y, 0);
+
+            public double X, Y, Z;
+        }
+
+        private struct LitVertex
+        {
+            public LitVertex(double x, double y) => (Position, Normal) = (new Vector3d(x, y), new Vector3(1, 2, 3));
+
+            public Vector3d Position;
+            public Vector3 Normal;
+        }
+
+        private struct WeightedVertex
+        {
+            public Vector3 Position;
+            public double Weight;
+        }
+
+        [StructLayout(LayoutKind.Explicit)]
+        private struct PlacedVertex
+        {
+            [FieldOffset(24)] public float Weight;
+            [FieldOffset(0)] public Vector3d Position;
+        }
+
+        private static void CheckUnitSquare<TVertex>(Func<double, double, TVertex> corner, PositionType? type = null)
+            where TVertex : unmanaged
+        {
+            var corners = new[] { corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1) };
+            var triangles = new[] { 0, 1, 2, 0, 2, 3 };
+            using GeodesicIndex square = GeodesicIndex.Build(GeodesicMesh.From(corners, triangles, type));
+            Assert.Equal(Math.Sqrt(2), square.Distance(1, 3), LeafTolerance);
+            if (type != null) return;
+            using GeodesicIndex span = GeodesicIndex.Build<TVertex>(corners, triangles);
+            Assert.Equal(square.ToBytes(), span.ToBytes());
+        }
+
         [Fact]
         public void AStructOfDoublesIsAMesh()
         {
-            var corners = new[] { (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0) };
-            using GeodesicIndex square = GeodesicIndex.Build(
-                GeodesicMesh.From(corners, new[] { 0, 1, 2, 0, 2, 3 }, PositionType.Double));
-            Assert.Equal(Math.Sqrt(2), square.Distance(1, 3), LeafTolerance);
+            CheckUnitSquare((x, y) => (x, y, 0.0));
+            CheckUnitSquare((x, y) => (x, y, 0.0), PositionType.Double);
+            CheckUnitSquare((x, y) => new Vector3d(x, y));
+            CheckUnitSquare((x, y) => new LitVertex(x, y));
+            CheckUnitSquare((x, y) => new PlacedVertex { Position = new Vector3d(x, y), Weight = 2 });
+        }
+
+        [Fact]
+        public void AStructThatBeginsWithFloatsIsAMeshOfFloats()
+        {
+            CheckUnitSquare((x, y) => new WeightedVertex { Position = new Vector3((float)x, (float)y, 0), Weight = 2 });
+            CheckUnitSquare((x, y) => (new Vector3((float)x, (float)y, 0), new Vector3(1, 2, 3)));
         }
 
         [Fact]

@@ -83,7 +83,7 @@ namespace Geoidx
         {
             GeodesicLibrary.Load();
             NativeMesh mesh =
-                MeshLayout.Of<TVertex>(PositionType.Float).Describe(positions.Length, triangles.Length);
+                MeshLayout.Of<TVertex>(null).Describe(positions.Length, triangles.Length);
             fixed (TVertex* first = &MemoryMarshal.GetReference(positions))
             fixed (int* corners = &MemoryMarshal.GetReference(triangles))
             {
@@ -147,7 +147,7 @@ namespace Geoidx
         }
 
         /// <summary>The distances from each source to every vertex (SSAD of each).</summary>
-        /// <param name="sources">One or more vertices.</param>
+        /// <param name="sources">Vertices; of none there is nothing to fill.</param>
         /// <param name="distances">
         /// For each source one for each vertex, in the mesh's unit: that from sources[i] to v at i * VertexCount + v.
         /// </param>

@@ -33,20 +33,23 @@ namespace Geoidx
         /// </typeparam>
         /// <param name="positions">Of the vertices, in the mesh's own unit.</param>
         /// <param name="triangles">Three vertices a triangle.</param>
-        /// <param name="type">What a struct's position consists of; not read for float and double.</param>
+        /// <param name="type">
+        /// What a struct's position consists of; not read for float and double. Null: doubles if the struct's first
+        /// field is a double or begins with one, floats otherwise.
+        /// </param>
         /// <exception cref="GeodesicArgumentException">
         /// <typeparamref name="TVertex"/> has no room for a position.
         /// </exception>
         public static GeodesicMesh From<TVertex>(
-            TVertex[] positions, int[] triangles, PositionType type = PositionType.Float) where TVertex : unmanaged =>
+            TVertex[] positions, int[] triangles, PositionType? type = null) where TVertex : unmanaged =>
             From(
                 (ReadOnlyMemory<TVertex>)(positions ?? throw new ArgumentNullException(nameof(positions))),
                 triangles ?? throw new ArgumentNullException(nameof(triangles)),
                 type);
 
-        /// <inheritdoc cref="From{TVertex}(TVertex[], int[], PositionType)"/>
+        /// <inheritdoc cref="From{TVertex}(TVertex[], int[], PositionType?)"/>
         public static GeodesicMesh From<TVertex>(
-            ReadOnlyMemory<TVertex> positions, ReadOnlyMemory<int> triangles, PositionType type = PositionType.Float)
+            ReadOnlyMemory<TVertex> positions, ReadOnlyMemory<int> triangles, PositionType? type = null)
             where TVertex : unmanaged =>
             new GeodesicMesh(MeshLayout.Of<TVertex>(type), positions.Pin, positions.Length, triangles);
 

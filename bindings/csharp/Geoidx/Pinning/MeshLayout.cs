@@ -1,3 +1,11 @@
+using System;
+using System.Linq;
+using System.Reflection;
+using System.Runtime.InteropServices;
+#if NET
+using System.Diagnostics.CodeAnalysis;
+#endif
+
 namespace Geoidx
 {
     /// <summary>How the elements of an array are the positions of vertices.</summary>
@@ -14,14 +22,34 @@ namespace Geoidx
             this.elementsPerVertex = elementsPerVertex;
         }
 
-        internal static MeshLayout Of<TVertex>(PositionType type) where TVertex : unmanaged
+        internal static MeshLayout Of<TVertex>(PositionType? given) where TVertex : unmanaged
         {
             if (typeof(TVertex) == typeof(float)) return new MeshLayout(PositionType.Float, 0, 3);
             if (typeof(TVertex) == typeof(double)) return new MeshLayout(PositionType.Double, 0, 3);
+            PositionType type = given ?? TypeOfFirstField(typeof(TVertex));
             int needed = 3 * (type == PositionType.Double ? sizeof(double) : sizeof(float));
             if (sizeof(TVertex) >= needed) return new MeshLayout(type, sizeof(TVertex), 1);
             throw new GeodesicArgumentException(
                 $"{typeof(TVertex)} has {sizeof(TVertex)} bytes, a position needs {needed}.");
+        }
+
+        // Of structs within structs the innermost one's; float unless it is a double.
+#if NET
+        [UnconditionalSuppressMessage(
+            "Trimming", "IL2070", Justification = "A struct of an array keeps its fields, which are its layout.")]
+#endif
+        private static PositionType TypeOfFirstField(Type type)
+        {
+            while (type is { IsValueType: true, IsPrimitive: false, IsEnum: false })
+            {
+                FieldInfo? first = type
+                    .GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic)
+                    .OrderBy(field => field.GetCustomAttribute<FieldOffsetAttribute>()?.Value ?? 0)
+                    .FirstOrDefault();
+                if (first == null) break;
+                type = first.FieldType;
+            }
+            return type == typeof(double) ? PositionType.Double : PositionType.Float;
         }
 
         internal NativeMesh Describe(int elements, int corners)
