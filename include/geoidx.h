@@ -329,9 +329,9 @@ enum { GEOIDX_CODEC_PACKED = 0, GEOIDX_CODEC_LOSSLESS = 1, GEOIDX_CODEC_MAPPED =
 
 /* Flags of geoidx_save_options. GEOIDX_SAVE_NO_POSITIONS leaves the positions of vertices out of the file,
  * some 3.5 bytes a vertex, for whoever has the mesh at hand whenever the file is opened: it opens only with
- * geoidx_open_options.expected_mesh, whose positions it takes. The answers are the same bits, and the index
- * can be saved with positions again.
- * GEOIDX_SAVE_NO_MESH leaves out the mesh of an index that keeps it (geoidx_build_options.store_mesh). */
+ * geoidx_open_options.expected_mesh, whose positions it takes, also where the file keeps the mesh. The
+ * answers are the same bits, and the index can be saved with positions again. GEOIDX_SAVE_NO_MESH leaves out
+ * the mesh of an index that keeps it (geoidx_build_options.store_mesh). */
 enum { GEOIDX_SAVE_NO_POSITIONS = 1, GEOIDX_SAVE_NO_MESH = 2 };
 
 typedef struct geoidx_save_options {

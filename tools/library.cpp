@@ -23,7 +23,7 @@ geoidx_mesh view_of(const TriangleMesh& mesh) {
     return view;
 }
 
-Index open_index(const std::string& path, const TriangleMesh* expected) {
+Index open_index(const std::string& path, const TriangleMesh* expected, const std::string& mesh_word) {
     geoidx_open_options options;
     geoidx_open_options_init(&options);
     geoidx_mesh view;
@@ -35,7 +35,7 @@ Index open_index(const std::string& path, const TriangleMesh* expected) {
     const geoidx_status status = geoidx_open(path.c_str(), &options, &index);
     if (status == GEOIDX_ERROR_INVALID_ARGUMENT && !expected)
         throw Failure(path +
-                      ": holds no positions, so that it needs the mesh that it was built from: --mesh");
+                      ": holds no positions, so that it needs the mesh that it was built from: " + mesh_word);
     require_ok(status, path);
     return Index(index);
 }

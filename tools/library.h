@@ -35,7 +35,9 @@ void require_ok(geoidx_status status, const std::string& what);
 geoidx_mesh view_of(const TriangleMesh& mesh);
 
 // `expected` may be null, unless the file holds no positions; an index of another mesh is refused.
-Index open_index(const std::string& path, const TriangleMesh* expected);
+// `mesh_word` is how a command line names the mesh.
+Index open_index(const std::string& path, const TriangleMesh* expected,
+                 const std::string& mesh_word = "--mesh");
 // The same with a mesh file, or none where its name is empty.
 Index open_index_with(const std::string& mesh_path, const std::string& path);
 geoidx_info info_of(const geoidx& index, const std::string& path);

@@ -168,7 +168,23 @@ TEST_CASE("off: plain, with counts on the first line, without keyword, with comm
     }
 }
 
-TEST_CASE("off: extra columns are ignored, polygons become fans") {
+TEST_CASE("off: with a byte order mark, and on one line") {
+    for (const char* text : {"\xEF\xBB\xBFOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0.5\n3 0 1 2\n",
+                             "OFF 3 1 0 0 0 0 1 0 0 0 1 0.5 3 0 1 2\n", "3 1 0 0 0 0 1 0 0 0 1 0.5 3 0 1 2",
+                             "# c\nOFF\n3 1 3 0 0 0 1 0 0 0 1 0.5 3 0 1 2 # c\n\n"}) {
+        CAPTURE(text);
+        const TriangleMesh mesh = read_off(text);
+        CHECK(mesh.positions == Numbers{0, 0, 0, 1, 0, 0, 0, 1, 0.5});
+        CHECK(mesh.triangles == Ids{0, 1, 2});
+    }
+    CHECK(read_off("OFF 4 2 0 0 0 0 1 0 0 1 1 0 0 1 0 3 0 1 2 3 0 2 3").triangles == Ids{0, 1, 2, 0, 2, 3});
+    CHECK(contains(error_of(read_off, "OFF 3 4 0 0 0 0 1 0 0 0 1 0.5\n"), "more than the file can hold"));
+    CHECK(contains(error_of(read_off, "OFF 3 1 0 0.00 0.00 0.00 1 0 0 0 1 0.5\n"), "ends before face 0"));
+    CHECK(contains(error_of(read_off, "OFF 3 1 0 0.00 0.00 0.00 1 0 0 0 1 0.5 3 0 1\n"), "fewer vertices"));
+    CHECK(contains(error_of(read_off, "OFF 3 1 0 0.00 0.00 0.00 1 0 0 0 1 0.5 3 0 1 3\n"), "vertex index 3"));
+}
+
+TEST_CASE("off: extra columns are ignored, polygons are cut") {
     const TriangleMesh mesh = read_off("STCNOFF\n4 1 0\n0 0 0 1 0 0 9 9\n1 0 0 1 0 0 9 9\n1 1 0 1 0 0 9 9\n0 "
                                        "1 0 1 0 0 9 9\n4 0 1 2 3 255 0 0\n");
     CHECK(mesh.positions == Numbers{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});

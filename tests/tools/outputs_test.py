@@ -359,6 +359,22 @@ class Outputs(unittest.TestCase):
         self.assertEqual(shown["has_mesh"], 0)
         self.assertEqual(without.read_bytes(), self.index.read_bytes())
 
+    def test_a_file_that_keeps_its_mesh_has_positions(self):
+        """Without them it would not open by itself, so that the mesh would be of no use in it."""
+        whole, bare = self.folder / "whole.geoidx", self.folder / "bare_whole.geoidx"
+        output_of("build", self.mesh, "-o", whole, "--store-mesh")
+        for asked in (("build", self.mesh, "--store-mesh"), ("convert", whole)):
+            done = run(*asked, "-o", bare, "--no-positions")
+            self.assertEqual((done.returncode, done.stdout), (2, b""))
+            self.assertIn(b"--no-positions", done.stderr)
+            self.assertFalse(bare.exists())
+        output_of("convert", whole, "-o", bare, "--no-positions", "--no-mesh")
+        done = run("path", bare, "0", "6")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"geoidx path FILE MESH A B", done.stderr)
+        self.assertNotIn(b"--mesh", done.stderr)
+        self.assertEqual(output_of("path", bare, self.mesh, "0", "6"), output_of("path", whole, "0", "6"))
+
     def test_path_without_a_mesh(self):
         whole = self.folder / "whole_again.geoidx"
         output_of("build", self.mesh, "-o", whole, "--store-mesh")

@@ -81,6 +81,7 @@ void print_json(const geoidx& index, const BuildArguments& arguments, double sec
 
 void build(const BuildArguments& arguments) {
     require_json_apart(arguments.json, arguments.output);
+    require_mesh_or_no_positions(arguments.form, arguments.store_mesh);
     require_index_output(arguments.output, arguments.mesh);
     const TriangleMesh mesh = read_mesh(arguments.mesh);
     ProgressBar bar(arguments.progress);

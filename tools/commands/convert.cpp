@@ -27,6 +27,7 @@ void convert(const ConvertArguments& arguments) {
     require_json_apart(arguments.json, arguments.output);
     require_index_output(arguments.output, arguments.input);
     const Index index = open_index_with(arguments.mesh, arguments.input);
+    require_mesh_or_no_positions(arguments.form, info_of(*index, arguments.input).has_mesh != 0);
     save_index(*index, arguments.form, arguments.output);
     if (arguments.json) print_json(info_of_saved(*index, arguments.form, arguments.output), arguments);
 }

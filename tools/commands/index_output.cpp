@@ -34,6 +34,13 @@ void add_form_options(CLI::App& command, FileForm& form) {
                      "leave the vertices' positions out of the file, which then opens with --mesh only");
 }
 
+void require_mesh_or_no_positions(const FileForm& form, bool keeps_mesh) {
+    if (form.no_positions && keeps_mesh && !form.no_mesh)
+        throw CLI::ValidationError(
+            "a file without positions opens with --mesh only, so that it is of no use to keep "
+            "the mesh in it: leave out --no-positions or the mesh");
+}
+
 void require_index_output(const std::string& output, const std::string& input) {
     require_writable(output, {&input, 1});
     require_no_terminal(output);

@@ -17,6 +17,9 @@ struct FileForm {
 // --codec, whose default is the first of the names, and --no-positions.
 void add_form_options(CLI::App& command, FileForm& form);
 
+// Refuses a file that keeps the mesh and opens with the mesh only.
+void require_mesh_or_no_positions(const FileForm& form, bool keeps_mesh);
+
 // Refuses what an index cannot be written to, before work is done for it.
 void require_index_output(const std::string& output, const std::string& input);
 // The graph engine has one codec only, so that the one of `form` says nothing to it.

@@ -151,7 +151,7 @@ void path(const PathArguments& arguments) {
     require_outputs(arguments);
     std::optional<TriangleMesh> mesh;
     if (!arguments.mesh.empty()) mesh = read_mesh(arguments.mesh);
-    const Index index = open_index(arguments.index, mesh ? &*mesh : nullptr);
+    const Index index = open_index(arguments.index, mesh ? &*mesh : nullptr, "geoidx path FILE MESH A B");
     require_mesh(*index, arguments);
     const Surface surface = mesh ? make_surface(*mesh, arguments.mesh, arguments.weld_tolerance)
                                  : surface_of(*index, arguments.index);

@@ -31,6 +31,11 @@ std::string_view take_word(std::string_view& line) {
     return word;
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view MARK = "\xEF\xBB\xBF";
+    return text.starts_with(MARK) ? text.substr(MARK.size()) : text;
+}
+
 std::optional<double> to_number(std::string_view word) {
     word = without_plus(word);
     double value = 0;

@@ -10,6 +10,9 @@ namespace geodesic::tools {
 // The next word (separated by blanks) at the front of `line`, which is shortened by it; empty at the end.
 std::string_view take_word(std::string_view& line);
 
+// The text without the mark that some editors put before UTF-8.
+std::string_view without_byte_order_mark(std::string_view text);
+
 // The whole word as a number, or nothing. "nan" and "inf" are numbers here: the library refuses them by name.
 std::optional<double> to_number(std::string_view word);
 std::optional<int64_t> to_integer(std::string_view word);
