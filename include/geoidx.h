@@ -822,7 +822,9 @@ enum {
     GEOIDX_PATH_EXACT = 1
 };
 
-/* A point of a path: on a triangle of the caller's, and in space. */
+/* A point of a path: on a triangle of the caller's, and in space. With weld_tolerance, `position` is where
+ * the point lies on the welded triangle; by its weights on the caller's own triangle it lies up to the
+ * tolerance away from there. */
 typedef struct geoidx_path_point {
     geoidx_surface_point point;
     double position[3];
@@ -840,7 +842,8 @@ GEOIDX_API geoidx_status geoidx_query_path(geoidx_query* query, const geoidx_sur
 /* The points of the latest path, from source to target: at least two. *count is always set to their number,
  * 0 if there is no path; when capacity is smaller, nothing is written and GEOIDX_ERROR_INVALID_ARGUMENT is
  * returned, unless points is NULL and capacity 0, which asks for the number and succeeds. The piece
- * from each point to the next one is the straight line, on the triangle of the first of them. */
+ * from each point to the next one is the straight line, on the triangle of the first of them. Two points in a
+ * row may be at one position, where the path passes a triangle without area: they are on both sides of it. */
 GEOIDX_API geoidx_status geoidx_query_path_points(const geoidx_query* query, geoidx_path_point* points,
                                                   uint64_t capacity, uint64_t* count);
 
