@@ -21,7 +21,7 @@ TEST_CASE("obj: vertices keep their order, the unused ones too") {
     CHECK(mesh.triangles == Ids{0, 2, 3});
 }
 
-TEST_CASE("obj: polygons become fans in the file's order") {
+TEST_CASE("obj: polygons are cut in the file's order") {
     const TriangleMesh mesh = read_obj("v 0 0 0\nv 5 0 0\nv 6 1 0\nv 0 1 0\nv -1 .5 0\nf 2 3 4 5 1\n");
     CHECK(mesh.triangles == Ids{1, 2, 3, 1, 3, 4, 1, 4, 0});
 }
@@ -89,6 +89,85 @@ TEST_CASE(
                 CHECK(mesh.triangle_count() == shape.size() - 2);
                 CHECK(area_of(mesh) == doctest::Approx(area));
             }
+}
+
+namespace {
+
+// The most triangles that one corner of a polygon has, and the smallest of their areas.
+struct Cut {
+    size_t most_at_a_corner;
+    double smallest_area;
+};
+
+Cut check_cut(const std::vector<std::array<double, 2>>& shape, size_t begin) {
+    std::string text, face = "f";
+    for (size_t i = 0; i < shape.size(); ++i) {
+        text += "v " + std::to_string(shape[i][0]) + " 0 " + std::to_string(shape[i][1]) + '\n';
+        face += ' ' + std::to_string((begin + i) % shape.size() + 1);
+    }
+    TriangleMesh mesh = read_obj(text + face + '\n');
+    CHECK(mesh.triangle_count() == shape.size() - 2);
+    double area = 0; // of the polygon
+    for (size_t i = 0; i < shape.size(); ++i) {
+        const auto &a = shape[i], &b = shape[(i + 1) % shape.size()];
+        area += (a[0] * b[1] - a[1] * b[0]) / 2;
+    }
+    CHECK(area_of(mesh) == doctest::Approx(area).epsilon(1e-5));
+    Cut cut{0, area};
+    std::vector<size_t> count(shape.size());
+    const Ids all = mesh.triangles;
+    for (size_t t = 0; t < all.size(); t += 3) {
+        mesh.triangles = {all[t], all[t + 1], all[t + 2]};
+        cut.smallest_area = std::min(cut.smallest_area, area_of(mesh));
+        for (size_t k = 0; k < 3; ++k)
+            cut.most_at_a_corner = std::max(cut.most_at_a_corner, ++count[all[t + k]]);
+    }
+    return cut;
+}
+
+// Corners on each of the sides of a polygon, so many pieces a side.
+std::vector<std::array<double, 2>> with_pieces(const std::vector<std::array<double, 2>>& shape,
+                                               const std::vector<size_t>& pieces) {
+    std::vector<std::array<double, 2>> result;
+    for (size_t i = 0; i < shape.size(); ++i)
+        for (size_t k = 0; k < pieces[i]; ++k) {
+            const double t = static_cast<double>(k) / static_cast<double>(pieces[i]);
+            const auto &a = shape[i], &b = shape[(i + 1) % shape.size()];
+            result.push_back({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
+        }
+    return result;
+}
+
+}
+
+TEST_CASE("a convex polygon is cut into halves: no corner has many triangles") {
+    for (const size_t corners : {6u, 7u, 30u, 1000u}) {
+        CAPTURE(corners);
+        std::vector<std::array<double, 2>> circle;
+        for (size_t i = 0; i < corners; ++i) {
+            const double turned = 6.283185307179586 * static_cast<double>(i) / static_cast<double>(corners);
+            circle.push_back({100 * std::cos(turned), 100 * std::sin(turned)});
+        }
+        const Cut cut = check_cut(circle, 1);
+        CHECK(static_cast<double>(cut.most_at_a_corner) <= 2 * std::log2(static_cast<double>(corners)) + 1);
+    }
+}
+
+TEST_CASE("corners on the straight sides of a convex polygon make no triangles without area") {
+    const std::vector<std::array<double, 2>> triangle{{0, 0}, {6, 0}, {0, 6}},
+        square{{0, 0}, {6, 0}, {6, 6}, {0, 6}}, kite{{0, 0}, {4, 1}, {5, 5}, {1, 4}};
+    const std::vector<std::vector<size_t>> pieces{{1, 1, 1, 1}, {2, 1, 1, 1}, {5, 1, 1, 1}, {5, 4, 1, 1},
+                                                  {5, 1, 4, 1}, {1, 3, 3, 3}, {3, 3, 3, 3}, {9, 2, 7, 1}};
+    for (const auto& shape : {triangle, square, kite})
+        for (const auto& of_sides : pieces) {
+            const auto cut_sides = with_pieces(shape, of_sides);
+            for (size_t begin = 0; begin < cut_sides.size(); ++begin) {
+                CAPTURE(shape.size());
+                CAPTURE(cut_sides.size());
+                CAPTURE(begin);
+                CHECK(check_cut(cut_sides, begin).smallest_area > 0.01);
+            }
+        }
 }
 
 TEST_CASE("a polygon that crosses itself or has no area still gives its triangles") {

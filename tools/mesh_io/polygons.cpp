@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace geodesic::tools {
 
@@ -52,10 +53,24 @@ std::vector<Corner> flattened(std::span<const uint32_t> polygon, std::span<const
     return corners;
 }
 
-bool is_convex(std::span<const Corner> corners) {
+// The sine of a turn that counts as none: far above the rounding of coordinates, and below the turns of a
+// circle of 100,000 corners.
+constexpr double STRAIGHT = 1e-5;
+
+// The turn at corner i, 0 where it counts as none.
+double turn_at(std::span<const Corner> corners, size_t i) {
     const size_t n = corners.size();
-    for (size_t i = 0; i < n; ++i)
-        if (turn(corners[i], corners[(i + 1) % n], corners[(i + 2) % n]) < 0) return false;
+    const Corner &a = corners[(i + n - 1) % n], &b = corners[i % n], &c = corners[(i + 1) % n];
+    const double turned = turn(a, b, c);
+    const double lengths = std::hypot(b.x - a.x, b.y - a.y) * std::hypot(c.x - b.x, c.y - b.y);
+    return std::abs(turned) <= STRAIGHT * lengths ? 0 : turned;
+}
+
+bool is_straight(std::span<const Corner> corners, size_t i) { return !(turn_at(corners, i) > 0); }
+
+bool is_convex(std::span<const Corner> corners) {
+    for (size_t i = 0; i < corners.size(); ++i)
+        if (turn_at(corners, i) < 0) return false;
     return true;
 }
 
@@ -73,6 +88,97 @@ bool is_ear(std::span<const Corner> corners, size_t i) {
 void append_fan(std::span<const Corner> corners, std::vector<uint32_t>& triangles) {
     for (size_t i = 2; i < corners.size(); ++i)
         triangles.insert(triangles.end(), {corners[0].vertex, corners[i - 1].vertex, corners[i].vertex});
+}
+
+// A convex polygon that is cut into halves, and each half again; its first corner is one where it turns.
+// Where corners lie on a straight side, no cut leads along it, since the triangles there would have no area:
+// they are joined to the side across instead.
+class Halves {
+public:
+    explicit Halves(std::span<const Corner> corners) : corners_(corners), count_(corners.size()) {
+        find_runs();
+    }
+
+    void append_to(std::vector<uint32_t>& triangles) const {
+        std::vector<Part> parts = whole();
+        while (!parts.empty()) {
+            const auto [first, middle, last] = parts.back();
+            parts.pop_back();
+            if (middle != NOT_CUT) {
+                append_triangle(first, middle, last, triangles);
+            } else if (last - first > 1) {
+                const size_t cut = middle_of(first, last);
+                parts.push_back({cut, NOT_CUT, last});
+                parts.push_back({first, cut, last});
+                parts.push_back({first, NOT_CUT, cut});
+            }
+        }
+    }
+
+private:
+    // The corners from `first` to `last`, still to be cut at one of them, or the triangle of these three.
+    struct Part {
+        size_t first, middle, last;
+    };
+    static constexpr size_t NOT_CUT = SIZE_MAX;
+
+    // Position count_ is the first corner again.
+    void find_runs() {
+        run_end_.assign(count_ + 1, count_);
+        for (size_t i = count_ - 1; i-- > 0;)
+            run_end_[i] = is_straight(corners_, i + 1) ? run_end_[i + 1] : i + 1;
+        run_begin_.assign(count_ + 1, 0);
+        for (size_t i = 2; i <= count_; ++i)
+            run_begin_[i] = is_straight(corners_, i - 1) ? run_begin_[i - 1] : i - 1;
+    }
+
+    // Where a cut from either end may lead to: to the neighbour, which is no cut, or beyond the straight
+    // side.
+    size_t lowest_cut(size_t first) const { return run_end_[first] + (run_end_[first] > first + 1 ? 1 : 0); }
+    size_t highest_cut(size_t last) const { return run_begin_[last] - (run_begin_[last] + 1 < last ? 1 : 0); }
+
+    bool can_be_halved(size_t first, size_t last) const {
+        return run_begin_[last] > 0 && lowest_cut(first) <= highest_cut(last);
+    }
+
+    size_t half_of(size_t first, size_t last) const {
+        return std::clamp((first + last + 1) / 2, lowest_cut(first), highest_cut(last));
+    }
+
+    // Between two straight sides that meet, or with one edge between them, the longer one is left first.
+    size_t middle_of(size_t first, size_t last) const {
+        if (can_be_halved(first, last)) return half_of(first, last);
+        return run_end_[first] - first >= last - run_begin_[last] ? first + 1 : last - 1;
+    }
+
+    // In two halves or, where the sides at the first corner leave no room for a cut from it, without it.
+    std::vector<Part> whole() const {
+        if (!can_be_halved(0, count_)) return {{1, NOT_CUT, count_ - 1}, {0, 1, count_ - 1}};
+        const size_t cut = half_of(0, count_);
+        return {{cut, NOT_CUT, count_}, {0, NOT_CUT, cut}};
+    }
+
+    void append_triangle(size_t a, size_t b, size_t c, std::vector<uint32_t>& triangles) const {
+        if (c == count_)
+            triangles.insert(triangles.end(), {corners_[0].vertex, corners_[a].vertex, corners_[b].vertex});
+        else
+            triangles.insert(triangles.end(), {corners_[a].vertex, corners_[b].vertex, corners_[c].vertex});
+    }
+
+    const std::span<const Corner> corners_;
+    const size_t count_;
+    // Per position: the last and the first one that lie with it on a straight side, as far as this leads on
+    // or back from there.
+    std::vector<size_t> run_end_, run_begin_;
+};
+
+// One without area ends as a fan.
+void append_halves(std::vector<Corner> corners, std::vector<uint32_t>& triangles) {
+    size_t first = 0;
+    while (first < corners.size() && is_straight(corners, first)) ++first;
+    if (first == corners.size()) return append_fan(corners, triangles);
+    std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(first), corners.end());
+    Halves(corners).append_to(triangles);
 }
 
 // Cuts off ears while there are any; what crosses itself ends as a fan.
@@ -109,7 +215,7 @@ std::vector<uint32_t> triangulate(const Polygons& polygons, std::span<const doub
         }
         auto corners = flattened(polygon, positions);
         if (is_convex(corners))
-            append_fan(corners, triangles);
+            append_halves(std::move(corners), triangles);
         else
             append_ears(std::move(corners), triangles);
     }

@@ -20,9 +20,9 @@ struct Polygons {
     bool empty() const { return ends.empty(); }
 };
 
-// Divides polygons into triangles, in order. A convex one becomes the fan 0 1 2, 0 2 3, ..; of one with
-// reflex corners the triangles lie inside, seen along its mean normal. Corners are valid ids of the positions
-// (x, y, z of each vertex).
+// Divides polygons into triangles, in order. A convex one is cut into halves, and each half again, so that no
+// corner has many triangles; four corners become 0 1 2, 0 2 3. Of one with reflex corners the triangles lie
+// inside, seen along its mean normal. Corners are valid ids of the positions (x, y, z of each vertex).
 std::vector<uint32_t> triangulate(const Polygons& polygons, std::span<const double> positions);
 
 // "vertex index 9 is out of range, the mesh has 8 vertices"
