@@ -742,15 +742,17 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * GEOIDX_METRIC_EXACT without edge_lengths and of GEOIDX_METRIC_EDGES without edge costs; with another metric
  * they are GEOIDX_ERROR_INVALID_ARGUMENT. By GEOIDX_METRIC_EDGES a way leads from a point straight to the
  * corners of the triangle that it is given on, and along edges from there. By GEOIDX_METRIC_EXACT distances
- * come from those of the corners of the triangle, unfolded over its edges: to the accuracy of the index, but
- * where the corners are reached from different sides, as around holes that are as small as triangles or
- * between spikes, too short by a share of the triangle's edges, also by GEOIDX_ENGINE_GRAPH. `surface` must
- * be of the index's mesh, and stay open during the call only. */
+ * come from those of up to 16 vertices around the point, by GEOIDX_ENGINE_GRAPH of the three corners,
+ * unfolded over the triangles between: to the accuracy of the index, but where these are reached from
+ * different sides, as around holes that are as small as triangles or between spikes, off by a share of the
+ * triangles' edges. `surface` must be of the index's mesh, and stay open during the call only. */
 
 /* geoidx_query_sssd between points of the surface, symmetric bit for bit. Of points at vertices it gives the
  * same bits. By GEOIDX_METRIC_EXACT, points of one triangle are as far apart as the straight line between
  * them is long, and so are those of triangles that share an edge which that line crosses, unless the index
- * knows a much shorter way; others are to the accuracy of the index. Points of triangles that share a corner
+ * knows a much shorter way; so are those a few triangles apart that see each other over these, unless the
+ * index knows a way that is shorter by a hundredth; others are to the accuracy of the index. Points of
+ * triangles that share a corner
  * are no farther apart than the way over it is long and, by GEOIDX_METRIC_EXACT, than a straight line around
  * it over the triangles between the two. +INFINITY where there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,

@@ -28,26 +28,14 @@ bool place(double length, double from_first, double from_second, Placed& placed)
     return true;
 }
 
-// The straight way from a point on the near side, or infinity where it does not cross the edge.
-double straight_to(const Placed& placed, double length, double foot, double height) {
-    const double off = height + placed.height;
-    const double crossing = foot * placed.height + placed.foot * height;
-    if (!(crossing > 0 && crossing < length * off)) return NO_WAY;
-    return hypotenuse(foot - placed.foot, off);
-}
-
-// The way over edge k. Where the straight way to the third corner is shorter than that corner is far, no
-// vertex is at that place: the distances come from different sides, or are rounded. Then the way is longer by
-// as much as the point is near to that corner, so that it is right at all three.
-double way_over(const FacePoint& point, size_t k, const std::array<double, 3>& from_corners) {
-    const double length = point.edge_length[k];
+// The straight way over an edge, or infinity where it does not cross the part that is seen.
+double way_over(const FacePoint::Edge& edge, double from_first, double from_second) {
     Placed placed;
-    if (!place(length, from_corners[(k + 1) % 3], from_corners[(k + 2) % 3], placed)) return NO_WAY;
-    const double straight = straight_to(placed, length, point.foot[k], point.height[k]);
-    if (!(straight < NO_WAY)) return NO_WAY;
-    const double to_apex = straight_to(placed, length, point.apex_foot[k], point.apex_height[k]);
-    const double missing = from_corners[k] - to_apex;
-    return missing > 0 && missing < NO_WAY ? straight + point.weights[k] * missing : straight;
+    if (!place(edge.length, from_first, from_second, placed)) return NO_WAY;
+    const double off = edge.height + placed.height;
+    const double crossing = edge.foot * placed.height + placed.foot * edge.height;
+    if (!(crossing > edge.seen_from * off && crossing < edge.seen_to * off)) return NO_WAY;
+    return hypotenuse(edge.foot - placed.foot, off);
 }
 
 }
@@ -55,30 +43,34 @@ double way_over(const FacePoint& point, size_t k, const std::array<double, 3>& f
 // The position follows from the weights alone: the origin is the first end of the edge.
 FacePoint face_point(const std::array<uint32_t, 3>& corners, const std::array<double, 3>& edge_length,
                      const std::array<double, 3>& weights, const std::array<bool, 3>& crosses) {
-    FacePoint point{corners, NONE, crosses, {}, edge_length, weights, {}, {}, {}, {}};
-    for (size_t k = 0; k < 3; ++k) {
-        const size_t first = (k + 1) % 3, second = (k + 2) % 3;
+    FacePoint point;
+    point.vertex_count = 3;
+    for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t first = (k + 1) % 3, second = (k + 2) % 3;
         Placed apex{0, 0};
         place(edge_length[k], edge_length[second], edge_length[first], apex);
-        point.apex_foot[k] = apex.foot;
-        point.apex_height[k] = apex.height;
-        point.foot[k] = weights[second] * edge_length[k] + weights[k] * apex.foot;
-        point.height[k] = weights[k] * apex.height;
-        point.to_corner[first] = hypotenuse(point.foot[k], point.height[k]);
+        const double foot = weights[second] * edge_length[k] + weights[k] * apex.foot,
+                     height = weights[k] * apex.height;
+        point.numbers[k] = corners[k];
+        point.straight[first] = hypotenuse(foot, height);
+        if (crosses[k])
+            point.edges[point.edge_count++] = {first,  second, edge_length[k], foot,
+                                               height, 0,      edge_length[k]};
         if (weights[k] == 1) point.vertex = corners[k];
     }
     return point;
 }
 
-// Distances from the corners may be those of ways that come from different sides. Then no unfolding is right,
-// and the straight way may be far too short; but two sides of a triangle are never shorter than the third.
-double distance_over(const FacePoint& point, const std::array<double, 3>& from_corners) {
+// Distances from the vertices may be those of ways that come from different sides. Then no unfolding is
+// right, and the straight way may be far too short; but two sides of a triangle are never shorter than the
+// third.
+double distance_over(const FacePoint& point, std::span<const double> from_vertices) {
     double least = NO_WAY, certain = 0;
-    for (size_t k = 0; k < 3; ++k) {
-        least = std::min(least, point.to_corner[k] + from_corners[k]);
-        certain = std::max(certain, from_corners[k] - point.to_corner[k]);
-        if (point.crosses[k]) least = std::min(least, way_over(point, k, from_corners));
-    }
+    for (size_t k = 0; k < point.vertex_count; ++k)
+        least = std::min(least, point.straight[k] + from_vertices[k]);
+    for (size_t k = 0; k < 3; ++k) certain = std::max(certain, from_vertices[k] - point.straight[k]);
+    for (const FacePoint::Edge& edge : std::span(point.edges).first(point.edge_count))
+        least = std::min(least, way_over(edge, from_vertices[edge.first], from_vertices[edge.second]));
     return std::max(least, certain);
 }
 

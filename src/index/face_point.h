@@ -1,31 +1,45 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "src/base/numbers.h"
 
 namespace geodesic {
 
-// A point of a face as queries take it: where it lies in the plane of the face, and the numbers of the
-// corners. Edge k is opposite to corner k, and leads from corner k + 1 to corner k + 2.
+// A point of a face as queries take it: a polygon of faces around the point, unfolded into the plane of its
+// own face. The point sees all of the polygon's edges, or the parts of them that are given, from inside. In
+// the least case the polygon is the face itself.
 struct FacePoint {
-    std::array<uint32_t, 3> corners;
-    uint32_t vertex;             // the corner that the point is at, or NONE
-    std::array<bool, 3> crosses; // whether a way may cross the edge anywhere; over others none leads
-    std::array<double, 3> to_corner;
-    std::array<double, 3> edge_length;
-    std::array<double, 3> weights;
-    std::array<double, 3> foot, height;           // in the plane of edge k: how far along it, and how far off
-    std::array<double, 3> apex_foot, apex_height; // the same of corner k
+    static constexpr size_t MOST_VERTICES = 16, MOST_EDGES = 16;
+
+    // An edge that ways may cross, in a plane of its own: the first end is at 0, the second one at (length,
+    // 0), and the point at (foot, height). Ways may cross it from `seen_from` to `seen_to`.
+    struct Edge {
+        uint32_t first, second; // of the vertices below
+        double length, foot, height, seen_from, seen_to;
+    };
+
+    uint32_t vertex = NONE; // the number of the corner that the point is at, or NONE
+    uint32_t leaf = NONE;   // a leaf whose tables have all vertices of the polygon, or NONE
+    uint32_t vertex_count = 0, edge_count = 0;
+    std::array<uint32_t, MOST_VERTICES> numbers; // of the vertices; the corners of the face come first
+    std::array<double, MOST_VERTICES> straight;  // from each vertex to the point; infinite if it is not seen
+    std::array<Edge, MOST_EDGES> edges;
+
+    std::array<uint32_t, 3> corners() const { return {numbers[0], numbers[1], numbers[2]}; }
 };
 
-// A point with these weights on a face with these lengths of edges.
+// A point with these weights on a face with these lengths of edges. Edge k is opposite to corner k, and leads
+// from corner k + 1 to corner k + 2. Ways may cross the edges of which `crosses` says so.
 FacePoint face_point(const std::array<uint32_t, 3>& corners, const std::array<double, 3>& edge_length,
                      const std::array<double, 3>& weights, const std::array<bool, 3>& crosses);
 
-// The distance of a vertex from the point, by the distances of the vertex from the three corners: straight
-// over one of the edges, where the vertex is placed on the far side of it, or over a corner.
-double distance_over(const FacePoint& point, const std::array<double, 3>& from_corners);
+// The distance of a vertex from the point, by the distances of that vertex from the vertices of the polygon:
+// straight over one of the edges, where the vertex is placed on the far side of it, or over a vertex that is
+// seen.
+double distance_over(const FacePoint& point, std::span<const double> from_vertices);
 
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 
 #include "src/index/face_point.h"
 #include "src/overlay/tables.h"
@@ -17,36 +18,68 @@ struct PointWays {
     Array<float> distance; // border vertices in the order of the border, then internal vertices
 };
 
-// A leaf with all three corners inside of it or on its border, or NONE: where added vertices have cut a face,
-// or pruning has taken corners from borders, there may be none.
-uint32_t leaf_of_face(const Numbering& numbering, const std::array<uint32_t, 3>& corners);
+// A vertex with the place that the tables of a leaf have for it.
+struct LeafVertex {
+    uint32_t border_position; // NONE if it is internal
+    uint32_t internal;        // counted from the first one of the leaf
+};
 
 // Whether a vertex is inside of a leaf or on its border.
 bool is_in_leaf(const Numbering& numbering, uint32_t leaf, uint32_t number);
 
+// Whether the edge between two vertices runs along the border of a leaf. It may be cut into several segments
+// by added vertices.
+bool is_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b, double length);
+
+// A leaf with all three corners of a face inside of it or on its border, or NONE: where added vertices have
+// cut the face, or pruning has taken corners from borders, there may be none. Where several leaves have all
+// corners, that one is asked for which the face lies in: it also has the vertices beside the face, but for
+// those behind its border. beside[k] is the vertex of another face at the edge opposite to corner k, or NONE.
+uint32_t leaf_of_face(const OverlayIndex& index, const std::array<uint32_t, 3>& corners,
+                      const std::array<double, 3>& edge_length, const std::array<uint32_t, 3>& beside);
+
 // The distance of two such vertices, by the tables.
 float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b);
 
-// The distance of a point from such a vertex.
-float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, uint32_t number);
+// Distances of points by the tables of their leaves, which have all vertices of their polygons. What is
+// returned lasts until the next call.
+class PointsInLeaf {
+public:
+    PointsInLeaf(const OverlayIndex& index, std::pmr::memory_resource* memory)
+        : index_(index), columns_(memory), rows_(memory), distances_(memory) {}
 
-// Fills the distances of a point from the border of its leaf, in the order of the border.
-void fill_border_ways(const OverlayIndex& index, uint32_t leaf, const FacePoint& point,
-                      Array<float>& distances);
+    // Whether two points, of which one is not at a vertex, are in one leaf.
+    bool has_both(const FacePoint& point, const FacePoint& other) const;
+    // From such a point.
+    float to_point(const FacePoint& point, const FacePoint& other);
+    // From one vertex of the leaf.
+    float to_vertex(const FacePoint& point, uint32_t number) const;
+    // From the border of the leaf, in the order of the border.
+    std::span<const float> to_border(const FacePoint& point);
+    // From the border of the leaf, then from its internal vertices.
+    std::span<const float> to_all(const FacePoint& point);
 
-// Fills the ways of a point from the tables of its leaf, with `offset` added to each.
-void fill_ways(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, float offset,
-               PointWays& ways);
+private:
+    template <class FillRow>
+    std::span<const float> look_out(const FacePoint& point, size_t count, const FillRow& fill_row);
+    void take_columns(uint32_t leaf);
+    void fill_border_row(uint32_t leaf, const LeafVertex& from, float* row) const;
+    void fill_internal_row(uint32_t leaf, const LeafVertex& from, float* row) const;
+
+    const OverlayIndex& index_;
+    Array<OverlayColumn> columns_; // of the border's vertices, in the overlay of the leaf's parent
+    Array<float> rows_, distances_;
+};
 
 // The row of a point to the ring of its leaf, as the inner table has it for vertices, but in steps of its
 // own: the tables of the leaf may hold no distance that is as long, or none at all.
 struct PointRow {
-    explicit PointRow(std::pmr::memory_resource* memory) : distances(memory), codes(memory) {}
+    explicit PointRow(std::pmr::memory_resource* memory) : codes(memory) {}
 
     float quantum = 0;
-    Array<float> distances; // scratch: by position in the border
     Array<uint16_t> codes;
 };
-void fill_row(const OverlayIndex& index, uint32_t leaf, const FacePoint& point, PointRow& row);
+// From the distances by position in the border.
+void fill_row(const OverlayIndex& index, uint32_t leaf, std::span<const float> to_border, PointRow& row);
 
 }

@@ -4,36 +4,6 @@
 
 namespace geodesic {
 
-namespace {
-
-// A leaf that has both points, or the vertices that they are at, in its tables; NONE if there is none.
-uint32_t common_leaf(const Numbering& numbering, const FacePoint& first, const FacePoint& second) {
-    const auto has = [&](uint32_t leaf, const FacePoint& point) {
-        if (point.vertex != NONE) return is_in_leaf(numbering, leaf, point.vertex);
-        return std::ranges::all_of(point.corners,
-                                   [&](uint32_t corner) { return is_in_leaf(numbering, leaf, corner); });
-    };
-    for (const FacePoint* point : {&first, &second}) {
-        if (point->vertex != NONE) continue;
-        const uint32_t leaf = leaf_of_face(numbering, point->corners);
-        if (has(leaf, first) && has(leaf, second)) return leaf;
-    }
-    return NONE;
-}
-
-// Over both faces: from each corner of the second one to the first point, then to the second point.
-float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, const FacePoint& first,
-                       const FacePoint& second) {
-    if (first.vertex != NONE) return distance_in_leaf(index, leaf, second, first.vertex);
-    if (second.vertex != NONE) return distance_in_leaf(index, leaf, first, second.vertex);
-    std::array<double, 3> from_corners;
-    for (size_t k = 0; k < 3; ++k)
-        from_corners[k] = double{distance_in_leaf(index, leaf, first, second.corners[k])};
-    return static_cast<float>(distance_over(second, from_corners));
-}
-
-}
-
 // A source alone may be given several times.
 void OverlayQuery::msad(const Sources& sources, float radius, const OverlayMsad::Field& field) {
     const auto is_first = [&](uint32_t key) { return key == sources.keys.front(); };
@@ -53,16 +23,14 @@ void OverlayQuery::msad_from_one(const Sources& sources, float radius, const Ove
         field.source[v] = field.distance[v] < INFINITE ? source : NONE;
 }
 
-PathEnd OverlayQuery::end_of(const FacePoint& point, PointRow& row) const {
+PathEnd OverlayQuery::end_of(const FacePoint& point, PointRow& row) {
     if (point.vertex != NONE) return {point.vertex};
-    const uint32_t leaf = leaf_of_face(index_.numbering, point.corners);
-    fill_row(index_, leaf, point, row);
-    return {NONE, leaf, row.codes.data(), row.quantum};
+    fill_row(index_, point.leaf, in_leaf_.to_border(point), row);
+    return {NONE, point.leaf, row.codes.data(), row.quantum};
 }
 
 float OverlayQuery::point_sssd(const FacePoint& first, const FacePoint& second) {
-    if (const uint32_t leaf = common_leaf(index_.numbering, first, second); leaf != NONE)
-        return distance_in_leaf(index_, leaf, first, second);
+    if (in_leaf_.has_both(first, second)) return in_leaf_.to_point(first, second);
     OverlaySssd& pair = pairs();
     const PathEnd from = end_of(first, rows_[0]), to = end_of(second, rows_[1]);
     return pair.distance_of_points(from, to);
@@ -76,7 +44,9 @@ void OverlayQuery::add_point(const FacePoint& point, float offset) {
     }
     keys_.push_back(index_.numbering.vertex_count() + static_cast<uint32_t>(points_.size()));
     PointWays& ways = points_.emplace_back(points_.get_allocator().resource());
-    fill_ways(index_, leaf_of_face(index_.numbering, point.corners), point, offset, ways);
+    ways.leaf = point.leaf;
+    ways.distance.clear();
+    for (const float distance : in_leaf_.to_all(point)) ways.distance.push_back(offset + distance);
 }
 
 void OverlayQuery::take_points(std::span<const FacePoint> points, std::span<const float> offsets) {

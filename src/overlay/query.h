@@ -22,8 +22,8 @@ class OverlayQuery {
 public:
     OverlayQuery(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : index_(index), memory_(memory), field_(index, memory), nearest_(index, memory),
-          batch_(index, memory, FIELDS_AT_ONCE), lowering_(index.steep, memory),
-          prepared_(index, memory), rows_{PointRow(memory), PointRow(memory)}, points_(memory), keys_(memory),
+          batch_(index, memory, FIELDS_AT_ONCE), lowering_(index.steep, memory), prepared_(index, memory),
+          in_leaf_(index, memory), rows_{PointRow(memory), PointRow(memory)}, points_(memory), keys_(memory),
           position_of_key_(memory), ends_{PreparedSource(index, memory), PreparedSource(index, memory)} {}
 
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
@@ -71,7 +71,7 @@ public:
     float nearest_beyond() const { return within_->nearest_beyond(); }
 
     // Whether points of a face can be answered by the tables of one leaf, as the following require.
-    bool takes(const FacePoint& point) const { return leaf_of_face(index_.numbering, point.corners) != NONE; }
+    bool takes(const FacePoint& point) const { return point.leaf != NONE; }
 
     // Of two points that are not both vertices; callers pass both orders of a pair the same way.
     float point_sssd(const FacePoint& first, const FacePoint& second);
@@ -106,7 +106,7 @@ public:
 private:
     void msad(const Sources& sources, float radius, const OverlayMsad::Field& field);
     void msad_from_one(const Sources& sources, float radius, const OverlayMsad::Field& field);
-    PathEnd end_of(const FacePoint& point, PointRow& row) const;
+    PathEnd end_of(const FacePoint& point, PointRow& row);
     void take_points(std::span<const FacePoint> points, std::span<const float> offsets);
     void add_point(const FacePoint& point, float offset);
 
@@ -130,6 +130,7 @@ private:
     FieldLowering lowering_; // of all three kinds of fields
     PreparedSource prepared_;
     uint32_t prepared_source_ = NONE;
+    PointsInLeaf in_leaf_;
     std::array<PointRow, 2> rows_; // of the points of a pair
     Array<PointWays> points_;      // of a sweep
     Array<uint32_t> keys_;

@@ -5,6 +5,8 @@
 
 #include "format/error.h"
 #include "geoidx.h"
+#include "src/overlay/point_ways.h"
+#include "src/path/seen_faces.h"
 
 namespace geodesic {
 
@@ -20,6 +22,25 @@ FlatFaces::Point unfolded_point(const Surface& surface, const SurfacePoint& poin
         for_each_face_beyond(surface, point.face, corners[(k + 1) % 3], corners[(k + 2) % 3],
                              [&](uint32_t) { same.has_face_beyond[k] = true; });
     return same;
+}
+
+// The leaf of a face that has these corners, and these numbers; NONE by an index that has none. Faces that
+// are flipped have no others beside them here.
+uint32_t leaf_of(const Index& index, const Surface& surface, uint32_t face,
+                 const std::array<uint32_t, 3>& corners, const std::array<uint32_t, 3>& numbers,
+                 const std::array<double, 3>& lengths) {
+    const auto* const overlay = std::get_if<OverlayIndex>(&index.engine);
+    if (!overlay) return NONE;
+    std::array<uint32_t, 3> beside{NONE, NONE, NONE};
+    if (corners == surface.faces[face])
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
+            for_each_face_beyond(surface, face, a, b, [&](uint32_t other) {
+                for (const uint32_t vertex : surface.faces[other])
+                    if (vertex != a && vertex != b) beside[k] = number_of(index, surface, vertex);
+            });
+        }
+    return leaf_of_face(*overlay, numbers, lengths, beside);
 }
 
 }
@@ -55,7 +76,40 @@ FacePoint face_point_on(const Index& index, const Surface& surface, const Surfac
     }
     if (std::ranges::find(numbers, NONE) != numbers.end())
         refuse_argument("the surface has a triangle that the index does not: they differ in weld_tolerance");
-    return face_point(numbers, lengths, weights, crosses);
+    FacePoint found = face_point(numbers, lengths, weights, crosses);
+    found.leaf = leaf_of(index, surface, point.face, corners, numbers, lengths);
+    return found;
+}
+
+// Over the faces of the leaf.
+PointView view_from(const Index& index, const Surface& surface, const SurfacePoint& at,
+                    const FacePoint& point) {
+    PointView view{point, {}};
+    if (point.leaf == NONE || point.vertex != NONE) return view;
+    const auto& overlay = std::get<OverlayIndex>(index.engine);
+    KnownFaces known;
+    known.number_of = [&](uint32_t vertex) {
+        const uint32_t number = number_of(index, surface, vertex);
+        return number != NONE && is_in_leaf(overlay.numbering, point.leaf, number) ? number : NONE;
+    };
+    known.go_on = [&](uint32_t a, uint32_t b, double length) {
+        return !is_on_border(overlay, point.leaf, a, b, length);
+    };
+    see_farther(surface, at, known, view.point, view.seen);
+    return view;
+}
+
+void share_leaf(const Index& index, FacePoint& a, FacePoint& b) {
+    if (a.leaf == NONE || b.leaf == NONE) return;
+    const auto has = [&](uint32_t leaf, const FacePoint& point) {
+        const auto corners = point.corners();
+        return std::ranges::all_of(
+            corners, [&](uint32_t corner) { return is_in_leaf(index.numbering(), leaf, corner); });
+    };
+    if (has(a.leaf, b))
+        b.leaf = a.leaf;
+    else if (has(b.leaf, a))
+        a.leaf = b.leaf;
 }
 
 }

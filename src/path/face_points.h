@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/index/face_point.h"
+#include "src/path/seen_faces.h"
 #include "src/path/surface.h"
 #include "src/query/query.h"
 
@@ -30,5 +31,16 @@ uint32_t vertex_at(const Surface& surface, const SurfacePoint& point);
 // corners of the face.
 FacePoint face_point_on(const Index& index, const Surface& surface, const SurfacePoint& point, bool unfolds,
                         double cost = 1);
+
+// The same by a metric that unfolds, with the faces around the point as far as the index tells of them.
+struct PointView {
+    FacePoint point;
+    SeenFaces seen;
+};
+PointView view_from(const Index& index, const Surface& surface, const SurfacePoint& at,
+                    const FacePoint& point);
+
+// Where the tables of one leaf have both points, that is the leaf of both.
+void share_leaf(const Index& index, FacePoint& a, FacePoint& b);
 
 }

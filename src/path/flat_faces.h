@@ -41,6 +41,9 @@ public:
         return point_at(*found);
     }
 
+    // Whether edges are flipped in the plane of a face of the mesh.
+    bool has(uint32_t face) const { return slot_of(face).has_value(); }
+
     // The length of the straight line between two points of the mesh if it runs over faces of one plane;
     // infinite otherwise. It is the same in both directions.
     template <class AnyMesh>

@@ -1,6 +1,7 @@
 // The nearest of some points of a surface.
 #include <algorithm>
 
+#include "src/base/plane.h"
 #include "src/path/point_queries.h"
 
 namespace geodesic {
@@ -13,38 +14,53 @@ constexpr uint64_t VERTEX_PAIRS_PER_PAIR = 3;
 // Each sweep looks this many times as far as the one before, or as the nearest vertex that it left out.
 constexpr float GROWTH = 2;
 
-double longest_edge(std::span<const FacePoint> points) {
-    double longest = 0;
-    for (const FacePoint& point : points) longest = std::max(longest, std::ranges::max(point.edge_length));
-    return longest;
+// What is kept of a target: many may be given.
+struct Target {
+    uint32_t vertex; // the number of the vertex that it is at, or NONE
+    std::array<uint32_t, 3> corners;
+};
+
+// How far the vertices of a point's polygon are at most.
+double reach_of(const FacePoint& point) {
+    double reach = 0;
+    for (size_t k = 0; k < 3; ++k) reach = std::max(reach, point.straight[k]);
+    for (const FacePoint::Edge& edge : std::span(point.edges).first(point.edge_count))
+        reach = std::max(reach, hypotenuse(edge.foot - edge.seen_from, edge.height) + edge.length);
+    return reach;
 }
 
 // Targets by the distances of the vertices around them.
 class TargetSweeps {
 public:
-    TargetSweeps(Query& query, const Query::PointSources& source, std::span<const FacePoint> targets)
-        : query_(query), source_(source), targets_(targets),
-          longest_edge_(static_cast<float>(longest_edge(targets))) {}
+    TargetSweeps(Query& query, const Query::PointSources& source) : query_(query), source_(source) {}
 
-    // Sweeps until the `count` nearest targets are found, or nothing else can be reached. Calls
-    // distance(i, by_corners) for each target of which all corners have been found, with the distance that
-    // they give; it returns the one that counts.
-    template <class Distance>
-    std::vector<Query::Found> find(size_t count, const Distance& distance) {
-        for (float radius = longest_edge_;;) {
+    void add(const FacePoint& target) {
+        targets_.push_back({target.vertex, target.corners()});
+        reach_ = std::max(reach_, static_cast<float>(reach_of(target)));
+    }
+
+    // Sweeps until the `count` nearest targets are found, or nothing else can be reached. view_of(i) is what
+    // the i-th target sees. distance(i, view, by_vertices) is called for each target of which all vertices
+    // have been found, with the distance that they give; it returns the one that counts.
+    template <class ViewOf, class Distance>
+    std::vector<Query::Found> find(size_t count, const ViewOf& view_of, const Distance& distance) {
+        for (float radius = reach_;;) {
             query_.sweep_within(source_, radius);
             std::vector<Query::Found> found;
-            for (uint32_t i = 0; i < targets_.size(); ++i)
-                if (const float by_corners = distance_of(i); by_corners < INFINITE)
-                    found.push_back({distance(i, by_corners), i});
+            for (uint32_t i = 0; i < targets_.size(); ++i) {
+                if (!are_corners_found(targets_[i])) continue;
+                const PointView view = view_of(i);
+                reach_ = std::max(reach_, static_cast<float>(reach_of(view.point)));
+                if (const float by_vertices = distance_of(view.point); by_vertices < INFINITE)
+                    found.push_back({distance(i, view, by_vertices), i});
+            }
             std::ranges::sort(found);
-            // A target that was left out has a corner beyond the radius, and is farther than the radius
-            // less the longest edge of its triangle.
-            const bool are_nearest =
-                found.size() >= count && found[count - 1].distance <= radius - longest_edge_;
+            // A target that was left out has a vertex beyond the radius, and is farther than the radius
+            // less the reach.
+            const bool are_nearest = found.size() >= count && found[count - 1].distance <= radius - reach_;
             const float beyond = query_.nearest_beyond();
             if (are_nearest || beyond == INFINITE) return found;
-            radius = std::max(radius, beyond) * GROWTH + longest_edge_;
+            radius = std::max(radius, beyond) * GROWTH + reach_;
         }
     }
 
@@ -56,30 +72,33 @@ private:
         return distance;
     }
 
-    // Infinite unless all corners have been found. A point that is at a vertex has one.
-    float distance_of(uint32_t target) const {
-        const FacePoint& point = targets_[target];
+    bool are_corners_found(const Target& target) const {
+        if (target.vertex != NONE) return distance_at(target.vertex) < INFINITE;
+        return std::ranges::all_of(target.corners,
+                                   [&](uint32_t corner) { return distance_at(corner) < INFINITE; });
+    }
+
+    // Infinite unless all vertices have been found. A point that is at a vertex has one.
+    float distance_of(const FacePoint& point) const {
         if (point.vertex != NONE) return distance_at(point.vertex);
-        std::array<double, 3> from_corners;
-        for (size_t k = 0; k < 3; ++k) {
-            from_corners[k] = double{distance_at(point.corners[k])};
-            if (!(from_corners[k] < double{INFINITE})) return INFINITE;
+        std::array<double, FacePoint::MOST_VERTICES> from_vertices;
+        for (size_t k = 0; k < point.vertex_count; ++k) {
+            from_vertices[k] = double{distance_at(point.numbers[k])};
+            if (!(from_vertices[k] < double{INFINITE})) return INFINITE;
         }
-        return static_cast<float>(distance_over(point, from_corners));
+        return static_cast<float>(distance_over(point, from_vertices));
     }
 
     Query& query_;
     const Query::PointSources& source_;
-    std::span<const FacePoint> targets_;
-    const float longest_edge_; // of the faces with targets
+    std::vector<Target> targets_;
+    float reach_ = 0; // of the faces of all targets, and of what those see that were found
 };
 
 }
 
 std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& source,
                                                         std::span<const SurfacePoint> targets, size_t count) {
-    std::vector<FacePoint> to;
-    for (const SurfacePoint& target : targets) to.push_back(face_point_of(target));
     count = std::min(count, targets.size());
     std::vector<Query::Found> found;
     if (count == 0) return found;
@@ -89,12 +108,19 @@ std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& sour
                 found.push_back({distance, i});
         std::ranges::sort(found);
     } else {
-        const Sources from = sources_of({&source, 1}, {});
-        const Query::PointSources sources = from;
-        found = TargetSweeps(query_, sources, to).find(count, [&](uint32_t i, float by_corners) {
-            const bool are_vertices = from.points.front().vertex != NONE && to[i].vertex != NONE;
-            return are_vertices ? by_corners : with_straight_way(source, targets[i], by_corners);
-        });
+        const PointView from = view_of(source);
+        const Sources only = sources_of({&source, 1}, {});
+        const Query::PointSources sources = only;
+        TargetSweeps sweeps(query_, sources);
+        for (const SurfacePoint& target : targets)
+            sweeps.add(face_point_on(index_, surface_, target, unfolds()));
+        found = sweeps.find(
+            count, [&](uint32_t i) { return view_of(targets[i]); },
+            [&](uint32_t i, const PointView& to, float by_vertices) {
+                const bool are_vertices = from.point.vertex != NONE && to.point.vertex != NONE;
+                return are_vertices ? by_vertices
+                                    : with_known_ways(source, from, targets[i], to, by_vertices);
+            });
     }
     found.resize(std::min(count, found.size()));
     return found;

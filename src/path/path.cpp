@@ -98,8 +98,8 @@ StripWay PathFinder::find_straight() {
     constexpr double SAME = 1e-9;        // as a share of the length
     constexpr double MADE_UP_FOR = 0.02; // as a share of an edge
     const auto length = [](const StripWay& way) { return way.path.length; };
-    query_.prepare_end(1, points_.face_point_of(target_));
-    query_.prepare_end(0, points_.face_point_of(source_));
+    query_.prepare_end(1, points_.view_of(target_).point);
+    query_.prepare_end(0, points_.view_of(source_).point);
     std::vector<Strip> strips;
     for (const size_t end : {size_t{1}, size_t{0}})
         if (auto strip = led_by(end)) strips.push_back(std::move(*strip));

@@ -20,8 +20,12 @@ PointQueries::PointQueries(const Index& index, Query& query, const Surface& surf
 
 bool PointQueries::unfolds() const { return index_.description.metric == GEOIDX_METRIC_EXACT; }
 
-FacePoint PointQueries::face_point_of(const SurfacePoint& point) const {
-    return face_point_on(index_, surface_, point, unfolds());
+PointView PointQueries::view_of(const SurfacePoint& point) const {
+    return view_of(point, face_point_on(index_, surface_, point, unfolds()));
+}
+
+PointView PointQueries::view_of(const SurfacePoint& at, const FacePoint& point) const {
+    return unfolds() ? view_from(index_, surface_, at, point) : PointView{point, {}};
 }
 
 // The distance of two points, by what the index says of it. No way is shorter than the straight line in
@@ -41,6 +45,22 @@ float PointQueries::with_straight_way(const SurfacePoint& source, const SurfaceP
     return double{distance} < MUCH_SHORTER * straight ? distance : static_cast<float>(straight);
 }
 
+// The distance of two points of which one sees the other: that by tables is rounded, and does not hold where
+// a polygon has both points in it. Only a much shorter way can be another one.
+float PointQueries::with_seen_way(const SurfacePoint& source, const SeenFaces& seen_from_source,
+                                  const SurfacePoint& target, const SeenFaces& seen_from_target,
+                                  float distance) const {
+    constexpr float SHORTER = 0.99f;
+    const auto straight = static_cast<float>(std::min(seen_from_source.straight_to(surface_, target),
+                                                      seen_from_target.straight_to(surface_, source)));
+    return distance < SHORTER * straight ? distance : straight;
+}
+
+float PointQueries::with_known_ways(const SurfacePoint& source, const PointView& from,
+                                    const SurfacePoint& target, const PointView& to, float distance) const {
+    return with_straight_way(source, target, with_seen_way(source, from.seen, target, to.seen, distance));
+}
+
 // The length of a way around a corner that the faces of two points share, or over it. Tables of an index
 // round what is far shorter than an edge, so that near a corner they say more.
 double PointQueries::way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const {
@@ -50,9 +70,12 @@ double PointQueries::way_around_corner(const SurfacePoint& source, const Surface
 }
 
 float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target) {
-    const FacePoint from = face_point_of(source), to = face_point_of(target);
-    if (from.vertex != NONE && to.vertex != NONE) return query_.point_sssd(from, to);
-    return with_straight_way(source, target, query_.point_sssd(from, to));
+    FacePoint first = face_point_on(index_, surface_, source, unfolds()),
+              second = face_point_on(index_, surface_, target, unfolds());
+    if (first.vertex != NONE && second.vertex != NONE) return query_.point_sssd(first, second);
+    share_leaf(index_, first, second);
+    const PointView from = view_of(source, first), to = view_of(target, second);
+    return with_known_ways(source, from, target, to, query_.point_sssd(from.point, to.point));
 }
 
 // To the corners of the face and, if the metric unfolds, to those of all faces that the point lies in and to
@@ -87,7 +110,7 @@ PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> poi
     Sources sources{{}, offsets, {}};
     for (uint32_t i = 0; i < points.size(); ++i) {
         const float offset = offsets.empty() ? 0 : offsets[i];
-        const FacePoint& point = sources.points.emplace_back(face_point_of(points[i]));
+        const FacePoint& point = sources.points.emplace_back(view_of(points[i]).point);
         if (point.vertex == NONE)
             add_known_ways(points[i], i, offset, sources.known);
         else

@@ -29,8 +29,9 @@ public:
     std::vector<Query::Found> nearest_targets(const SurfacePoint& source,
                                               std::span<const SurfacePoint> targets, size_t count);
 
-    // The point as the query takes it.
-    FacePoint face_point_of(const SurfacePoint& point) const;
+    // The point as the query takes it, with what it sees where the metric unfolds.
+    PointView view_of(const SurfacePoint& point) const;
+    PointView view_of(const SurfacePoint& at, const FacePoint& point) const;
     uint32_t number_of(uint32_t vertex) const { return geodesic::number_of(index_, surface_, vertex); }
     bool unfolds() const;
 
@@ -46,6 +47,10 @@ private:
     void add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
                         std::vector<Query::KnownWay>& known) const;
     float with_straight_way(const SurfacePoint& source, const SurfacePoint& target, float distance) const;
+    float with_seen_way(const SurfacePoint& source, const SeenFaces& seen_from_source,
+                        const SurfacePoint& target, const SeenFaces& seen_from_target, float distance) const;
+    float with_known_ways(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
+                          const PointView& to, float distance) const;
     double way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const;
 
     const Index& index_;

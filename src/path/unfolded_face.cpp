@@ -10,7 +10,7 @@ UnfoldedFace::UnfoldedFace(const Surface& surface, uint32_t face) : surface_(sur
     const double length = (surface.positions[left] - surface.positions[right]).norm();
     left_ = {left, Vector2d(0, 0)};
     right_ = {right, Vector2d(length, 0)};
-    ahead_ = {ahead, place_ahead(ahead)};
+    ahead_ = {ahead, place_ahead(surface, left_, right_, ahead)};
 }
 
 Vector2d UnfoldedFace::place(const std::array<double, 3>& weights) const {

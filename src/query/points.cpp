@@ -22,17 +22,19 @@ bool Query::takes(const FacePoint& point) const {
 }
 
 float Query::vertex_to_point(uint32_t vertex, const FacePoint& point) {
-    std::array<double, 3> from_corners;
-    for (size_t k = 0; k < 3; ++k) {
-        const uint32_t a = std::min(vertex, point.corners[k]), b = std::max(vertex, point.corners[k]);
-        from_corners[k] = a == b ? 0 : double{std::visit([&](auto& e) { return e.sssd(a, b); }, engine_)};
+    std::array<double, FacePoint::MOST_VERTICES> from_vertices;
+    for (size_t k = 0; k < point.vertex_count; ++k) {
+        const uint32_t a = std::min(vertex, point.numbers[k]), b = std::max(vertex, point.numbers[k]);
+        from_vertices[k] = a == b ? 0 : double{std::visit([&](auto& e) { return e.sssd(a, b); }, engine_)};
     }
-    return static_cast<float>(distance_over(point, from_corners));
+    return static_cast<float>(distance_over(point, from_vertices));
 }
 
 float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
-    const bool swapped =
-        std::tie(target.corners, target.to_corner) < std::tie(source.corners, source.to_corner);
+    const auto key = [](const FacePoint& point) {
+        return std::tuple(point.corners(), point.straight[0], point.straight[1], point.straight[2]);
+    };
+    const bool swapped = key(target) < key(source);
     const FacePoint& first = swapped ? target : source;
     const FacePoint& second = swapped ? source : target;
     if (first.vertex != NONE && second.vertex != NONE) {
@@ -41,32 +43,37 @@ float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
         return low == high ? 0 : std::visit([&](auto& e) { return e.sssd(low, high); }, engine_);
     }
     if (takes(first) && takes(second)) return std::get<OverlayQuery>(engine_).point_sssd(first, second);
-    std::array<double, 3> from_corners;
-    for (size_t k = 0; k < 3; ++k) from_corners[k] = double{vertex_to_point(second.corners[k], first)};
-    return static_cast<float>(distance_over(second, from_corners));
+    std::array<double, FacePoint::MOST_VERTICES> from_vertices;
+    for (size_t k = 0; k < second.vertex_count; ++k)
+        from_vertices[k] = double{vertex_to_point(second.numbers[k], first)};
+    return static_cast<float>(distance_over(second, from_vertices));
 }
 
-// Lowers point_field_ to the distances from one point, by those from the corners of its face. A vertex needs
-// no distances within its faces, which metrics of edges do not know.
+// Lowers point_field_ to the distances from one point. Where the engine does not answer from it, those from
+// the corners of its face do. A vertex needs no distances within its faces, which metrics of edges do not
+// know.
 void Query::add_point_field(const FacePoint& point, float offset) {
     const uint32_t count = index_.numbering().vertex_count();
-    if (point.vertex != NONE) {
+    if (point.vertex != NONE || takes(point)) {
         auto& field = corner_fields_[0];
         field.resize(count);
-        std::visit([&](auto& engine) { engine.msad({&point.vertex, 1}, INFINITE, field); }, engine_);
+        if (point.vertex != NONE)
+            std::visit([&](auto& engine) { engine.msad({&point.vertex, 1}, INFINITE, field); }, engine_);
+        else
+            std::get<OverlayQuery>(engine_).point_msad({&point, 1}, {}, field);
         for (uint32_t v = 0; v < count; ++v) point_field_[v] = std::min(point_field_[v], field[v] + offset);
         return;
     }
     for (size_t k = 0; k < 3; ++k) {
         corner_fields_[k].resize(count);
-        const uint32_t corner = point.corners[k];
+        const uint32_t corner = point.numbers[k];
         std::visit([&](auto& engine) { engine.msad({&corner, 1}, INFINITE, corner_fields_[k]); }, engine_);
     }
     for (uint32_t v = 0; v < count; ++v) {
-        const double distance =
-            distance_over(point, {double{corner_fields_[0][v]}, double{corner_fields_[1][v]},
-                                  double{corner_fields_[2][v]}});
-        point_field_[v] = std::min(point_field_[v], static_cast<float>(distance) + offset);
+        const std::array from_corners{double{corner_fields_[0][v]}, double{corner_fields_[1][v]},
+                                      double{corner_fields_[2][v]}};
+        const auto distance = static_cast<float>(distance_over(point, from_corners));
+        point_field_[v] = std::min(point_field_[v], distance + offset);
     }
 }
 

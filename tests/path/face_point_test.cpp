@@ -80,8 +80,8 @@ TEST_CASE("face point: whatever the distances from the corners, no side of a tri
         const FacePoint point = face_point({0, 1, 2}, edges, numbers.weights(), {true, true, true});
         const double distance = distance_over(point, from);
         for (size_t k = 0; k < 3; ++k) {
-            wrong += distance > from[k] + point.to_corner[k] + 1e-12;
-            wrong += distance < from[k] - point.to_corner[k] - 1e-12;
+            wrong += distance > from[k] + point.straight[k] + 1e-12;
+            wrong += distance < from[k] - point.straight[k] - 1e-12;
         }
         farther += distance > 0;
     }

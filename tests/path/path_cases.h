@@ -84,6 +84,20 @@ struct PathCase {
         REQUIRE(geoidx_solver_point_distances(solver.get(), &a, 1, &b, 1, &distance) == GEOIDX_OK);
         return distance;
     }
+    geoidx_surface_point at_vertex(uint32_t id) const {
+        geoidx_surface_point point{};
+        REQUIRE(geoidx_vertex_point(surface.get(), id, &point) == GEOIDX_OK);
+        return point;
+    }
+    // To all vertices.
+    std::vector<double> exact_field(const geoidx_surface_point& source) const {
+        std::vector<geoidx_surface_point> vertices;
+        for (uint32_t id = 0; id < soup.vertex_count(); ++id) vertices.push_back(at_vertex(id));
+        std::vector<double> distances(vertices.size());
+        REQUIRE(geoidx_solver_point_distances(solver.get(), &source, 1, vertices.data(), soup.vertex_count(),
+                                              distances.data()) == GEOIDX_OK);
+        return distances;
+    }
     float sssd(const geoidx_surface_point& a, const geoidx_surface_point& b) const {
         float distance = 0;
         REQUIRE(geoidx_query_point_sssd(query.get(), surface.get(), &a, &b, &distance) == GEOIDX_OK);

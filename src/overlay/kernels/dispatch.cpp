@@ -2,6 +2,7 @@
 
 #include "src/overlay/kernels/bounded_sweep.h"
 #include "src/overlay/kernels/crossing.h"
+#include "src/overlay/kernels/polygon.h"
 #include "src/overlay/kernels/sweep.h"
 #include "src/overlay/kernels/turning.h"
 
@@ -63,6 +64,7 @@ constexpr Kernels kernels_of() {
             Set::template run<CrossFew>,
             Set::template run<CrossSamples>,
             Set::template run<Meet>,
+            Set::template run<LookOut>,
             Set::template run<PrepareSweepOfOne>,
             Set::template run<PrepareSweepOfEach>,
             Set::template run<Sweep>,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "src/index/face_point.h"
 #include "src/overlay/codes.h"
 #include "src/overlay/tables.h"
 
@@ -167,6 +168,11 @@ struct Kernels {
 
     // The least way over any place, or straightened over any segment, or infinity.
     float (*meet)(const BorderBetween& border);
+
+    // As distance_over() has it, from many vertices at once: rows + k * row_size is the row of distances from
+    // vertex k of the point's polygon. All of a row is read and written, in whole parts.
+    static constexpr size_t PART = 64 / sizeof(float);
+    void (*look_out)(const FacePoint& point, const float* rows, size_t row_size, float* distances);
 
     // A hop down, from a border to all that lies one hop inside of it, over places and middles. It is called
     // sweep because a sweep of MSAD spends nearly all of its time there. Each kernel of it comes for one

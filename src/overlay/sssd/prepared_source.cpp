@@ -15,11 +15,11 @@ void PreparedSource::prepare(uint32_t vertex) {
 
 // The distances of internal vertices of the leaf follow where they are asked for.
 void PreparedSource::prepare(const FacePoint& point) {
-    begin(leaf_of_face(index_.numbering, point.corners));
+    begin(point.leaf);
     point_ = point;
-    fill_border_ways(index_, innermost_, point, to_border_);
     const auto border = index_.numbering.border_of(innermost_);
-    for (size_t i = 0; i < border.size(); ++i) known_[border[i]] = to_border_[i];
+    const auto to_border = in_leaf_.to_border(point);
+    for (size_t i = 0; i < border.size(); ++i) known_[border[i]] = to_border[i];
 }
 
 // The distances of internal vertices are read in the source's own leaf only.
@@ -122,7 +122,7 @@ float PreparedSource::distance(uint32_t target, OverlaySsad& field) {
 }
 
 float PreparedSource::distance_in_own_leaf(uint32_t target) const {
-    return point_ ? distance_in_leaf(index_, innermost_, *point_, target) : known_[target];
+    return point_ ? in_leaf_.to_vertex(*point_, target) : known_[target];
 }
 
 // The borders of leaves are kept: a search asks for many vertices of a leaf, and comes and goes between

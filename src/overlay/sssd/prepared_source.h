@@ -20,7 +20,7 @@ public:
     PreparedSource(const OverlayIndex& index, std::pmr::memory_resource* memory)
         : index_(index), kernels_(runnable_kernels().back()), known_(memory), is_inner_known_(memory),
           is_border_known_(memory), begun_(memory), kept_(memory), kept_begin_(memory), code_(memory),
-          to_border_(memory) {}
+          in_leaf_(index, memory) {}
 
     void prepare(uint32_t vertex);
     // A point of a face that a leaf has.
@@ -57,7 +57,7 @@ private:
     Array<float> kept_;
     Array<uint32_t> kept_begin_; // per patch; NONE: not yet
     Array<int16_t> code_;        // scratch: codes of places, which are not read here
-    Array<float> to_border_;     // scratch: of a point, by position in the border of its leaf
+    PointsInLeaf in_leaf_;       // of a point
 };
 
 }

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include <Eigen/Core>
+
+#include "src/index/face_point.h"
+#include "src/path/surface.h"
+
+namespace geodesic {
+
+// The faces behind that of a point, unfolded into its plane, as far as straight lines from the point reach
+// them. The point is the origin.
+struct SeenFaces {
+    struct Face {
+        uint32_t face;
+        std::array<Eigen::Vector2d, 3> corners;
+        Eigen::Vector2d right, left; // the directions between which lines come in
+    };
+
+    size_t count = 0;
+    std::array<Face, FacePoint::MOST_VERTICES> faces;
+
+    // The length of the straight line to another point, in the faces that it lies in; infinite if there is
+    // none.
+    double straight_to(const Surface& surface, const SurfacePoint& point) const;
+};
+
+// What an index knows of the faces of a surface.
+struct KnownFaces {
+    // The number of a vertex, or NONE where distances from it are not known.
+    std::function<uint32_t(uint32_t)> number_of;
+    // Whether the faces behind an edge between the vertices with two numbers are known.
+    std::function<bool(uint32_t, uint32_t, double length)> go_on;
+};
+
+// Unfolds faces around a point, those behind the widest edges first, until its polygon has as many vertices
+// as there is room for. `point` comes as the polygon of its face alone.
+void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, FacePoint& point,
+                 SeenFaces& seen);
+
+}

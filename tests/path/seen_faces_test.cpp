@@ -1,0 +1,179 @@
+// What a point sees of the faces around it, compared with the plane and with the exact metric.
+#include <cmath>
+#include <numbers>
+
+#include "src/path/nearby.h"
+#include "src/path/seen_faces.h"
+#include "tests/path/path_cases.h"
+
+using namespace geodesic;
+using namespace geodesic::test;
+
+namespace {
+
+const KnownFaces ALL{[](uint32_t vertex) { return vertex; }, [](uint32_t, uint32_t, double) { return true; }};
+
+Surface surface_of(const Soup& soup) {
+    Intake intake;
+    intake.mesh.positions = soup.positions;
+    for (const auto& [a, b, c] : soup.triangles) intake.mesh.faces.push_back({a, b, c});
+    connect(intake.mesh);
+    return Surface(std::move(intake));
+}
+
+// Within a face, or on an edge.
+SurfacePoint random_point(const Surface& surface, std::mt19937_64& random, size_t turn) {
+    SurfacePoint point{static_cast<uint32_t>(random() % surface.face_count()), {}};
+    for (double& weight : point.weights) weight = uniform(random, 0.05, 1);
+    if (turn % 3 == 2) point.weights[random() % 3] = 0;
+    const double sum = point.weights[0] + point.weights[1] + point.weights[2];
+    for (double& weight : point.weights) weight /= sum;
+    return point;
+}
+
+struct Seen {
+    FacePoint alone, point;
+    SeenFaces faces;
+};
+
+Seen look(const Surface& surface, const SurfacePoint& at, const KnownFaces& known = ALL) {
+    const auto& corners = surface.faces[at.face];
+    std::array<double, 3> lengths;
+    std::array<bool, 3> crosses{};
+    for (size_t k = 0; k < 3; ++k) {
+        const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
+        lengths[k] = (surface.positions[a] - surface.positions[b]).norm();
+        for_each_face_beyond(surface, at.face, a, b, [&](uint32_t) { crosses[k] = true; });
+    }
+    Seen seen{face_point(corners, lengths, at.weights, crosses), {}, {}};
+    seen.point = seen.alone;
+    see_farther(surface, at, known, seen.point, seen.faces);
+    return seen;
+}
+
+// Heights at random, so that most edges are ridges or valleys.
+Soup rough_terrain() {
+    Soup soup = grid(14, 14, 14, 14);
+    std::mt19937_64 random(6);
+    for (Eigen::Vector3d& at : soup.positions) at.z() = uniform(random, 0, 3);
+    return soup;
+}
+
+double angle_seen(const FacePoint& point) {
+    double sum = 0;
+    for (const FacePoint::Edge& edge : std::span(point.edges).first(point.edge_count))
+        sum += std::atan2(edge.seen_to - edge.foot, edge.height) -
+               std::atan2(edge.seen_from - edge.foot, edge.height);
+    return sum;
+}
+
+std::vector<double> distances_of(const FacePoint& point, const std::function<double(uint32_t)>& distance) {
+    std::vector<double> distances;
+    for (uint32_t k = 0; k < point.vertex_count; ++k) distances.push_back(distance(point.numbers[k]));
+    return distances;
+}
+
+}
+
+TEST_CASE("seen faces: in a plane everything is where it is") {
+    const Surface surface = surface_of(jittered_grid(16, 3));
+    std::mt19937_64 random(1);
+    uint32_t far = 0, near = 0;
+    for (size_t i = 0; i < 300; ++i) {
+        CAPTURE(i);
+        const SurfacePoint at = random_point(surface, random, i);
+        const Seen seen = look(surface, at);
+        const Eigen::Vector3d origin = position_of(surface, at);
+        for (uint32_t k = 0; k < seen.point.vertex_count; ++k)
+            if (seen.point.straight[k] < UNREACHABLE)
+                CHECK(seen.point.straight[k] ==
+                      doctest::Approx((surface.positions[seen.point.numbers[k]] - origin).norm()));
+        for (uint32_t v = 0; v < surface.vertex_count(); v += 7) {
+            const auto from = distances_of(seen.point, [&](uint32_t number) {
+                return (surface.positions[number] - surface.positions[v]).norm();
+            });
+            // Vertices that the polygon has inside or on its far side are not behind its edges.
+            const double straight = (surface.positions[v] - origin).norm();
+            if (straight < 0.5) continue;
+            CHECK(distance_over(seen.point, from) == doctest::Approx(straight).epsilon(1e-9));
+            ++far;
+        }
+        for (size_t j = 0; j < 20; ++j) {
+            const SurfacePoint other = random_point(surface, random, j);
+            const double straight = seen.faces.straight_to(surface, other);
+            if (straight == UNREACHABLE) continue;
+            CHECK(straight == doctest::Approx((position_of(surface, other) - origin).norm()));
+            ++near;
+        }
+    }
+    CHECK(far > 3000);
+    CHECK(near > 50);
+}
+
+TEST_CASE("seen faces: the polygon goes all around, has room for more, and ends where the surface does") {
+    const Surface surface = surface_of(bumpy_sphere(3, 4));
+    const Surface sheet = surface_of(jittered_grid(4, 5));
+    std::mt19937_64 random(2);
+    double least = INFINITE;
+    for (size_t i = 0; i < 200; ++i) {
+        CAPTURE(i);
+        const Seen seen = look(surface, random_point(surface, random, i));
+        CHECK(angle_seen(seen.point) == doctest::Approx(2 * std::numbers::pi));
+        CHECK(seen.point.vertex_count == FacePoint::MOST_VERTICES);
+        const double on_sheet = angle_seen(look(sheet, random_point(sheet, random, i)).point);
+        CHECK(on_sheet <= 2 * std::numbers::pi + 1e-9);
+        least = std::min(least, on_sheet);
+    }
+    CHECK(least < std::numbers::pi);
+}
+
+TEST_CASE("seen faces: nothing is seen that is not known") {
+    const Surface surface = surface_of(bumpy_sphere(3, 4));
+    std::mt19937_64 random(3);
+    for (size_t i = 0; i < 100; ++i) {
+        CAPTURE(i);
+        const SurfacePoint at = random_point(surface, random, i);
+        const auto& corners = surface.faces[at.face];
+        const auto is_known = [&](uint32_t vertex) {
+            return vertex % 3 != 0 || std::ranges::find(corners, vertex) != corners.end();
+        };
+        KnownFaces known = ALL;
+        known.number_of = [&](uint32_t vertex) { return is_known(vertex) ? vertex : NONE; };
+        const Seen seen = look(surface, at, known);
+        for (uint32_t k = 0; k < seen.point.vertex_count; ++k) CHECK(is_known(seen.point.numbers[k]));
+        known.go_on = [](uint32_t, uint32_t, double) { return false; };
+        CHECK(look(surface, at, known).point.vertex_count == 3);
+    }
+}
+
+// By exact distances of the vertices, so that nothing but the polygon makes the error.
+TEST_CASE("seen faces: on rough surfaces a polygon tells far more than its face") {
+    for (const Soup& soup : {bumpy_sphere(2, 5), cube(4), rough_terrain()}) {
+        const Surface surface = surface_of(soup);
+        const PathCase on(soup);
+        std::mt19937_64 random(4);
+        double by_face = 0, by_polygon = 0;
+        for (size_t i = 0; i < 30; ++i) {
+            CAPTURE(i);
+            const SurfacePoint at = ::random_point(surface, random, i);
+            geoidx_surface_point source{at.face, 0, {at.weights[0], at.weights[1], at.weights[2]}};
+            const Seen seen = look(surface, at);
+            const auto exact = on.exact_field(source);
+            std::vector<std::vector<double>> from(seen.point.vertex_count);
+            for (uint32_t k = 0; k < seen.point.vertex_count; ++k)
+                from[k] = on.exact_field(on.at_vertex(seen.point.numbers[k]));
+            for (uint32_t v = 0; v < soup.vertex_count(); ++v) {
+                std::vector<double> distances;
+                for (const auto& field : from) distances.push_back(field[v]);
+                by_polygon += std::abs(distance_over(seen.point, distances) / exact[v] - 1);
+                by_face += std::abs(distance_over(seen.alone, distances) / exact[v] - 1);
+            }
+            for (size_t j = 0; j < 20; ++j) {
+                const SurfacePoint to = ::random_point(surface, random, j);
+                geoidx_surface_point target{to.face, 0, {to.weights[0], to.weights[1], to.weights[2]}};
+                CHECK(seen.faces.straight_to(surface, to) >= on.exact(source, target) * (1 - 1e-9));
+            }
+        }
+        CHECK(by_polygon < by_face / 2);
+    }
+}
