@@ -752,9 +752,9 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * them is long, and so are those of triangles that share an edge which that line crosses, unless the index
  * knows a much shorter way; so are those a few triangles apart that see each other over these, unless the
  * index knows a way that is shorter by a hundredth; others are to the accuracy of the index. Points of
- * triangles that share a corner
- * are no farther apart than the way over it is long and, by GEOIDX_METRIC_EXACT, than a straight line around
- * it over the triangles between the two. +INFINITY where there is no path. */
+ * triangles that share a corner are no farther apart than the way over it is long and, by
+ * GEOIDX_METRIC_EXACT, than a straight line around it over the triangles between the two. +INFINITY where
+ * there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* source,
                                                  const geoidx_surface_point* target, float* distance);

@@ -37,7 +37,7 @@ bool is_in_leaf(const Numbering& numbering, uint32_t leaf, uint32_t number) {
 
 // Segments from one end to the other that are no longer than the edge together lie on it.
 bool is_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b, double length) {
-    constexpr double ROUNDING = 1e-4;
+    constexpr double ROUNDING = 1e-6;
     const Numbering& numbering = index.numbering;
     const Rings& rings = index.rings;
     if (!numbering.is_border(a) || !numbering.is_border(b)) return false;
@@ -51,6 +51,7 @@ bool is_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t
             left -= double{rings.segment_length[std::min(place, next)]};
             if (!(left >= 0)) break; // also at a gap
             if (rings.vertex[next] == b) return true;
+            if (rings.vertex[next] == a) break; // all around
             place = own_place(rings, numbering, leaf, rings.position[next]);
         }
     }

@@ -43,6 +43,26 @@ uint32_t leaf_of(const Index& index, const Surface& surface, uint32_t face,
     return leaf_of_face(*overlay, numbers, lengths, beside);
 }
 
+class FacesOfLeaf final : public KnownFaces {
+public:
+    FacesOfLeaf(const Index& index, const Surface& surface, uint32_t leaf)
+        : index_(index), overlay_(std::get<OverlayIndex>(index.engine)), surface_(surface), leaf_(leaf) {}
+
+    uint32_t number_of(uint32_t vertex) const override {
+        const uint32_t number = geodesic::number_of(index_, surface_, vertex);
+        return number != NONE && is_in_leaf(overlay_.numbering, leaf_, number) ? number : NONE;
+    }
+    bool go_on(uint32_t a, uint32_t b, double length) const override {
+        return !is_on_border(overlay_, leaf_, a, b, length);
+    }
+
+private:
+    const Index& index_;
+    const OverlayIndex& overlay_;
+    const Surface& surface_;
+    const uint32_t leaf_;
+};
+
 }
 
 void require_same_mesh(const Index& index, const Surface& surface) {
@@ -81,34 +101,28 @@ FacePoint face_point_on(const Index& index, const Surface& surface, const Surfac
     return found;
 }
 
-// Over the faces of the leaf.
 PointView view_from(const Index& index, const Surface& surface, const SurfacePoint& at,
                     const FacePoint& point) {
     PointView view{point, {}};
-    if (point.leaf == NONE || point.vertex != NONE) return view;
-    const auto& overlay = std::get<OverlayIndex>(index.engine);
-    KnownFaces known;
-    known.number_of = [&](uint32_t vertex) {
-        const uint32_t number = number_of(index, surface, vertex);
-        return number != NONE && is_in_leaf(overlay.numbering, point.leaf, number) ? number : NONE;
-    };
-    known.go_on = [&](uint32_t a, uint32_t b, double length) {
-        return !is_on_border(overlay, point.leaf, a, b, length);
-    };
-    see_farther(surface, at, known, view.point, view.seen);
+    if (point.leaf != NONE && point.vertex == NONE)
+        see_farther(surface, at, FacesOfLeaf(index, surface, point.leaf), view.point, view.seen);
     return view;
 }
 
 void share_leaf(const Index& index, FacePoint& a, FacePoint& b) {
-    if (a.leaf == NONE || b.leaf == NONE) return;
+    const bool are_apart = a.leaf != NONE && b.leaf != NONE && a.leaf != b.leaf;
+    if (!are_apart || a.vertex != NONE || b.vertex != NONE) return;
     const auto has = [&](uint32_t leaf, const FacePoint& point) {
         const auto corners = point.corners();
         return std::ranges::all_of(
             corners, [&](uint32_t corner) { return is_in_leaf(index.numbering(), leaf, corner); });
     };
-    if (has(a.leaf, b))
+    const bool b_fits = has(a.leaf, b), a_fits = has(b.leaf, a);
+    if (b_fits && a_fits)
+        a.leaf = b.leaf = std::min(a.leaf, b.leaf);
+    else if (b_fits)
         b.leaf = a.leaf;
-    else if (has(b.leaf, a))
+    else if (a_fits)
         a.leaf = b.leaf;
 }
 

@@ -40,7 +40,8 @@ struct PointView {
 PointView view_from(const Index& index, const Surface& surface, const SurfacePoint& at,
                     const FacePoint& point);
 
-// Where the tables of one leaf have both points, that is the leaf of both.
+// Where a leaf of two points that are at no vertex has both, it becomes the leaf of both, whichever comes
+// first.
 void share_leaf(const Index& index, FacePoint& a, FacePoint& b);
 
 }

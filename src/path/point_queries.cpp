@@ -73,6 +73,9 @@ float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target)
     FacePoint first = face_point_on(index_, surface_, source, unfolds()),
               second = face_point_on(index_, surface_, target, unfolds());
     if (first.vertex != NONE && second.vertex != NONE) return query_.point_sssd(first, second);
+    const auto has_leaf = [](const FacePoint& point) { return point.vertex != NONE || point.leaf != NONE; };
+    if (!has_leaf(first) || !has_leaf(second))
+        return with_straight_way(source, target, query_.point_sssd(first, second));
     share_leaf(index_, first, second);
     const PointView from = view_of(source, first), to = view_of(target, second);
     return with_known_ways(source, from, target, to, query_.point_sssd(from.point, to.point));
@@ -108,6 +111,7 @@ void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position,
 PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> points,
                                                std::span<const float> offsets) const {
     Sources sources{{}, offsets, {}};
+    sources.points.reserve(points.size());
     for (uint32_t i = 0; i < points.size(); ++i) {
         const float offset = offsets.empty() ? 0 : offsets[i];
         const FacePoint& point = sources.points.emplace_back(view_of(points[i]).point);

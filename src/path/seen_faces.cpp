@@ -88,19 +88,21 @@ public:
         }
     }
 
+    // An edge has no length where vertices are at one position.
     void finish() {
-        point_.edge_count = static_cast<uint32_t>(count_);
-        for (size_t i = 0; i < count_; ++i) {
-            const Edge& edge = edges_[i];
+        point_.edge_count = 0;
+        for (const Edge& edge : std::span(edges_).first(count_)) {
             const Vector2d along = edge.along();
             const double length = edge.length();
-            point_.edges[i] = {edge.first.slot,
-                               edge.second.slot,
-                               length,
-                               -along.dot(edge.first.at),
-                               std::max(cross(edge.first.at, along), 0.0),
-                               edge.right == edge.first.at ? 0 : edge.met_in(edge.right),
-                               edge.left == edge.second.at ? length : edge.met_in(edge.left)};
+            if (!(length > 0)) continue;
+            point_.edges[point_.edge_count++] = {edge.first.slot,
+                                                 edge.second.slot,
+                                                 length,
+                                                 -along.dot(edge.first.at),
+                                                 std::max(cross(edge.first.at, along), 0.0),
+                                                 edge.right == edge.first.at ? 0 : edge.met_in(edge.right),
+                                                 edge.left == edge.second.at ? length
+                                                                             : edge.met_in(edge.left)};
         }
     }
 

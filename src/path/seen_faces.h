@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 
 #include <Eigen/Core>
 
@@ -30,11 +29,15 @@ struct SeenFaces {
 };
 
 // What an index knows of the faces of a surface.
-struct KnownFaces {
+class KnownFaces {
+public:
     // The number of a vertex, or NONE where distances from it are not known.
-    std::function<uint32_t(uint32_t)> number_of;
-    // Whether the faces behind an edge between the vertices with two numbers are known.
-    std::function<bool(uint32_t, uint32_t, double length)> go_on;
+    virtual uint32_t number_of(uint32_t vertex) const = 0;
+    // Whether the face behind an edge is known, too, by the numbers of the ends of the edge.
+    virtual bool go_on(uint32_t a, uint32_t b, double length) const = 0;
+
+protected:
+    ~KnownFaces() = default;
 };
 
 // Unfolds faces around a point, those behind the widest edges first, until its polygon has as many vertices

@@ -42,7 +42,9 @@ float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
                        high = std::max(first.vertex, second.vertex);
         return low == high ? 0 : std::visit([&](auto& e) { return e.sssd(low, high); }, engine_);
     }
-    if (takes(first) && takes(second)) return std::get<OverlayQuery>(engine_).point_sssd(first, second);
+    const auto is_taken = [&](const FacePoint& point) { return point.vertex != NONE || takes(point); };
+    if (is_taken(first) && is_taken(second) && std::holds_alternative<OverlayQuery>(engine_))
+        return std::get<OverlayQuery>(engine_).point_sssd(first, second);
     std::array<double, FacePoint::MOST_VERTICES> from_vertices;
     for (size_t k = 0; k < second.vertex_count; ++k)
         from_vertices[k] = double{vertex_to_point(second.numbers[k], first)};

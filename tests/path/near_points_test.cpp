@@ -243,6 +243,25 @@ TEST_CASE("near points: a few of many targets on a mesh of many patches") {
         check_nearest_targets(on, random_point(on.soup, random, i), targets, 1 + static_cast<uint32_t>(i));
 }
 
+// What tells of a point beside a spike reaches to its far end.
+TEST_CASE("near points: the nearest target beside a long triangle is found") {
+    Soup soup = grid(6, 6, 6, 6);
+    const auto spike = soup.vertex_count();
+    soup.positions.emplace_back(-100, 0.5, 0);
+    soup.triangles.push_back({0, spike, 7});
+    const PathCase on(soup);
+    std::mt19937_64 random(4);
+    Points targets;
+    for (uint32_t t = 0; t + 1 < soup.triangles.size(); ++t) targets.push_back({t, 0, {0.3, 0.3, 0.4}});
+    for (uint32_t t = 0; t + 1 < soup.triangles.size(); t += 2) {
+        CAPTURE(t);
+        const geoidx_surface_point source{t, 0, {0.2, 0.2, 0.6}};
+        const NearFirst found = nearest_points(on, source, targets, 1);
+        REQUIRE(found.size() == 1);
+        CHECK(found[0].second == t);
+    }
+}
+
 // Sums that are no floats any more are no distances.
 TEST_CASE("near points: what is farther than floats reach is not within any radius") {
     Soup soup = grid(3, 3, 6e37, 6e37);

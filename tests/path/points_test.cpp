@@ -220,6 +220,24 @@ TEST_CASE("points: near ones on edges are symmetric") {
 }
 
 // How near they are to it, tables do not tell.
+TEST_CASE("points: of small leaves, and with two leaves that have both, they are symmetric") {
+    for (uint64_t seed = 0; seed < 4; ++seed) {
+        CAPTURE(seed);
+        auto options = path_options();
+        options.level_count = 1;
+        options.patches[0] = 12;
+        options.seed = seed;
+        const PathCase on(bumpy_sphere(2, seed), options);
+        std::mt19937_64 random(seed);
+        uint32_t different = 0;
+        for (size_t i = 0; i < 4000; i += sparse(1)) {
+            const auto a = random_point(on.soup, random, i % 5), b = random_point(on.soup, random, i % 3);
+            different += on.sssd(a, b) != on.sssd(b, a);
+        }
+        CHECK(different == 0);
+    }
+}
+
 TEST_CASE("points: near a common vertex they are no farther apart than the way over it is long") {
     for (const uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES})
         for (const uint32_t engine : {GEOIDX_ENGINE_OVERLAY, GEOIDX_ENGINE_GRAPH})
