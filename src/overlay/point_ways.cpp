@@ -35,6 +35,10 @@ bool is_in_leaf(const Numbering& numbering, uint32_t leaf, uint32_t number) {
     return numbering.leaf_of(number) == leaf;
 }
 
+bool are_in_leaf(const Numbering& numbering, uint32_t leaf, const std::array<uint32_t, 3>& corners) {
+    return std::ranges::all_of(corners, [&](uint32_t c) { return is_in_leaf(numbering, leaf, c); });
+}
+
 // Segments from one end to the other that are no longer than the edge together lie on it.
 bool is_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b, double length) {
     constexpr double ROUNDING = 1e-6;
@@ -61,13 +65,10 @@ bool is_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t
 uint32_t leaf_of_face(const OverlayIndex& index, const std::array<uint32_t, 3>& corners,
                       const std::array<double, 3>& edge_length, const std::array<uint32_t, 3>& beside) {
     const Numbering& numbering = index.numbering;
-    const auto has_all = [&](uint32_t leaf) {
-        return std::ranges::all_of(corners, [&](uint32_t c) { return is_in_leaf(numbering, leaf, c); });
-    };
     for (const uint32_t corner : corners)
         if (!numbering.is_border(corner)) {
             const uint32_t leaf = numbering.leaf_of(corner);
-            return has_all(leaf) ? leaf : NONE;
+            return are_in_leaf(numbering, leaf, corners) ? leaf : NONE;
         }
     const auto is_joined = [&](uint32_t leaf) {
         for (size_t k = 0; k < 3; ++k)
@@ -78,7 +79,7 @@ uint32_t leaf_of_face(const OverlayIndex& index, const std::array<uint32_t, 3>& 
     };
     uint32_t any = NONE;
     for (const PatchPosition& at : numbering.borders_of(corners[0])) {
-        if (at.patch < numbering.first_leaf() || !has_all(at.patch)) continue;
+        if (at.patch < numbering.first_leaf() || !are_in_leaf(numbering, at.patch, corners)) continue;
         if (is_joined(at.patch)) return at.patch;
         if (any == NONE) any = at.patch;
     }
@@ -109,7 +110,7 @@ float PointsInLeaf::to_vertex(const FacePoint& point, uint32_t number) const {
 // Fills a row from each vertex of the point's polygon.
 template <class FillRow>
 std::span<const float> PointsInLeaf::look_out(const FacePoint& point, size_t count, const FillRow& fill_row) {
-    const size_t row_size = (count + Kernels::PART - 1) / Kernels::PART * Kernels::PART;
+    const size_t row_size = NearRange::whole_parts(count);
     rows_.assign(point.vertex_count * row_size, INFINITE);
     distances_.resize(row_size);
     for (size_t k = 0; k < point.vertex_count; ++k) fill_row(point.numbers[k], rows_.data() + k * row_size);

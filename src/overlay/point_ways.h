@@ -26,6 +26,8 @@ struct LeafVertex {
 
 // Whether a vertex is inside of a leaf or on its border.
 bool is_in_leaf(const Numbering& numbering, uint32_t leaf, uint32_t number);
+// Whether all corners of a face are.
+bool are_in_leaf(const Numbering& numbering, uint32_t leaf, const std::array<uint32_t, 3>& corners);
 
 // Whether the edge between two vertices runs along the border of a leaf. It may be cut into several segments
 // by added vertices.

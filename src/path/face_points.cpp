@@ -112,12 +112,9 @@ PointView view_from(const Index& index, const Surface& surface, const SurfacePoi
 void share_leaf(const Index& index, FacePoint& a, FacePoint& b) {
     const bool are_apart = a.leaf != NONE && b.leaf != NONE && a.leaf != b.leaf;
     if (!are_apart || a.vertex != NONE || b.vertex != NONE) return;
-    const auto has = [&](uint32_t leaf, const FacePoint& point) {
-        const auto corners = point.corners();
-        return std::ranges::all_of(
-            corners, [&](uint32_t corner) { return is_in_leaf(index.numbering(), leaf, corner); });
-    };
-    const bool b_fits = has(a.leaf, b), a_fits = has(b.leaf, a);
+    const Numbering& numbering = index.numbering();
+    const bool b_fits = are_in_leaf(numbering, a.leaf, b.corners()),
+               a_fits = are_in_leaf(numbering, b.leaf, a.corners());
     if (b_fits && a_fits)
         a.leaf = b.leaf = std::min(a.leaf, b.leaf);
     else if (b_fits)

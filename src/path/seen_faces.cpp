@@ -120,8 +120,8 @@ private:
                                 width_of(right, left)};
     }
 
-    // Puts what is seen of the two edges behind an edge in its place. Returns false if nothing is known
-    // there.
+    // Replaces an edge by what is seen of the two other edges of the face behind it. Returns false if that is
+    // not known.
     bool unfold(Edge& at) {
         const Edge edge = at;
         const uint32_t face = edge.behind;

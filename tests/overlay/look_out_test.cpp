@@ -12,7 +12,7 @@ using namespace geodesic;
 
 namespace {
 
-constexpr size_t VERTICES = 5 * Kernels::PART;
+constexpr size_t VERTICES = 5 * NearRange::PART;
 
 double between(std::mt19937& random, double low, double high) {
     return low + (high - low) * double(random()) / 4294967296.0;

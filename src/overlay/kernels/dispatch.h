@@ -170,8 +170,7 @@ struct Kernels {
     float (*meet)(const BorderBetween& border);
 
     // As distance_over() has it, from many vertices at once: rows + k * row_size is the row of distances from
-    // vertex k of the point's polygon. All of a row is read and written, in whole parts.
-    static constexpr size_t PART = 64 / sizeof(float);
+    // vertex k of the point's polygon. All of a row is read and written, in whole parts of NearRange.
     void (*look_out)(const FacePoint& point, const float* rows, size_t row_size, float* distances);
 
     // A hop down, from a border to all that lies one hop inside of it, over places and middles. It is called
