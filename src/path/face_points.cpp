@@ -6,41 +6,41 @@
 #include "format/error.h"
 #include "geoidx.h"
 #include "src/overlay/point_ways.h"
+#include "src/path/indexed_faces.h"
 #include "src/path/seen_faces.h"
 
 namespace geodesic {
 
 namespace {
 
-// As a point of the faces that the index was made on.
-FlatFaces::Point unfolded_point(const Surface& surface, const SurfacePoint& point) {
-    const auto& corners = surface.faces[point.face];
+// A point by the corners of its face.
+struct CornerPoint {
+    uint32_t face;
+    std::array<uint32_t, 3> corners;
+    std::array<double, 3> weights;
+};
+
+// As a point of the faces that the index was made on. At a vertex, one face is as good as another.
+CornerPoint unfolded_point(const Surface& surface, const SurfacePoint& point) {
     if (vertex_at(surface, point) == NONE)
-        if (const auto flat = surface.flat_faces.find(surface, point)) return *flat;
-    FlatFaces::Point same{corners, point.weights, {}};
-    for (size_t k = 0; k < 3; ++k)
-        for_each_face_beyond(surface, point.face, corners[(k + 1) % 3], corners[(k + 2) % 3],
-                             [&](uint32_t) { same.has_face_beyond[k] = true; });
-    return same;
+        if (const auto indexed = indexed_point(surface, point))
+            return {indexed->face, indexed_corners(surface, indexed->face), indexed->weights};
+    return {point.face, surface.faces[point.face], point.weights};
 }
 
-// The leaf of a face that has these corners, and these numbers; NONE by an index that has none. Faces that
-// are flipped have no others beside them here.
-uint32_t leaf_of(const Index& index, const Surface& surface, uint32_t face,
-                 const std::array<uint32_t, 3>& corners, const std::array<uint32_t, 3>& numbers,
-                 const std::array<double, 3>& lengths) {
-    const auto* const overlay = std::get_if<OverlayIndex>(&index.engine);
-    if (!overlay) return NONE;
-    std::array<uint32_t, 3> beside{NONE, NONE, NONE};
-    if (corners == surface.faces[face])
-        for (size_t k = 0; k < 3; ++k) {
-            const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
-            for_each_face_beyond(surface, face, a, b, [&](uint32_t other) {
-                for (const uint32_t vertex : surface.faces[other])
-                    if (vertex != a && vertex != b) beside[k] = number_of(index, surface, vertex);
-            });
-        }
-    return leaf_of_face(*overlay, numbers, lengths, beside);
+// Beyond the edge opposite to each corner of a face, the vertex that is no end of that edge, or NONE where
+// the surface ends; any one of several.
+std::array<uint32_t, 3> vertices_beyond(const Surface& surface, uint32_t face,
+                                        const std::array<uint32_t, 3>& corners) {
+    std::array<uint32_t, 3> beyond{NONE, NONE, NONE};
+    for (size_t k = 0; k < 3; ++k) {
+        const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
+        for_each_indexed_face_beyond(surface, face, a, b, [&](uint32_t other) {
+            for (const uint32_t vertex : indexed_corners(surface, other))
+                if (vertex != a && vertex != b) beyond[k] = vertex;
+        });
+    }
+    return beyond;
 }
 
 class FacesOfLeaf final : public KnownFaces {
@@ -84,28 +84,35 @@ uint32_t vertex_at(const Surface& surface, const SurfacePoint& point) {
 
 FacePoint face_point_on(const Index& index, const Surface& surface, const SurfacePoint& point, bool unfolds,
                         double cost) {
-    const auto [corners, weights, crosses] =
+    const auto [face, corners, weights] =
         unfolds ? unfolded_point(surface, point)
-                : FlatFaces::Point{surface.faces[point.face], point.weights, {}};
+                : CornerPoint{point.face, surface.faces[point.face], point.weights};
+    const auto beyond = vertices_beyond(surface, face, corners);
+    std::array<bool, 3> crosses;
+    std::array<uint32_t, 3> beside;
     std::array<uint32_t, 3> numbers;
     std::array<double, 3> lengths;
     for (size_t k = 0; k < 3; ++k) {
         const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
         numbers[k] = number_of(index, surface, corners[k]);
+        crosses[k] = unfolds && beyond[k] != NONE;
+        beside[k] = beyond[k] == NONE ? NONE : number_of(index, surface, beyond[k]);
         lengths[k] = cost * (surface.positions[a] - surface.positions[b]).norm();
     }
     if (std::ranges::find(numbers, NONE) != numbers.end())
         refuse_argument("the surface has a triangle that the index does not: they differ in weld_tolerance");
     FacePoint found = face_point(numbers, lengths, weights, crosses);
-    found.leaf = leaf_of(index, surface, point.face, corners, numbers, lengths);
+    if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine))
+        found.leaf = leaf_of_face(*overlay, numbers, lengths, beside);
     return found;
 }
 
 PointView view_from(const Index& index, const Surface& surface, const SurfacePoint& at,
                     const FacePoint& point) {
     PointView view{point, {}};
-    if (point.leaf != NONE && point.vertex == NONE)
-        see_farther(surface, at, FacesOfLeaf(index, surface, point.leaf), view.point, view.seen);
+    if (point.leaf == NONE || point.vertex != NONE) return view;
+    if (const auto indexed = indexed_point(surface, at))
+        see_farther(surface, *indexed, FacesOfLeaf(index, surface, point.leaf), view.point, view.seen);
     return view;
 }
 

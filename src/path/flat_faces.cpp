@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -45,29 +46,46 @@ FlatFaces::FlatFaces(const Mesh& mesh) {
     const std::optional<FlippedEdges> flipped = flip_flat_edges(mesh);
     if (!flipped) return;
     const auto& planes = flipped->plane_of_face;
-    const size_t count = planes.size() - static_cast<size_t>(std::ranges::count(planes, NONE));
-    for (auto* list : {&replaced_, &plane_}) list->reserve(count);
-    for (auto* list : {&faces_, &across_}) list->reserve(count);
-    at_vertices_.reserve(3 * count);
     for (uint32_t f = 0; f < mesh.face_count(); ++f)
-        if (planes[f] != NONE) {
-            for (const uint32_t corner : flipped->mesh.faces[f])
-                at_vertices_.emplace_back(corner, static_cast<uint32_t>(faces_.size()));
-            replaced_.push_back(f);
-            plane_.push_back(planes[f]);
-            faces_.push_back(flipped->mesh.faces[f]);
-        }
-    std::ranges::sort(at_vertices_);
-    for (const uint32_t f : replaced_) {
+        if (planes[f] != NONE) number_.push_back(f);
+    replaced_ = RankedSet(number_, mesh.face_count());
+    plane_.reserve(number_.size());
+    for (auto* list : {&faces_, &across_}) list->reserve(number_.size());
+    std::vector<std::pair<uint32_t, uint32_t>> at_vertices; // vertex and row of a face there
+    for (const uint32_t f : number_) {
+        for (const uint32_t corner : flipped->mesh.faces[f])
+            at_vertices.emplace_back(corner, static_cast<uint32_t>(faces_.size()));
+        plane_.push_back(planes[f]);
+        faces_.push_back(flipped->mesh.faces[f]);
+    }
+    list_around_vertices(std::move(at_vertices), mesh.vertex_count());
+    for (const uint32_t f : number_) {
         auto& across = across_.emplace_back();
         for (size_t k = 0; k < 3; ++k) {
             const auto beside = flipped->mesh.edge_faces[flipped->mesh.face_edges[f][k]];
-            across[k] = beside.size() > 1 ? OTHER : NOTHING;
+            across[k] = NONE;
             if (beside.size() != 2) continue;
             const uint32_t other = beside[beside[0] == f];
-            if (planes[other] == planes[f]) across[k] = *slot_of(other);
+            if (planes[other] == planes[f]) across[k] = replaced_.rank(other);
         }
     }
+}
+
+void FlatFaces::list_around_vertices(std::vector<std::pair<uint32_t, uint32_t>> at_vertices,
+                                     uint32_t vertex_count) {
+    std::ranges::sort(at_vertices);
+    std::vector<uint32_t> vertices;
+    around_.reserve(at_vertices.size());
+    for (const auto& [vertex, row] : at_vertices) {
+        if (vertices.empty() || vertices.back() != vertex) {
+            vertices.push_back(vertex);
+            around_begin_.push_back(static_cast<uint32_t>(around_.size()));
+        }
+        around_.push_back(row);
+    }
+    around_begin_.push_back(static_cast<uint32_t>(around_.size()));
+    around_begin_.shrink_to_fit();
+    vertices_ = RankedSet(vertices, vertex_count);
 }
 
 // Mostly, the corner with the largest weight sees the point past the fewest faces.
@@ -84,23 +102,14 @@ FlatFaces::Corners FlatFaces::corners_of(std::span<const Vector3d> positions,
     return point;
 }
 
-std::optional<uint32_t> FlatFaces::slot_of(uint32_t face) const {
-    const auto found = std::ranges::lower_bound(replaced_, face);
-    if (found == replaced_.end() || *found != face) return std::nullopt;
-    return static_cast<uint32_t>(found - replaced_.begin());
+std::span<const uint32_t> FlatFaces::around(uint32_t vertex) const {
+    if (!vertices_.contains(vertex)) return {};
+    const uint32_t* const begin = around_begin_.data() + vertices_.rank(vertex);
+    return {around_.data() + begin[0], around_.data() + begin[1]};
 }
 
-std::span<const std::pair<uint32_t, uint32_t>> FlatFaces::around(uint32_t vertex) const {
-    const auto begin = std::ranges::lower_bound(at_vertices_, std::pair(vertex, 0u));
-    const auto end =
-        std::find_if(begin, at_vertices_.end(), [&](const auto& at) { return at.first != vertex; });
-    return {begin, end};
-}
-
-FlatFaces::Point FlatFaces::point_at(const Located& located) const {
-    Point point{faces_[located.slot], without_rounding(located.weights), {}};
-    for (size_t k = 0; k < 3; ++k) point.has_face_beyond[k] = across_[located.slot][k] != NOTHING;
-    return point;
+SurfacePoint FlatFaces::point_at(const Located& located) const {
+    return {number_[located.row], without_rounding(located.weights)};
 }
 
 // Walks straight from one point of a plane to another one, from face to face.
@@ -113,41 +122,41 @@ public:
     // if the way ends there. Returns whether there is one.
     bool begin_at(uint32_t vertex, uint32_t plane) {
         double best = -ROUNDING;
-        slot_ = NONE;
-        for (const auto& [v, slot] : flat_.around(vertex)) {
-            if (flat_.plane_[slot] != plane || !lies_in_plane_of(slot)) continue;
-            const auto& corners = flat_.faces_[slot];
+        row_ = NONE;
+        for (const uint32_t row : flat_.around(vertex)) {
+            if (flat_.plane_[row] != plane || !lies_in_plane_of(row)) continue;
+            const auto& corners = flat_.faces_[row];
             const auto k = static_cast<size_t>(std::ranges::find(corners, vertex) - corners.begin());
             const uint32_t right = corners[(k + 1) % 3], left = corners[(k + 2) % 3];
             const auto weights = weights_of(from_, at_[right], at_[left], to_);
             const double ahead = weights[1] + weights[2], between = std::min(weights[1], weights[2]) / ahead;
             if (!way_.isZero(0) && !(ahead > 0 && between >= best)) continue;
             best = between;
-            leave(slot, right, left);
+            leave(row, right, left);
         }
-        return slot_ != NONE;
+        return row_ != NONE;
     }
 
     // Begins inside of a face. Returns whether the way lies in its plane and leads out of it over an edge.
-    bool begin_in(uint32_t slot) {
-        slot_ = NONE;
-        if (!lies_in_plane_of(slot)) return false;
-        const auto& corners = flat_.faces_[slot];
-        to_left_ = normal_of(slot).cross(way_);
+    bool begin_in(uint32_t row) {
+        row_ = NONE;
+        if (!lies_in_plane_of(row)) return false;
+        const auto& corners = flat_.faces_[row];
+        to_left_ = normal_of(row).cross(way_);
         for (size_t k = 0; k < 3; ++k)
             if (!is_left(corners[k]) && is_left(corners[(k + 1) % 3]))
-                leave(slot, corners[k], corners[(k + 1) % 3]);
-        return slot_ != NONE;
+                leave(row, corners[k], corners[(k + 1) % 3]);
+        return row_ != NONE;
     }
 
     // Goes on to the face with the end of the way, if the way leaves the surface nowhere before.
     std::optional<Located> run() {
         for (size_t step = 0; step <= flat_.faces_.size(); ++step) {
-            const auto& [a, b, c] = flat_.faces_[slot_];
+            const auto& [a, b, c] = flat_.faces_[row_];
             const auto weights = weights_of(at_[a], at_[b], at_[c], to_);
             if (is_inside(weights)) {
-                if (!lies_in_plane_of(slot_) || !ends_in_plane()) return std::nullopt;
-                return Located{slot_, weights};
+                if (!lies_in_plane_of(row_) || !ends_in_plane()) return std::nullopt;
+                return Located{row_, weights};
             }
             if (!cross()) return std::nullopt;
         }
@@ -155,31 +164,31 @@ public:
     }
 
 private:
-    Vector3d normal_of(uint32_t slot) const {
-        const auto& [a, b, c] = flat_.faces_[slot];
+    Vector3d normal_of(uint32_t row) const {
+        const auto& [a, b, c] = flat_.faces_[row];
         return (at_[b] - at_[a]).cross(at_[c] - at_[a]).normalized();
     }
     double off_to_left(uint32_t vertex) const { return to_left_.dot(at_[vertex] - from_); }
     bool is_left(uint32_t vertex) const { return off_to_left(vertex) > 0; }
 
-    bool lies_in_plane_of(uint32_t slot) const {
-        return std::abs(normal_of(slot).dot(way_)) <= OFF_SURFACE * way_.norm();
+    bool lies_in_plane_of(uint32_t row) const {
+        return std::abs(normal_of(row).dot(way_)) <= OFF_SURFACE * way_.norm();
     }
 
     bool ends_in_plane() const {
-        const Vector3d normal = normal_of(slot_);
+        const Vector3d normal = normal_of(row_);
         double longest = 0;
-        for (const uint32_t corner : flat_.faces_[slot_])
+        for (const uint32_t corner : flat_.faces_[row_])
             longest = std::max(longest, (at_[corner] - to_).norm());
-        return std::abs(normal.dot(to_ - at_[flat_.faces_[slot_][0]])) <= OFF_SURFACE * longest;
+        return std::abs(normal.dot(to_ - at_[flat_.faces_[row_][0]])) <= OFF_SURFACE * longest;
     }
 
     // The way leaves this face over the edge between two corners, which follow each other around it.
-    void leave(uint32_t slot, uint32_t right, uint32_t left) {
-        slot_ = slot;
+    void leave(uint32_t row, uint32_t right, uint32_t left) {
+        row_ = row;
         right_ = right;
         left_ = left;
-        to_left_ = normal_of(slot).cross(way_);
+        to_left_ = normal_of(row).cross(way_);
     }
 
     // Whether the edge between right_ and left_ meets the way: one plane may have creases.
@@ -192,12 +201,12 @@ private:
 
     // Goes on over that edge.
     bool cross() {
-        const auto& corners = flat_.faces_[slot_];
+        const auto& corners = flat_.faces_[row_];
         size_t k = 0;
         while (corners[k] == right_ || corners[k] == left_) ++k;
-        const uint32_t next = flat_.across_[slot_][k];
-        if (next == NOTHING || next == OTHER || !meets_edge()) return false;
-        slot_ = next;
+        const uint32_t next = flat_.across_[row_][k];
+        if (next == NONE || !meets_edge()) return false;
+        row_ = next;
         for (const uint32_t corner : flat_.faces_[next])
             if (corner != right_ && corner != left_) {
                 (is_left(corner) ? left_ : right_) = corner;
@@ -209,7 +218,7 @@ private:
     const FlatFaces& flat_;
     const std::span<const Vector3d> at_;
     const Vector3d from_, way_, to_;
-    uint32_t slot_ = NONE, right_ = NONE, left_ = NONE;
+    uint32_t row_ = NONE, right_ = NONE, left_ = NONE;
     Vector3d to_left_{0, 0, 0}; // across the way
 };
 
@@ -231,10 +240,10 @@ double FlatFaces::straight_between(std::span<const Vector3d> positions, const Co
     const auto sees = [&](const Corners& from, const Located& at_from, const Corners& to,
                           const Located& at_to) {
         Walk walk(*this, positions, from.position, to.position);
-        if (!(from.is_vertex ? walk.begin_at(from.vertices[0], plane) : walk.begin_in(at_from.slot)))
+        if (!(from.is_vertex ? walk.begin_at(from.vertices[0], plane) : walk.begin_in(at_from.row)))
             return false;
         const auto end = walk.run();
-        return end && (end->slot == at_to.slot || to.is_vertex);
+        return end && (end->row == at_to.row || to.is_vertex);
     };
     if (!sees(a, *at_a, b, *at_b) && !sees(b, *at_b, a, *at_a)) return UNREACHABLE;
     return (a.position - b.position).norm();

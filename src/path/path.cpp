@@ -79,9 +79,9 @@ double PathFinder::least_distance(double distance) const {
     return distance / (1 + std::max({LEAST_ERROR, stated, error_of_measured_pairs(index_, of_class)}));
 }
 
-// What the query knows of an end. Where the index is right in most places, the corners of its face lead to the
-// same strips as all that it sees, and a path between near points takes a quarter less time. A corridor is as
-// wide as errors may be, so that the less they are the better.
+// What the query knows of an end. Where the index is right in most places, the corners of its face lead to
+// the same strips as all that it sees, and a path between near points takes a quarter less time. A corridor
+// is as wide as errors may be, so that the less they are the better.
 FacePoint PathFinder::prepared_as(const SurfacePoint& end, PathQuality quality) const {
     constexpr double RIGHT = 5e-4; // mean error
     if (quality == PathQuality::EXACT || index_.description.error.mean > RIGHT)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/base/plane.h"
+#include "src/path/indexed_faces.h"
 #include "src/path/nearby.h"
 #include "src/path/unfolded_face.h"
 
@@ -56,17 +57,16 @@ public:
     Polygon(const Surface& surface, const KnownFaces& known, FacePoint& point, SeenFaces& seen)
         : surface_(surface), known_(known), point_(point), seen_(seen) {}
 
-    // Begins with the face of the point. Returns false if it is too flat, or not one of those that the index
-    // was made on.
+    // Begins with the face of the point. Returns false if it is too flat.
     bool begin(const SurfacePoint& at) {
-        if (surface_.flat_faces.has(at.face)) return false;
-        const auto& corners = surface_.faces[at.face];
+        const auto& corners = indexed_corners(surface_, at.face);
         const Vector3d to_second = surface_.positions[corners[1]] - surface_.positions[corners[0]],
                        to_third = surface_.positions[corners[2]] - surface_.positions[corners[0]];
         const Vector3d x = to_second.normalized();
         const Vector3d off = to_third - x.dot(to_third) * x, y = off.normalized();
         if (!(off.norm() > FLATTEST * std::max(to_second.norm(), to_third.norm()))) return false;
-        const Vector3d origin = position_of(surface_, at);
+        const Vector3d origin =
+            surface_.positions[corners[0]] + at.weights[1] * to_second + at.weights[2] * to_third;
         std::array<End, 3> ends;
         for (uint32_t k = 0; k < 3; ++k) {
             const Vector3d to_corner = surface_.positions[corners[k]] - origin;
@@ -111,7 +111,7 @@ private:
     void add(uint32_t face, const End& first, const End& second, const Vector2d& right,
              const Vector2d& left) {
         uint32_t behind = NONE, count = 0;
-        for_each_face_beyond(surface_, face, first.vertex, second.vertex, [&](uint32_t other) {
+        for_each_indexed_face_beyond(surface_, face, first.vertex, second.vertex, [&](uint32_t other) {
             behind = other;
             ++count;
         });
@@ -126,10 +126,9 @@ private:
         const Edge edge = at;
         const uint32_t face = edge.behind;
         const auto& numbers = point_.numbers;
-        if (face == NONE || surface_.flat_faces.has(face) ||
-            !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.length()))
+        if (face == NONE || !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.length()))
             return false;
-        const auto& corners = surface_.faces[face];
+        const auto& corners = indexed_corners(surface_, face);
         const uint32_t apex = *std::ranges::find_if(corners, [&](uint32_t corner) {
             return corner != edge.first.vertex && corner != edge.second.vertex;
         });
@@ -154,8 +153,9 @@ private:
         noted.face = face;
         noted.right = edge.right;
         noted.left = edge.left;
+        const auto& corners = indexed_corners(surface_, face);
         for (const End& end : {edge.first, edge.second, third})
-            noted.corners[corner_of(surface_, face, end.vertex)] = end.at;
+            noted.corners[std::ranges::find(corners, end.vertex) - corners.begin()] = end.at;
     }
 
     const Surface& surface_;
@@ -171,10 +171,12 @@ private:
 double SeenFaces::straight_to(const Surface& surface, const SurfacePoint& point) const {
     double least = UNREACHABLE;
     for_each_alias(surface, point, [&](const SurfacePoint& alias) {
+        const auto indexed = indexed_point(surface, alias);
+        if (!indexed) return;
         for (const Face& seen : std::span(faces).first(count)) {
-            if (seen.face != alias.face) continue;
+            if (seen.face != indexed->face) continue;
             Vector2d at = Vector2d::Zero();
-            for (size_t k = 0; k < 3; ++k) at += alias.weights[k] * seen.corners[k];
+            for (size_t k = 0; k < 3; ++k) at += indexed->weights[k] * seen.corners[k];
             if (is_in_angle(seen.right, at, seen.left)) least = std::min(least, hypotenuse(at.x(), at.y()));
         }
     });

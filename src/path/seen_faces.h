@@ -12,7 +12,7 @@
 namespace geodesic {
 
 // The faces behind that of a point, unfolded into its plane, as far as straight lines from the point reach
-// them. The point is the origin.
+// them. The point is the origin. All faces here are those of the index (see indexed_faces.h).
 struct SeenFaces {
     struct Face {
         uint32_t face;
@@ -23,8 +23,8 @@ struct SeenFaces {
     size_t count = 0;
     std::array<Face, FacePoint::MOST_VERTICES> faces;
 
-    // The length of the straight line to another point, in the faces that it lies in; infinite if there is
-    // none.
+    // The length of the straight line to another point of the surface, in the faces that it lies in; infinite
+    // if there is none.
     double straight_to(const Surface& surface, const SurfacePoint& point) const;
 };
 
@@ -41,7 +41,7 @@ protected:
 };
 
 // Unfolds faces around a point, those behind the widest edges first, until its polygon has as many vertices
-// as there is room for. `point` comes as the polygon of its face alone.
+// as there is room for. `point` comes as the polygon of its face alone, which `at` is a point of.
 void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, FacePoint& point,
                  SeenFaces& seen);
 

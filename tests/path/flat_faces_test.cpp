@@ -69,17 +69,12 @@ TEST_CASE("flat faces: each point lies in one of those that edges were flipped f
                 if (!point) continue;
                 ++found;
                 REQUIRE(flipped->plane_of_face[f] != NONE);
-                CHECK(after.contains(in_order(point->corners)));
+                const auto& found_in = flat.corners(point->face);
+                CHECK(after.contains(in_order(found_in)));
                 CHECK(std::ranges::min(point->weights) >= 0);
                 CHECK(point->weights[0] + point->weights[1] + point->weights[2] == doctest::Approx(1));
-                CHECK((position(mesh, point->corners, point->weights) - position(mesh, corners, weights))
-                          .norm() < 1e-7);
-                for (size_t k = 0; k < 3; ++k) {
-                    const uint32_t edge =
-                        find_edge(flipped->mesh, point->corners[(k + 1) % 3], point->corners[(k + 2) % 3]);
-                    REQUIRE(edge != NONE);
-                    CHECK(point->has_face_beyond[k] == (flipped->mesh.edge_faces[edge].size() > 1));
-                }
+                CHECK((position(mesh, found_in, point->weights) - position(mesh, corners, weights)).norm() <
+                      1e-7);
             }
         CHECK(replaced > 0);
         CHECK(found == replaced);
@@ -107,7 +102,7 @@ TEST_CASE("flat faces: of two sheets at one place, those of the point's own shee
         if (const auto point = flat.find(mesh, {f, {0.3, 0.3, 0.4}})) {
             ++found;
             const bool is_front = f < front_count;
-            for (const uint32_t corner : point->corners)
+            for (const uint32_t corner : flat.corners(point->face))
                 CHECK((corner < count ? is_front || other[corner] == corner : !is_front));
         }
     CHECK(found > mesh.face_count() / 2);
@@ -150,7 +145,7 @@ TEST_CASE("flat faces: points of slivers are answered by the vertices around the
         const auto a = random_point(on.soup, random, 0), b = random_point(on.soup, random, 0);
         sum += std::abs(on.sssd(a, b) / on.exact(a, b) - 1);
     }
-    CHECK(sum / static_cast<double>(count) < 0.009);
+    CHECK(sum / static_cast<double>(count) < 0.004);
 }
 
 namespace {

@@ -2,9 +2,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/path/indexed_faces.h"
 #include "src/path/nearby.h"
 #include "src/path/seen_faces.h"
 #include "tests/path/path_cases.h"
+#include "tests/support/drilled_plate.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -35,7 +37,8 @@ Surface surface_of(const Soup& soup) {
     intake.mesh.positions = soup.positions;
     for (const auto& [a, b, c] : soup.triangles) intake.mesh.faces.push_back({a, b, c});
     connect(intake.mesh);
-    return Surface(std::move(intake));
+    FlatFaces flat(intake.mesh);
+    return Surface(std::move(intake), {}, std::move(flat));
 }
 
 // Within a face, or on an edge.
@@ -53,14 +56,15 @@ struct Seen {
     SeenFaces faces;
 };
 
+// `at` is a point of the faces that an index has.
 Seen look(const Surface& surface, const SurfacePoint& at, const KnownFaces& known = All()) {
-    const auto& corners = surface.faces[at.face];
+    const auto& corners = indexed_corners(surface, at.face);
     std::array<double, 3> lengths;
     std::array<bool, 3> crosses{};
     for (size_t k = 0; k < 3; ++k) {
         const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
         lengths[k] = (surface.positions[a] - surface.positions[b]).norm();
-        for_each_face_beyond(surface, at.face, a, b, [&](uint32_t) { crosses[k] = true; });
+        for_each_indexed_face_beyond(surface, at.face, a, b, [&](uint32_t) { crosses[k] = true; });
     }
     Seen seen{face_point(corners, lengths, at.weights, crosses), {}, {}};
     seen.point = seen.alone;
@@ -155,6 +159,44 @@ TEST_CASE("seen faces: nothing is seen that is not known") {
         for (uint32_t k = 0; k < seen.point.vertex_count; ++k) CHECK(some.is_known(seen.point.numbers[k]));
         CHECK(look(surface, at, Nothing()).point.vertex_count == 3);
     }
+}
+
+// Lines over the wall of a hole may come up to its rim again, and are longer than those in the plane.
+TEST_CASE("seen faces: of planes that are cut into slivers the flipped faces are seen") {
+    const Surface surface = surface_of(drilled_plate(3, 12, 0.1));
+    std::mt19937_64 random(5);
+    uint32_t flipped = 0, vertices_in_plane = 0, points_in_plane = 0;
+    for (size_t i = 0; i < 400; ++i) {
+        CAPTURE(i);
+        const SurfacePoint on_mesh = random_point(surface, random, i);
+        const auto at = indexed_point(surface, on_mesh);
+        REQUIRE(at);
+        const Eigen::Vector3d origin = position_of(surface, on_mesh);
+        const Seen seen = look(surface, *at);
+        CHECK(seen.point.vertex_count == FacePoint::MOST_VERTICES);
+        CHECK(angle_seen(seen.point) == doctest::Approx(2 * std::numbers::pi));
+        if (!surface.flat_faces.has(on_mesh.face)) continue;
+        ++flipped;
+        const auto is_level = [&](const Eigen::Vector3d& position) { return position.z() == origin.z(); };
+        for (uint32_t k = 0; k < seen.point.vertex_count; ++k) {
+            const Eigen::Vector3d vertex = surface.positions[seen.point.numbers[k]];
+            if (!is_level(vertex)) continue;
+            const double straight = (vertex - origin).norm();
+            CHECK(seen.point.straight[k] > straight * (1 - 1e-9));
+            vertices_in_plane += seen.point.straight[k] < straight * (1 + 1e-9);
+        }
+        for (size_t j = 0; j < 40; ++j) {
+            const SurfacePoint other = random_point(surface, random, j);
+            const double straight = seen.faces.straight_to(surface, other);
+            const double in_plane = straight_in_plane(surface, on_mesh, other);
+            if (straight == UNREACHABLE || in_plane == UNREACHABLE) continue;
+            CHECK(straight == doctest::Approx(in_plane));
+            ++points_in_plane;
+        }
+    }
+    CHECK(flipped > 100);
+    CHECK(vertices_in_plane > flipped * FacePoint::MOST_VERTICES / 2);
+    CHECK(points_in_plane > 100);
 }
 
 // By exact distances of the vertices, so that nothing but the polygon makes the error.

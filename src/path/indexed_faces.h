@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "src/path/surface.h"
+
+namespace geodesic {
+
+// The faces that an index by positions was made on: those of the surface but, in planes where
+// flip_flat_edges() flips edges, the flipped ones. Both have the same numbers.
+inline const std::array<uint32_t, 3>& indexed_corners(const Surface& surface, uint32_t face) {
+    return surface.flat_faces.has(face) ? surface.flat_faces.corners(face) : surface.faces[face];
+}
+
+// Calls use(face) for every other one of these faces at the edge between two vertices of a face.
+template <class Use>
+void for_each_indexed_face_beyond(const Surface& surface, uint32_t face, uint32_t a, uint32_t b,
+                                  const Use& use) {
+    const FlatFaces& flat = surface.flat_faces;
+    for_each_face_beyond(surface, face, a, b, [&](uint32_t other) {
+        if (!flat.has(other)) use(other);
+    });
+    flat.for_each_around(a, [&](uint32_t other) {
+        const auto& [i, j, k] = flat.corners(other);
+        if (other != face && (i == b || j == b || k == b)) use(other);
+    });
+}
+
+// A point of the surface as one of these faces. Nothing where rounding hides which of several flipped faces
+// it lies in.
+inline std::optional<SurfacePoint> indexed_point(const Surface& surface, const SurfacePoint& point) {
+    if (!surface.flat_faces.has(point.face)) return point;
+    return surface.flat_faces.find(surface, point);
+}
+
+}
