@@ -155,7 +155,8 @@ private:
         noted.left = edge.left;
         const auto& corners = indexed_corners(surface_, face);
         for (const End& end : {edge.first, edge.second, third})
-            noted.corners[std::ranges::find(corners, end.vertex) - corners.begin()] = end.at;
+            noted.corners[static_cast<size_t>(std::ranges::find(corners, end.vertex) - corners.begin())] =
+                end.at;
     }
 
     const Surface& surface_;
