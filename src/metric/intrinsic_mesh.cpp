@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 #include <utility>
 
 #include "format/error.h"
@@ -92,18 +91,26 @@ public:
         return angle_between(a, b);
     }
 
-    // Where the apex lies seen from an edge (see Side). `from_first`, `from_second`: the edges to it.
-    std::pair<double, double> apex(uint32_t edge, uint32_t vertex, uint32_t from_first,
-                                   uint32_t from_second) const {
+    // Where the apex lies seen from an edge (see Side). `from_first`, `from_second`: the edges to it. What is
+    // measured from one end of the edge rounds away how close the apex is to the other.
+    void place_apex(uint32_t edge, uint32_t vertex, uint32_t from_first, uint32_t from_second,
+                    Side& side) const {
         if (!own_lengths_.empty()) {
             const double base = own_lengths_[edge], a = own_lengths_[from_first],
                          b = own_lengths_[from_second];
-            return {0.5 * (base + (a - b) * ((a + b) / base)), 0.5 * quadruple_area(base, a, b) / base};
+            side.apex_x = 0.5 * ((base - b) * (base + b) + a * a) / base;
+            side.apex_back = 0.5 * ((base - a) * (base + a) + b * b) / base;
+            side.apex_depth = 0.5 * quadruple_area(base, a, b) / base;
+            return;
         }
         const auto [first, second] = mesh_.edges[edge];
         const Eigen::Vector3d along = (mesh_.positions[second] - mesh_.positions[first]).normalized();
-        const Eigen::Vector3d to_apex = mesh_.positions[vertex] - mesh_.positions[first];
-        return {to_apex.dot(along), to_apex.cross(along).norm()};
+        const Eigen::Vector3d to_apex = mesh_.positions[vertex] - mesh_.positions[first],
+                              back = mesh_.positions[second] - mesh_.positions[vertex];
+        side.apex_x = to_apex.dot(along);
+        side.apex_back = back.dot(along);
+        const bool is_at_first = side.apex_x < side.apex_back;
+        side.apex_depth = (is_at_first ? to_apex : back).cross(along).norm();
     }
 
 private:
@@ -116,7 +123,7 @@ Side unfold(const Mesh& mesh, const Shapes& shapes, uint32_t edge, uint32_t face
     const auto& f = mesh.faces[face];
     uint32_t k = 0;
     while (f[k] == first || f[k] == second) ++k;
-    Side side{0, 0, f[k], face, {}};
+    Side side{0, 0, 0, f[k], face, {}};
     uint32_t edge_from[2];
     for (uint32_t i = 0; i < 2; ++i) {
         const uint32_t from = mesh.edges[edge][i];
@@ -124,7 +131,7 @@ Side unfold(const Mesh& mesh, const Shapes& shapes, uint32_t edge, uint32_t face
         const uint32_t e = edge_from[i] = mesh.face_edges[face][opposite];
         side.tagged_edge[i] = e << 1 | (mesh.edges[e][0] == f[k] ? 1u : 0u);
     }
-    std::tie(side.apex_x, side.apex_depth) = shapes.apex(edge, f[k], edge_from[0], edge_from[1]);
+    shapes.place_apex(edge, f[k], edge_from[0], edge_from[1], side);
     return side;
 }
 
@@ -168,8 +175,23 @@ std::pair<uint32_t, uint32_t> fan_start(const Mesh& mesh, uint32_t vertex) {
     return {corner, mesh.face_edges[corner / 3][(corner % 3 + 1) % 3]};
 }
 
+// Below this share of the extent of a surface, rounding hides on which side of an edge's ends paths pass. The
+// root of the sum of all squares of lengths is some times the extent.
+constexpr double SHORT = 1e-7;
+
+double short_length(const IntrinsicMesh& mesh) {
+    double squares = 0;
+    for (const double length : mesh.edge_length) squares += length * length;
+    return SHORT * std::sqrt(squares);
+}
+
+bool has_short_edge(const IntrinsicMesh& mesh, uint32_t vertex, double shortest) {
+    return std::ranges::any_of(mesh.spokes[vertex],
+                               [&](const Spoke& spoke) { return spoke.length < shortest; });
+}
+
 // Walks the faces around a vertex and lays their angles side by side.
-void add_fan(const Mesh& mesh, uint32_t vertex, IntrinsicMesh& out) {
+void add_fan(const Mesh& mesh, uint32_t vertex, double shortest, IntrinsicMesh& out) {
     const auto faces = mesh.vertex_faces[vertex];
     for (uint32_t face : faces) out.corners.items.push_back(corner_at(mesh, face, vertex));
     out.corners.close_list();
@@ -192,7 +214,7 @@ void add_fan(const Mesh& mesh, uint32_t vertex, IntrinsicMesh& out) {
         corner = face == NONE ? NONE : corner_at(mesh, face, vertex);
     }
     out.total_angle[vertex] = angle;
-    if (!simple || visited < faces.size())
+    if (!simple || visited < faces.size() || has_short_edge(out, vertex, shortest))
         out.fan[vertex] = Fan::Irregular;
     else
         out.fan[vertex] = open ? Fan::Open : Fan::Closed;
@@ -230,8 +252,9 @@ IntrinsicMesh::IntrinsicMesh(const Mesh& mesh, std::span<const double> own_lengt
     total_angle.resize(mesh.vertex_count());
     fan.resize(mesh.vertex_count());
     can_bend.resize(mesh.vertex_count());
+    const double shortest = short_length(*this);
     for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-        add_fan(mesh, v, *this);
+        add_fan(mesh, v, shortest, *this);
         can_bend[v] = geodesic::can_bend(*this, v);
     }
 }

@@ -22,6 +22,8 @@ struct Spoke {
 // second at `length`, and the face below it with its third vertex, the apex, at (apex_x, -apex_depth).
 struct Side {
     double apex_x, apex_depth;
+    double
+        apex_back; // length - apex_x, but right to rounding also where the apex is next to the second vertex
     uint32_t apex;
     uint32_t face;
     // The two other edges of the face: [0] from the first vertex to the apex, [1] from the second. The lowest
@@ -33,7 +35,7 @@ struct Side {
 enum class Fan : uint8_t {
     Closed,   // one cycle of faces
     Open,     // one chain of faces: the vertex is on the boundary
-    Irregular // several fans meet
+    Irregular // several fans meet, or rounding hides how paths go around the vertex
 };
 
 // The surface as window propagation reads it: lengths and unfolded faces.

@@ -162,7 +162,7 @@ void SteinerSearch::cross(const Side& side, uint32_t edge, double t, const Node&
     const double cost = graph_->face_cost[side.face], length = mesh().edge_length[edge];
     reach(side.apex, node.distance + cost * norm(t - side.apex_x, side.apex_depth), node.nearest, side.face);
     reach_exit(side.tagged_edge[0], side.apex_x, side.apex_depth, t, cost, node, side.face);
-    reach_exit(side.tagged_edge[1], length - side.apex_x, side.apex_depth, length - t, cost, node, side.face);
+    reach_exit(side.tagged_edge[1], side.apex_back, side.apex_depth, length - t, cost, node, side.face);
     if (targets_.empty()) return;
     const uint32_t corner = mesh().corner_of_side[static_cast<size_t>(&side - mesh().sides.items.data())];
     for (const TargetPoint& target : targets_.of_face(side.face)) {

@@ -15,7 +15,8 @@ namespace {
 
 // Shares of a length or an angle below which a difference is rounding.
 constexpr double TIE = 1e-12;
-constexpr double TOUCH = 1e-5; // thin faces magnify rounding along their edges
+constexpr double TOUCH = 1e-5;         // thin faces magnify rounding along their edges
+constexpr double FAR_ROUNDING = 1e-14; // short edges by that of where far sources are
 constexpr double ANGLE_SLACK = 1e-6;
 
 // Windows on their way to an edge, in the order of that edge.
@@ -340,7 +341,7 @@ void WindowPropagation::cross(uint32_t edge, const Side& side) {
                     reversed,
                     {begin, begin, grows_at_end}};
     };
-    Exit exits[2] = {exit_at(0, side.apex_x, first), exit_at(1, length - side.apex_x, second)};
+    Exit exits[2] = {exit_at(0, side.apex_x, first), exit_at(1, side.apex_back, second)};
     for (const Window& window : windows)
         if (window.pending && window.from_face != side.face) {
             propagate(window, length, side, exits);
@@ -358,7 +359,7 @@ void WindowPropagation::reach_apex(const Window& window, const Side& side, doubl
     const double d = (straight ? window.sigma : window.distance_at(crossing)) + norm(across, height);
     if (!(d < distance(side.apex))) return;
     Arrival arrival;
-    if (mesh_->can_bend[side.apex]) {
+    if (straight && mesh_->can_bend[side.apex]) {
         // The angle between the way back and the edge to the entry edge's first vertex.
         const double px = -side.apex_x, py = side.apex_depth;
         const double turn = std::atan2(std::abs(px * height - py * across), px * across + py * height);
@@ -379,7 +380,8 @@ void WindowPropagation::propagate(const Window& window, double length, const Sid
     if (!(window.y > 0) && !on_edge) return;
     const double split = height > 0 ? window.x + (side.apex_x - window.x) * (window.y / height) : side.apex_x;
     const double crossing = std::clamp(split, window.begin, window.end);
-    if (std::abs(split - crossing) <= TOUCH * length) reach_apex(window, side, split, crossing);
+    const double rounding = TOUCH * length + FAR_ROUNDING * (std::abs(window.x) + window.y);
+    if (std::abs(split - crossing) <= rounding) reach_apex(window, side, split, crossing);
     if (window.begin < split)
         pass(window, {window.x, window.y, window.begin, std::min(window.end, split), split <= window.end},
              exits[0]);
