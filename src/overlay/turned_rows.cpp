@@ -33,7 +33,7 @@ void TurnedRows::turn_group(uint32_t first) {
     for (size_t b = 0; b < blocks_.size(); ++b)
         if (first + GROUP > entries_there(blocks_[b]))
             squares_.push_back({size_t{blocks_[b]} * SIDE, row_of_block(b) + (first - first_)});
-    kernels_.turn(rows, squares_, row_size_);
+    kernels_.turn_squares(rows, squares_, row_size_);
     for (size_t b = 0; b < blocks_.size(); ++b)
         if (first < entries_there(blocks_[b])) copy_entries(b, first);
 }

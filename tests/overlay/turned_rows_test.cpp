@@ -91,7 +91,7 @@ TEST_CASE("turned rows: by every kernel") {
         CAPTURE(kernels.name);
         std::vector<uint16_t> out(2 * TurnedSquares::SIDE * 50);
         const TurnedSquares squares[] = {{16, out.data()}, {3, out.data() + TurnedSquares::SIDE * 50}};
-        kernels.turn(rows, std::span(squares), 50);
+        kernels.turn_squares(rows, std::span(squares), 50);
         uint64_t wrong = 0;
         for (uint32_t square = 0; square < 2; ++square)
             for (uint32_t c = 0; c < TurnedSquares::SIDE; ++c)

@@ -51,8 +51,8 @@ struct SweepBounded {
     }
 
     [[gnu::always_inline]] static void prefetch_block(const uint16_t* codes, size_t offset) {
-        prefetch(codes, offset);
-        prefetch(codes, offset + (PLACES - 1) * sizeof *codes);
+        prefetch_line_at(codes, offset);
+        prefetch_line_at(codes, offset + (PLACES - 1) * sizeof *codes);
     }
 
     [[gnu::always_inline]] static int16_t least_sum_in(size_t block, const BorderCodes& codes,

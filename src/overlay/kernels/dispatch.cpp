@@ -70,7 +70,7 @@ constexpr Kernels kernels_of() {
             Set::template run<Sweep>,
             Set::template run<SweepEach>,
             Set::template run<SweepBounded>,
-            Set::template run<Turn>};
+            Set::template run<TurnSquares>};
 }
 
 // A processor that runs one of them runs all before it.

@@ -195,7 +195,8 @@ struct Kernels {
                           float* distances);
 
     // Writes columns as rows, `row_size` codes apart. All squares are from the same TurnedSquares::ROWS rows.
-    void (*turn)(const uint16_t* const* rows, std::span<const TurnedSquares> squares, size_t row_size);
+    void (*turn_squares)(const uint16_t* const* rows, std::span<const TurnedSquares> squares,
+                         size_t row_size);
 };
 
 // Those that this processor can run, the fastest last. All give the same bits.

@@ -128,7 +128,8 @@ template <class Eight>
     lower<Eight>(least, __builtin_shufflevector(two[0], two[1], 4, 5, 6, 7, 12, 13, 14, 15));
 }
 
-[[gnu::always_inline]] inline void prefetch(const uint16_t* codes, size_t offset) {
+// Asks for the line of memory so many bytes behind the first code.
+[[gnu::always_inline]] inline void prefetch_line_at(const uint16_t* codes, size_t offset) {
     __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<uintptr_t>(codes) + offset));
 }
 
@@ -138,8 +139,8 @@ template <class Eight>
     constexpr size_t LINE = 64;
     const size_t row_size = border.places * sizeof(uint16_t);
     for (size_t offset = first * row_size; offset < (first + count) * row_size; offset += LINE) {
-        prefetch(rows.codes, offset);
-        prefetch(rows.middles, offset);
+        prefetch_line_at(rows.codes, offset);
+        prefetch_line_at(rows.middles, offset);
     }
 }
 

@@ -5,10 +5,10 @@
 
 namespace geodesic {
 
-// The kernel turn(): rows of codes become columns. A vector holds codes of as many squares as it has parts of
-// 16 bytes, which are turned together. Only dispatch.cpp includes this.
+// The kernel turn_squares(): rows of codes become columns. A vector holds codes of as many squares as it has
+// parts of 16 bytes, which are turned together. Only dispatch.cpp includes this.
 template <size_t BYTES>
-struct Turn {
+struct TurnSquares {
     static constexpr size_t SIDE = TurnedSquares::SIDE, LANES = BYTES / sizeof(uint16_t);
     static_assert(SIDE == sizeof(EightCodes) / sizeof(uint16_t));
     using Codes = typename VectorOf<uint16_t, BYTES>::Type;
