@@ -1,6 +1,7 @@
 #include "src/path/next_step.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -131,6 +132,7 @@ Step step_on_path(const Index& index, Query& query, const Surface& surface, cons
     const auto passed = static_cast<std::ptrdiff_t>(place->piece);
     path.points.erase(path.points.begin(), path.points.begin() + passed);
     path.pieces.erase(path.pieces.begin(), path.pieces.begin() + passed);
+    path.length = std::accumulate(path.pieces.begin(), path.pieces.end(), 0.0);
     return step;
 }
 
