@@ -4,26 +4,14 @@
 
 namespace geodesic {
 
-namespace {
-
-// Edges count once for each face there.
-double average_edge_of(const Surface& surface) {
-    double sum = 0;
-    for (const auto& corners : surface.faces)
-        for (size_t k = 0; k < 3; ++k)
-            sum += (surface.positions[corners[k]] - surface.positions[corners[(k + 1) % 3]]).norm();
-    return sum / static_cast<double>(3 * surface.faces.size());
-}
-
-}
-
 Surface::Surface(Intake&& intake, SurfaceCosts&& given, FlatFaces&& flat)
-    : positions(std::move(intake.mesh.positions)), faces(std::move(intake.mesh.faces)),
-      vertex_faces(intake.mesh.vertex_faces), vertex_of_id(std::move(intake.vertex_of_id)),
-      id_of_vertex(std::move(intake.id_of_vertex)), face_of_triangle(std::move(intake.face_of_triangle)),
-      triangle_of_face(faces.size(), NONE), corners_of_duplicate(std::move(intake.corners_of_duplicate)),
-      fingerprint(intake.fingerprint), bounding_box_diagonal(intake.bounding_box_diagonal),
-      costs(std::move(given)), flat_faces(std::move(flat)) {
+    : average_edge(mean_edge(intake.mesh)), positions(std::move(intake.mesh.positions)),
+      faces(std::move(intake.mesh.faces)), vertex_faces(intake.mesh.vertex_faces),
+      vertex_of_id(std::move(intake.vertex_of_id)), id_of_vertex(std::move(intake.id_of_vertex)),
+      face_of_triangle(std::move(intake.face_of_triangle)), triangle_of_face(faces.size(), NONE),
+      corners_of_duplicate(std::move(intake.corners_of_duplicate)), fingerprint(intake.fingerprint),
+      bounding_box_diagonal(intake.bounding_box_diagonal), costs(std::move(given)),
+      flat_faces(std::move(flat)) {
     for (uint32_t t = 0; t < face_of_triangle.size(); ++t)
         if (face_of_triangle[t] != NONE && !corners_of_duplicate.contains(t))
             triangle_of_face[face_of_triangle[t]] = t;
@@ -31,7 +19,6 @@ Surface::Surface(Intake&& intake, SurfaceCosts&& given, FlatFaces&& flat)
     faces.shrink_to_fit();
     id_of_vertex.shrink_to_fit();
     face_of_triangle.shrink_to_fit();
-    average_edge = average_edge_of(*this);
 }
 
 Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point) {

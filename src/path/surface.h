@@ -29,6 +29,8 @@ struct SurfaceCosts {
 struct Surface {
     explicit Surface(Intake&& intake, SurfaceCosts&& costs = {}, FlatFaces&& flat = {});
 
+    double average_edge; // each edge counts once, as for the stated errors by distance; first, since it needs
+                         // the mesh whose arrays the others take
     std::vector<Eigen::Vector3d> positions;
     std::vector<std::array<uint32_t, 3>> faces;
     VertexFaces vertex_faces;
@@ -38,7 +40,7 @@ struct Surface {
     std::vector<uint32_t> triangle_of_face; // the first of the caller's, with the same order of corners
     std::unordered_map<uint32_t, std::array<uint32_t, 3>> corners_of_duplicate; // as in Intake
     uint64_t fingerprint = 0;
-    double bounding_box_diagonal = 0, average_edge = 0;
+    double bounding_box_diagonal = 0;
     SurfaceCosts costs;
     FlatFaces flat_faces; // for distances of points by positions, whatever the costs
 
