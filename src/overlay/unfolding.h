@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "src/base/plane.h"
 #include "src/overlay/tables.h"
 
 namespace geodesic {
@@ -32,7 +33,7 @@ template <class V>
 // surface, the ends of a long edge can be much nearer to each other than along the edge.
 template <class V>
 [[gnu::always_inline]] inline void mend_square(const V& length, V& square) {
-    const V least = (-1.f / 32) * (length * length);
+    const V least = LEAST_SQUARE * (length * length);
     const V none = V{} + std::numeric_limits<float>::quiet_NaN();
     square = square < least ? none : (square < 0 ? V{} : square);
 }

@@ -10,13 +10,10 @@ namespace geodesic {
 
 namespace {
 
-// Of lengths that are rounded, a target close to an edge may seem to lie nearer to both ends than the edge is
-// long; by less than this share of its square the target is on the edge (see src/overlay/unfolding.h).
-constexpr double LEAST_SQUARE = -1.0 / 32;
-
-// Over a piece of a line, from `begin` to `end`, whose ends have these distances from the target. The way
-// comes from a point at `foot` along the line and `height` off it. To a target that is placed at both
-// distances the way is the longer the farther it crosses the line from where the straight way does.
+// Over a piece of a line, from `begin` to `end`, whose ends have these distances from the target. They are
+// rounded: a target whose square is not below LEAST_SQUARE is on the line or beside it. The way comes from a
+// point at `foot` along the line and `height` off it. To a target that is placed at both distances the way is
+// the longer the farther it crosses the line from where the straight way does.
 void cross_piece(double begin, double end, double from_begin, double from_end, double foot, double height,
                  double& least, double& at, double& rest) {
     const auto offer = [&](double x, double way_on) {
@@ -32,7 +29,7 @@ void cross_piece(double begin, double end, double from_begin, double from_end, d
     const double off = std::sqrt(std::max(square, 0.0)), both = off + height;
     const double x = foot - begin + (target - foot + begin) * (height / both);
     const bool is_placed =
-        length > 0 && square >= length * length * LEAST_SQUARE && square < UNREACHABLE && both > 0;
+        length > 0 && square >= length * length * double{LEAST_SQUARE} && square < UNREACHABLE && both > 0;
     const bool is_at_both_distances = is_placed && square >= 0;
     if (!is_at_both_distances || !(x > 0)) offer(begin, from_begin);
     if (!is_at_both_distances || !(x < length)) offer(end, from_end);
