@@ -44,7 +44,7 @@ private:
     std::vector<double> ways_over_vertices();
     std::vector<double> ways_over_edges(const std::vector<uint32_t>& edges);
     void take_to_surface(Strip& strip) const;
-    Strip search();
+    std::optional<Strip> search();
     std::optional<Strip> search_by_excess(const std::vector<uint32_t>& edges,
                                           const std::vector<double>& over_vertex);
     bool is_shortest(const StripPath& path) const;
@@ -170,10 +170,11 @@ void CorridorPath::take_to_surface(Strip& strip) const {
     strip.target.face = strip.faces.back();
 }
 
-Strip CorridorPath::search() {
+// Nothing if the search does not reach the target.
+std::optional<Strip> CorridorPath::search() {
     TargetDistances distances{[this](uint32_t v) { return solver_->distance(v); }, {}};
     if (points_per_edge_ > 0) distances.inside_edge = [this](uint32_t a, uint32_t b) { return inside(a, b); };
-    return search_strip(part_, source_, target_, distances).value();
+    return search_strip(part_, source_, target_, distances);
 }
 
 bool CorridorPath::is_shortest(const StripPath& path) const {
@@ -241,13 +242,15 @@ std::optional<Strip> CorridorPath::search_by_excess(const std::vector<uint32_t>&
 // The search places the target beyond an edge by the distances of the edge's ends. That fails where shortest
 // paths of different ways meet inside of the edge. Then the path is longer than the distance of the source,
 // and is searched again with distances of points inside of edges: of those around the strip, then of all that
-// a shortest path can cross. At last it is searched by the shortest ways over these edges from both ends.
+// a shortest path can cross. At last it is searched by the shortest ways over these edges from both ends. The
+// path stays as it is where no search finds a shorter one.
 void CorridorPath::make_shortest(Strip& strip, StripPath& path) {
     constexpr uint32_t FEW_POINTS = 7, MANY_POINTS = 31;
     // Returns whether the path is the shortest.
     const auto search_with = [&](const std::vector<uint32_t>& edges, uint32_t points_per_edge) {
         solve_from_target(edges, points_per_edge);
-        if (!is_shortest(path)) try_strip(search(), strip, path);
+        if (is_shortest(path)) return true;
+        if (auto found = search()) try_strip(std::move(*found), strip, path);
         return is_shortest(path);
     };
     if (search_with({}, 0)) return;
