@@ -25,11 +25,15 @@ public:
     NearComparison(const Index& index, const Intake& intake, const NearDistances& near,
                    const ListOfLists<uint32_t>& edge_ends, double limit, bool finds_steep);
 
-    // Adds the wrong pairs of this source: those of which MSAD is off by more than the limit, or SSSD is and
-    // either MSAD by more than half of it or the distance is so short that the rounding of tables may do it.
-    // Where steep edges are asked for: also, with an error up to the limit, of two neighbours between which
-    // MSAD, with those put right, would change by more than STEEPEST times the length of their edge, the one
-    // that is worse.
+    // Adds the wrong pairs of this source with its near vertices:
+    // - Pairs of which MSAD is off by more than the limit.
+    // - Pairs of which SSSD is off by more than the limit. SSSD is asked only where MSAD is off by more than
+    //   half of the limit, or where the distance is so short that the rounding of tables alone may be as
+    //   much.
+    // - If steep edges are asked for, ends of edges along which the distances of MSAD, with the pairs above
+    // put
+    //   right, change by more than STEEPEST times the length of the edge: of both ends the one that is
+    //   farther off, though its error is within the limit.
     void compare(uint32_t source, std::vector<WrongPair>& wrong);
 
 private:

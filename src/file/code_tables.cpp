@@ -26,7 +26,7 @@ private:
     std::vector<CodeTable> tables_;
 };
 
-// The leaves one after the other: list(patch, border, internal).
+// The leaves one after the other: add(patch, border, internal).
 template <class Add>
 void for_each_leaf(const StoredIndex& stored, const Add& add) {
     uint32_t first = 0, patch = 1;

@@ -29,7 +29,7 @@ public:
     // Only one thread at a time may add ways to the same vertex. The order of calls changes nothing.
     void add(uint32_t border_vertex, const Way& way);
 
-    // The key of the nearest source, or NONE.
+    // The nearest source, or NONE.
     uint32_t nearest(uint32_t border_vertex) const {
         return few_of(border_vertex).empty() ? NONE : few_of(border_vertex).front().source;
     }
@@ -91,8 +91,8 @@ private:
     Array<float> longest_segment_; // of all borders that the vertex lies on
     Array<uint8_t> count_;         // of few_
     Array<Way> few_;               // the nearest ones, FEW each, in ascending order
-    // In ascending order of keys, and none of few_. They count where few_ is full, and as far as
-    // farthest_kept(), which was farther when they came.
+    // Sources that are not in few_, in ascending order. They are of use only while few_ is full. Those beyond
+    // farthest_kept() are passed over: it falls when nearer sources come.
     Array<Array<Way>> others_;
 };
 

@@ -13,8 +13,8 @@
 
 namespace geodesic {
 
-// The shortest way around a vertex between two directions in faces there, over the edges at the vertex, of
-// which any number of faces may join.
+// Finds the shortest way around a vertex from a direction in one of its faces to a direction in another one.
+// The way crosses edges at the vertex; any number of faces may share each of these.
 class Turn {
 public:
     Turn(const Surface& surface, uint32_t vertex) : surface_(surface), vertex_(vertex) {
@@ -68,18 +68,17 @@ private:
     Array<Sector> sectors_{&memory_};
 };
 
-// The faces around a vertex at which every edge joins two of them, as nearly everywhere on scans, in their
-// order from one of them on. There a way from that face to another leads around one side or the other, so
-// that none needs to be searched for.
+// The faces around a vertex in their order from a first one on, where they form a closed fan: each edge at
+// the vertex joins two of them, as nearly everywhere on scans. A way from the first face to another one then
+// leads around one side of the vertex or around the other, and need not be searched for.
 class ClosedFan {
 public:
     ClosedFan(const Surface& surface, uint32_t vertex, uint32_t first_face);
 
-    // Whether the vertex is such a one.
+    // Whether the faces form a closed fan, of at most MOST_FACES.
     bool is_closed() const { return is_closed_; }
 
-    // As Turn::below(), from the first face to another, for a limit of at most pi. The vertex must be such a
-    // one.
+    // As Turn::below(), from the first face to another, for a limit of at most pi. The fan must be closed.
     std::optional<Turn::Fan> below(double limit, const Eigen::Vector3d& from, uint32_t to_face,
                                    const Eigen::Vector3d& to) const;
 

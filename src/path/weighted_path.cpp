@@ -82,7 +82,8 @@ double WeightedPathFinder::slack() const {
     return dearest;
 }
 
-// Ways may be shorter than the best one where they are longer by the errors that were measured of the index.
+// The search adds distances of the index to what it has gone. These may be too long by the errors that were
+// measured of the index, so that a way that seems longer than the best one by so much may be shorter.
 double WeightedPathFinder::limit() const {
     constexpr double LEAST_ERROR = 1e-3;
     return (1 + std::max(LEAST_ERROR, index_.description.error.p999)) * best_.path.length;

@@ -25,8 +25,8 @@ public:
     // patch must not be the whole mesh.
     void begin(uint32_t patch, const BorderPart& part, const float* distances);
 
-    // As those of OverlayCrossing; winners are indices in the part. A large parent has no rows to the
-    // vertices that it owns, so that there is no hop to these.
+    // As those of OverlayCrossing; winners are indices in the part, and must not be NULL. A large parent has
+    // no rows to the vertices that it owns, so that there is no hop to these.
     void cross_to_ring(Columns places, float* distances, uint16_t* winners) const;
     void cross_to_owned(Columns owned, float* distances, uint16_t* winners) const;
 

@@ -84,13 +84,14 @@ void begin_hop(const CrossedPart& from, const BorderPart& read, OverlayCrossing&
     }
 }
 
-// Handles the vertices of `to` that lie on the border that is crossed, too. Those that are in the part `from`
-// keep the distances that they have there. The others lie beside that part. If any vertex has kept a finite
-// distance, they are left at infinity: if the best path led to one of them, the measured path would cross at
-// an end of the part, and the part would be moved there. If none has, they are reached from the first or the
-// last place of `from` that is reached. To all vertices that are not on the border that is crossed,
-// `crossing` has to hop: position(place) is the position of a place in the parent's overlay, and add(place,
-// position, i) adds that place, the i-th of `to`, to what is hopped to.
+// Handles the vertices of `to` by where they lie:
+// - In the part `from` of the border that is crossed: they keep the distances that they have there.
+// - On that border, beside the part: if any vertex has kept a finite distance, they are left at infinity. A
+//   best path that led to one of them would cross at an end of the part, and the part would be moved there.
+//   If none has, they are reached along the border, from the first or the last reached place of `from`.
+// - Not on that border: a hop has to reach them, and add(place, position, i) is called for each, the i-th of
+//   `to`.
+// position(place) is the position of a place of `to` in the overlay of the parent.
 template <class Position, class Add>
 void keep_common(const OverlayIndex& index, const CrossedPart& from, const BorderPart& to,
                  const Position& position, const Add& add, BorderCrossing& crossing, float* out,

@@ -38,7 +38,7 @@ void PreparedSource::make_room() {
     begun_.reserve(numbering.patch_count());
     kept_begin_.resize(numbering.patch_count(), NONE);
     code_.resize(SourceCode::whole_blocks(index_.rings.largest_size()));
-    known_.resize(numbering.vertex_count(), INFINITE); // the last one, which begin() looks at
+    known_.resize(numbering.vertex_count(), INFINITE); // last: begin() takes it for all
 }
 
 // Only what the last source made known, since most sources ask for few patches; or else everything, where

@@ -49,7 +49,8 @@ private:
     uint32_t innermost_ = 0;         // patch around the source
     std::optional<FacePoint> point_; // unless the source is a vertex
     Array<float> known_;             // by number: of the inner vertices and of the borders that are known
-    // Per patch, the first ones but for those around the source.
+    // Per patch, whether all of its inner vertices are known (not told of patches around the source), and
+    // whether its border is.
     Array<uint8_t> is_inner_known_, is_border_known_;
     Array<uint32_t> begun_; // patches whose borders are known
     // Of the borders of leaves that were asked for: feet, heights and distances, as BorderFromSource has
