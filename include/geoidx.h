@@ -202,7 +202,7 @@ typedef struct geoidx_build_options {
      * an edge that is no longer than 1e-11 of the bounding box's diagonal are one, since only rounding makes
      * such edges; not where edge_lengths or edge_costs are given. */
     double weld_tolerance;
-    double delta;     /* pruning threshold, % of the bounding-box diagonal (paper 3.3); 0 (default): none */
+    double delta;     /* pruning threshold, 0 .. 100 % of the bounding-box diagonal; 0 (default): none */
     uint64_t seed;    /* of every random choice; the same seed gives the same bytes */
     uint32_t threads; /* 0 (default): one per processor; at most 1024 */
     /* Levels below the whole mesh, at most GEOIDX_MAX_LEVELS; 0 (default): automatic. */
@@ -211,7 +211,7 @@ typedef struct geoidx_build_options {
      * into (patches[1] is n2). A patch is connected, so there can be more. 0 (default): in proportion to the
      * vertices. */
     uint32_t patches[8];
-    uint32_t lloyd_iterations; /* relaxations of the seeds (paper 3.1); default 4 */
+    uint32_t lloyd_iterations; /* relaxations of the seeds (paper 3.1), 0 .. 1000; default 4 */
     /* GEOIDX_METRIC_EDGES: the costs of some edges; the others cost their length. */
     uint32_t edge_cost_count;           /* 0 (default): none, the next two are not read */
     const uint32_t* edge_cost_vertices; /* two ids an edge */
