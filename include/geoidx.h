@@ -212,7 +212,9 @@ typedef struct geoidx_build_options {
      * vertices. */
     uint32_t patches[8];
     uint32_t lloyd_iterations; /* relaxations of the seeds (paper 3.1), 0 .. 1000; default 4 */
-    /* GEOIDX_METRIC_EDGES: the costs of some edges; the others cost their length. */
+    /* Costs and lengths are GEOIDX_ERROR_INVALID_ARGUMENT with a metric that does not take them. They are
+     * given if their count is not 0, and those of triangles also if their pointer is not NULL.
+     * GEOIDX_METRIC_EDGES: the costs of some edges; the others cost their length. */
     uint32_t edge_cost_count;           /* 0 (default): none, the next two are not read */
     const uint32_t* edge_cost_vertices; /* two ids an edge */
     const double* edge_costs;           /* finite and not negative; an edge given twice takes the smaller;
@@ -225,7 +227,8 @@ typedef struct geoidx_build_options {
     uint32_t refuse_edges_of_many; /* 1: an edge with more than two triangles is GEOIDX_ERROR_BAD_MESH;
                                       default 0 */
     uint32_t metric_flags; /* what GEOIDX_METRIC_CALLBACK declares itself to be: GEOIDX_METRIC_UNFOLDABLE or 0
-                              (default: symmetric only); not read for other metrics */
+                              (default: symmetric only); not used by other metrics. Unknown flags are
+                              GEOIDX_ERROR_INVALID_ARGUMENT, whatever the metric */
     /* GEOIDX_METRIC_WEIGHTED: what a unit of length costs in each triangle of the mesh, positive and finite
      * (along an edge the cheapest triangle there counts, as it does of triangles that are there twice). A
      * cost that takes a side of its triangle under FLT_MIN is GEOIDX_ERROR_LIMIT. Distances are those of a
@@ -244,7 +247,7 @@ typedef struct geoidx_build_options {
      * triangle t, 1.2e-38 to 3.4e38, the same in all triangles at the edge (to 1e-9). A triangle whose
      * sides do not leave it an area is GEOIDX_ERROR_BAD_MESH, and named. */
     const double* edge_lengths; /* NULL (default): none */
-    uint64_t edge_length_count; /* 3 times the mesh's triangle_count, or 0 (default) */
+    uint64_t edge_length_count; /* 3 times the mesh's triangle_count; 0 (default) without edge_lengths */
     /* GEOIDX_ENGINE_OVERLAY: tables of patches of up to this many vertices hold the metric's own distances,
      * those of larger ones are put together from these; default 400. Larger is more exact, and building
      * takes longer. */

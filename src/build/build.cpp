@@ -46,9 +46,7 @@ void check_options(const geoidx_build_options& options) {
         refuse_argument("engine " + std::to_string(options.engine) + " is not a GEOIDX_ENGINE_*");
     if (options.store_mesh > 1)
         refuse_argument("store_mesh is " + std::to_string(options.store_mesh) + ", not 0 or 1");
-    if (options.metric_flags & ~uint32_t{GEOIDX_METRIC_UNFOLDABLE})
-        refuse_argument("metric_flags is " + std::to_string(options.metric_flags) +
-                        ", which has unknown flags");
+    check_metric_options(options);
 }
 
 // `surface` has the edges of the intake's mesh wherever the caller gives lengths for these.

@@ -29,6 +29,10 @@ bool is_by_surface(const geoidx_build_options& options) {
     return options.metric == GEOIDX_METRIC_EXACT || options.metric == GEOIDX_METRIC_WEIGHTED;
 }
 
+[[noreturn]] void refuse_option(const std::string& name, const std::string& metrics) {
+    refuse_argument(name + " is set, but only " + metrics + " takes that");
+}
+
 [[noreturn]] void refuse_small_cost(const std::string& name, double cost) {
     throw Error(GEOIDX_ERROR_LIMIT, name + " has the cost " + number_text(cost) +
                                         ", too small: distances would not fit a 32-bit float");
@@ -94,6 +98,19 @@ void check_sides(uint64_t triangle, std::span<const double, 3> sides) {
 
 }
 
+void check_metric_options(const geoidx_build_options& options) {
+    if (options.edge_cost_count > 0 && options.metric != GEOIDX_METRIC_EDGES)
+        refuse_option(options.edge_costs ? "edge_costs" : "edge_cost_count", "GEOIDX_METRIC_EDGES");
+    if ((options.face_costs || options.face_cost_count > 0) && options.metric != GEOIDX_METRIC_WEIGHTED)
+        refuse_option(options.face_costs ? "face_costs" : "face_cost_count", "GEOIDX_METRIC_WEIGHTED");
+    if ((options.edge_lengths || options.edge_length_count > 0) && !is_by_surface(options))
+        refuse_option(options.edge_lengths ? "edge_lengths" : "edge_length_count",
+                      "GEOIDX_METRIC_EXACT or GEOIDX_METRIC_WEIGHTED");
+    if (options.metric_flags & ~uint32_t{GEOIDX_METRIC_UNFOLDABLE})
+        refuse_argument("metric_flags is " + std::to_string(options.metric_flags) +
+                        ", which has unknown flags");
+}
+
 // An edge that is given a length or a cost is meant to be one, however close its ends are.
 IntakeOptions intake_options(const geoidx_build_options& options) {
     const bool has_own_edges = options.edge_length_count > 0 || options.edge_cost_count > 0;
@@ -102,7 +119,7 @@ IntakeOptions intake_options(const geoidx_build_options& options) {
 
 std::vector<double> given_lengths(const geoidx_mesh& mesh, const Intake& intake,
                                   const geoidx_build_options& options) {
-    if (!is_by_surface(options) || options.edge_length_count == 0) return {};
+    if (!options.edge_lengths && options.edge_length_count == 0) return {};
     if (!options.edge_lengths) refuse_argument("edge_length_count is set, but edge_lengths is NULL");
     if (options.edge_length_count != 3 * mesh.triangle_count)
         refuse_argument("edge_length_count is " + std::to_string(options.edge_length_count) +
@@ -161,7 +178,7 @@ uint64_t metric_fingerprint(const geoidx_build_options& options) {
     if (options.metric == GEOIDX_METRIC_EDGES) hash = fingerprint(edge_costs_of(options));
     if (options.metric == GEOIDX_METRIC_WEIGHTED)
         hash = fingerprint(face_costs_of(options), options.points_per_edge);
-    if (is_by_surface(options) && options.edge_length_count > 0)
+    if (options.edge_length_count > 0)
         hash = XXH3_64bits_withSeed(options.edge_lengths, options.edge_length_count * sizeof(double), hash);
     return hash;
 }

@@ -12,13 +12,18 @@ namespace geodesic {
 // The metric that complete geoidx_build_options describe. `mesh` is the caller's complete mesh, which the
 // intake was made from.
 
+// Throws an Error INVALID_ARGUMENT that names an option which the chosen metric does not take, or unknown
+// flags.
+void check_metric_options(const geoidx_build_options& options);
+
 IntakeOptions intake_options(const geoidx_build_options& options);
 
-// Makes the metric that the options ask for. Throws an Error that names what is wrong with its parameters.
+// Makes the metric that the options ask for, which check_metric_options() has passed. Throws an Error that
+// names what is wrong with its parameters.
 std::unique_ptr<Metric> make_metric(const geoidx_mesh& mesh, const Intake& intake,
                                     const geoidx_build_options& options);
 
-// The lengths that the caller gives for the edges of the mesh, or nothing if it gives none that count. Throws
+// The lengths that the caller gives for the edges of the mesh, or nothing if it gives none. Throws
 // as make_metric() does.
 std::vector<double> given_lengths(const geoidx_mesh& mesh, const Intake& intake,
                                   const geoidx_build_options& options);

@@ -64,6 +64,7 @@ geoidx_status geoidx_solver_create(const geoidx_mesh* mesh, const geoidx_build_o
         require(out, "out is NULL");
         require(mesh, "mesh is NULL");
         const auto all_options = whole_or_default(options, geoidx_build_options_init);
+        check_metric_options(all_options);
         auto solver = std::make_unique<geoidx_solver>();
         const geoidx_mesh all_mesh = whole(*mesh, geoidx_mesh_init);
         solver->intake = take_in(all_mesh, intake_options(all_options));

@@ -237,6 +237,88 @@ TEST_CASE("a callback metric declares whether it can be unfolded") {
     CHECK(info_of(build(mesh, build_options(GEOIDX_METRIC_EDGES)).get()).metric_flags == 0);
 }
 
+TEST_CASE("costs and lengths are refused by metrics that do not take them") {
+    const TestMesh mesh = two_triangles();
+    const geoidx_mesh view = mesh.view();
+    const std::vector<double> of_faces(2, 1), lengths = sides_of(mesh);
+    const uint32_t vertices[] = {0, 1};
+    const double of_edge = 1;
+    const auto by = [](uint32_t metric) {
+        auto options = build_options(metric, 1);
+        options.metric_callback = [](void*, uint32_t, const uint32_t*, uint32_t, double*) {
+            return geoidx_status{GEOIDX_OK};
+        };
+        return options;
+    };
+    const auto refused = [&](const geoidx_build_options& options, const char* name, const char* metrics) {
+        CAPTURE(options.metric);
+        for (const char* const part : {name, metrics}) {
+            check_build_refused(mesh, options, GEOIDX_ERROR_INVALID_ARGUMENT, part);
+            geoidx_solver* solver = nullptr;
+            check_refused(geoidx_solver_create(&view, &options, &solver), GEOIDX_ERROR_INVALID_ARGUMENT,
+                          part);
+            CHECK(solver == nullptr);
+        }
+    };
+    for (const uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_CALLBACK, GEOIDX_METRIC_WEIGHTED}) {
+        auto options = by(metric);
+        options.edge_cost_vertices = vertices;
+        options.edge_costs = &of_edge;
+        options.edge_cost_count = 1;
+        refused(options, "edge_costs", "GEOIDX_METRIC_EDGES");
+        options.edge_costs = nullptr;
+        refused(options, "edge_cost_count", "GEOIDX_METRIC_EDGES");
+    }
+    for (const uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES, GEOIDX_METRIC_CALLBACK}) {
+        auto options = by(metric);
+        options.face_costs = of_faces.data();
+        refused(options, "face_costs", "GEOIDX_METRIC_WEIGHTED");
+        options.face_cost_count = of_faces.size();
+        refused(options, "face_costs", "GEOIDX_METRIC_WEIGHTED");
+        options.face_costs = nullptr;
+        refused(options, "face_cost_count", "GEOIDX_METRIC_WEIGHTED");
+    }
+    for (const uint32_t metric : {GEOIDX_METRIC_EDGES, GEOIDX_METRIC_CALLBACK}) {
+        auto options = by(metric);
+        options.edge_lengths = lengths.data();
+        refused(options, "edge_lengths", "GEOIDX_METRIC_EXACT or GEOIDX_METRIC_WEIGHTED");
+        options.edge_length_count = lengths.size();
+        refused(options, "edge_lengths", "GEOIDX_METRIC_EXACT or GEOIDX_METRIC_WEIGHTED");
+        options.edge_lengths = nullptr;
+        refused(options, "edge_length_count", "GEOIDX_METRIC_EXACT or GEOIDX_METRIC_WEIGHTED");
+    }
+    auto without_count = by(GEOIDX_METRIC_EXACT);
+    without_count.edge_lengths = lengths.data();
+    refused(without_count, "edge_length_count is 0", "not three for each of 2 triangles");
+}
+
+TEST_CASE("a list of edge costs may be empty, with any metric") {
+    const TestMesh mesh = two_triangles();
+    const uint32_t vertices[] = {0, 1};
+    const double of_edge = 5;
+    for (const uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES}) {
+        auto options = build_options(metric, 1);
+        options.edge_cost_vertices = vertices;
+        options.edge_costs = &of_edge;
+        CHECK(distance(solver_of(mesh, options).get(), 0, 1) == 1);
+    }
+}
+
+TEST_CASE("unknown flags of a metric are refused, whatever the metric") {
+    const TestMesh mesh = two_triangles();
+    const geoidx_mesh view = mesh.view();
+    for (const uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES}) {
+        auto options = build_options(metric, 1);
+        options.metric_flags = GEOIDX_METRIC_UNFOLDABLE;
+        CHECK(distance(solver_of(mesh, options).get(), 0, 1) == 1);
+        options.metric_flags = 2;
+        check_build_refused(mesh, options, GEOIDX_ERROR_INVALID_ARGUMENT, "metric_flags is 2");
+        geoidx_solver* solver = nullptr;
+        check_refused(geoidx_solver_create(&view, &options, &solver), GEOIDX_ERROR_INVALID_ARGUMENT,
+                      "metric_flags is 2");
+    }
+}
+
 TEST_CASE("points of the surface") {
     TestMesh mesh = two_triangles();                        // the unit square, 0-1-2 and 0-2-3
     mesh.triangles.insert(mesh.triangles.end(), {2, 1, 0}); // triangle 2 repeats 0, its corners the other way
