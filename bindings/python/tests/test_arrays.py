@@ -152,6 +152,34 @@ class Refusals(unittest.TestCase):
             with self.assertRaisesRegex(geoidx.InvalidArgumentError, "weld_tolerance"):
                 take(*SQUARE, weld_tolerance=10**400)
 
+    def test_flags(self):
+        """A text, or a number, is neither True nor False."""
+        for name in ("store_mesh", "refuse_edges_of_many"):
+            for value in ("no", 1, None):
+                with self.assertRaisesRegex(TypeError, name):
+                    geoidx.Index.build(*SQUARE, **{name: value})
+        index = geoidx.Index.build(*SQUARE, store_mesh=np.bool_(True))
+        self.assertTrue(index.info.has_mesh)
+        data = index.to_bytes()
+        for name in ("pairs", "labels", "borrow"):
+            with self.assertRaisesRegex(TypeError, name):
+                geoidx.Index.from_bytes(data, **{name: "no"})
+        for name in ("positions", "mesh"):
+            with self.assertRaisesRegex(TypeError, name):
+                index.to_bytes(**{name: "no"})
+        with self.assertRaisesRegex(TypeError, "unfoldable"):
+            geoidx.Solver(*SQUARE, metric=geoidx.Callback(lambda source, targets: targets * 0.0, unfoldable="no"))
+
+    def test_numpy_integers_beside_python_ones(self):
+        """NumPy makes floats of a list with a np.uint64 and an int."""
+        index = geoidx.Index.build(*SQUARE)
+        np.testing.assert_array_equal(index.msad([np.uint64(3), 1]), index.msad([3, 1]))
+        with self.assertRaisesRegex(geoidx.InvalidArgumentError, "hold -1"):
+            index.msad([np.uint64(3), -1])
+        for odd in (1.0, 1.5):
+            with self.assertRaisesRegex(TypeError, "float64"):
+                index.msad([np.uint64(3), odd])
+
     def test_a_class_is_no_metric(self):
         """Not even a callback, though it can be called."""
         for metric in (geoidx.Exact, geoidx.Edges, geoidx.Weighted, geoidx.Callback):

@@ -201,6 +201,8 @@ class SurfacePoints(unittest.TestCase):
         for triangles, weights in (([0], [1, 0]), ([0, 1, 0], [[1, 0, 0]] * 2), ([-1], [1, 0, 0])):
             with self.assertRaises(geoidx.InvalidArgumentError):
                 geoidx.surface_points(triangles, weights)
+        with self.assertRaisesRegex(geoidx.InvalidArgumentError, "out of range for a triangle"):
+            geoidx.surface_points(-1, [1, 0, 0])
 
 
 if __name__ == "__main__":

@@ -238,6 +238,20 @@ class Paths(unittest.TestCase):
             with self.assertRaises(geoidx.InvalidArgumentError):
                 query.prepare_target(self.surface, bad)
 
+    def test_what_is_no_surface_is_refused_by_name(self):
+        point = geoidx.surface_points(0, [1, 0, 0])
+        for ask in (
+            lambda: self.query.path(None, point, point),
+            lambda: self.query.point_sssd(self.index, point, point),
+            lambda: self.query.point_msad(None, point),
+            lambda: self.query.point_within(None, point, 1),
+            lambda: self.query.prepare_target(None, point),
+        ):
+            with self.assertRaisesRegex(TypeError, "surface is a (NoneType|Index), not a geoidx.Surface"):
+                ask()
+        with self.assertRaisesRegex(TypeError, "source"):
+            self.query.path(self.surface, None, point)
+
     def test_what_is_wrong_is_refused(self):
         point = geoidx.surface_points(0, [1, 0, 0])
         other = geoidx.Surface(*plane(5, 4))

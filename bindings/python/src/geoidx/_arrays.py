@@ -34,6 +34,13 @@ def whole_number(value: SupportsIndex, name: str, largest: int = UINT32_MAX) -> 
     return number
 
 
+def flag(value: bool, name: str) -> bool:
+    """Refuses what is neither True nor False: a text like "no" would count as True."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} is {value!r}, neither True nor False")
+    return bool(value)
+
+
 def real_number(value: SupportsFloat, name: str) -> float:
     try:
         return c_double(value).value  # type: ignore[arg-type]
@@ -76,30 +83,48 @@ def _check_shape(array: NDArray[Any], name: str, *shape: int | None) -> None:
         raise InvalidArgumentError(f"{name} has the shape {array.shape}, not ({wanted})")
 
 
-def _check_range(array: NDArray[Any], name: str, error: type[Error]) -> None:
+def _check_range(array: NDArray[Any], name: str, error: type[Error], what: str) -> None:
     for value in (int(array.min()), int(array.max())):
         if not 0 <= value <= UINT32_MAX:
-            raise error(f"{name} hold {value}, which is out of range for a vertex id")
+            raise error(f"{name} hold {value}, which is out of range for {what}")
 
 
-def ids(values: ArrayLike, name: str, error: type[Error] = InvalidArgumentError) -> Ids:
-    """Vertex ids of any shape, uint32 and C-contiguous. uint32 and int32 in that layout are not copied."""
+def _whole_objects(values: Any) -> NDArray[Any] | None:
+    """Whole numbers of a sequence as ints, or None if others are among them."""
+    objects: NDArray[Any] = np.array(values, object)
+    if not all(isinstance(value, (int, np.integer)) and not isinstance(value, bool) for value in objects.flat):
+        return None
+    for i, value in enumerate(objects.flat):
+        objects.flat[i] = int(value)
+    return objects
+
+
+def ids(
+    values: ArrayLike, name: str, error: type[Error] = InvalidArgumentError, what: str = "a vertex id"
+) -> Ids:
+    """Ids of any shape, uint32 and C-contiguous. uint32 and int32 in that layout are not copied. `what` is what
+    messages call one of them."""
     array = as_array(values, name)
     if array.size == 0:
         return np.empty(array.shape, np.uint32)
+    if array.dtype == np.float64 and not isinstance(values, np.ndarray):
+        whole = _whole_objects(values)  # NumPy makes floats of a np.uint64 beside an int
+        if whole is not None:
+            _check_range(whole, name, error, what)
+            return whole.astype(np.uint32)
     if array.dtype == object and all(type(value) is int for value in array.flat):
-        _check_range(array, name, error)  # some are out of range for 64 bits
+        _check_range(array, name, error, what)  # some are out of range for 64 bits
     _check_kind(array, "iu", name)
     if array.dtype != np.uint32:
-        _check_range(array, name, error)
+        _check_range(array, name, error, what)
     if array.dtype == np.int32:
         array = array.view(np.uint32)
     return np.require(array, np.uint32, ["C", "ALIGNED"])
 
 
-def id_list(values: ArrayLike, name: str) -> Ids:
-    """One vertex id or a sequence of them, as a sequence."""
-    array = np.atleast_1d(ids(values, name))
+def id_list(values: ArrayLike, name: str, what: str = "a vertex id") -> Ids:
+    """One id or a sequence of them, as a sequence."""
+    array = np.atleast_1d(ids(values, name, what=what))
     _check_shape(array, name, None)
     return array
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _fields, _native
-from ._arrays import UINT64_MAX, Ids, Vertex, Vertices, address, broadcast, ids, real_number, whole_number
+from ._arrays import UINT64_MAX, Ids, Vertex, Vertices, address, broadcast, flag, ids, real_number, whole_number
 from ._callbacks import Progress
 from ._errors import Path, check
 from ._fields import Distances
@@ -137,8 +137,8 @@ class Index(Closable):
         struct.lloyd_iterations = whole_number(lloyd_iterations, "lloyd_iterations")
         struct.seed = whole_number(seed, "seed", UINT64_MAX)
         struct.threads = whole_number(threads, "threads")
-        struct.refuse_edges_of_many = bool(refuse_edges_of_many)
-        struct.store_mesh = bool(store_mesh)
+        struct.refuse_edges_of_many = flag(refuse_edges_of_many, "refuse_edges_of_many")
+        struct.store_mesh = flag(store_mesh, "store_mesh")
         if allocator:
             struct.allocator = allocator
         out = c_void_p()
@@ -213,11 +213,12 @@ class Index(Closable):
         what cannot be borrowed.
         """
         # Only bytes never change; a subclass may have a buffer of its own.
-        if borrow and type(data) is not bytes:
+        is_borrowed = flag(borrow, "borrow")
+        if is_borrowed and type(data) is not bytes:
             raise TypeError(f"only bytes can be borrowed, not {type(data).__name__}")
         view = bytes_of_buffer(data)
         options = _open_options(expected_mesh, allocator, pairs, labels, threads, max_vertices, max_memory)
-        if borrow:
+        if is_borrowed:
             options.borrow(view)
         return cls._opened(options, lambda *rest: library.geoidx_open_memory(address(view), view.size, *rest))
 
@@ -264,8 +265,8 @@ class Index(Closable):
     def _save_options(self, codec: Codec | str | None, positions: bool | None, mesh: bool) -> SaveOptions:
         return SaveOptions(
             self.info.codec if codec is None else codec,
-            self.info.has_positions if positions is None else bool(positions),
-            bool(mesh),
+            self.info.has_positions if positions is None else flag(positions, "positions"),
+            flag(mesh, "mesh"),
         )
 
     def _likely_size(self) -> int:

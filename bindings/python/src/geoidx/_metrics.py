@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Union
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import address, doubles, id_rows, whole_number
+from ._arrays import address, doubles, flag, id_rows, whole_number
 from ._callbacks import MetricFunction
 from ._errors import InvalidArgumentError
 
@@ -126,7 +126,7 @@ class Callback(Metric):
     kind = MetricKind.CALLBACK
 
     def fill(self, options: _native.BuildOptions) -> Arrays:
-        options.metric_flags = _native.METRIC_UNFOLDABLE if self.unfoldable else 0
+        options.metric_flags = _native.METRIC_UNFOLDABLE if flag(self.unfoldable, "unfoldable") else 0
         return super().fill(options)
 
 

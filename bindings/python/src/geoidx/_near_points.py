@@ -13,7 +13,7 @@ from ._errors import check
 from ._fields import Distances
 from ._handle import Closable, OneThread
 from ._native import library
-from ._surface import Surface, SurfacePoints, one_point, point_list
+from ._surface import Surface, SurfacePoints, handle_of, one_point, point_list
 
 _LIKELY_COUNT = 1024
 """For so many vertices `point_within` has room at first. Where there are more, it asks again."""
@@ -55,7 +55,7 @@ class NearPoints(Closable):
             check(
                 library.geoidx_query_point_nearest_sources(
                     self._handle,
-                    surface.handle,
+                    handle_of(surface),
                     address(points),
                     whole_number(points.size, "the number of sources"),
                     None if begin is None else address(begin),
@@ -97,7 +97,7 @@ class NearPoints(Closable):
         check(
             library.geoidx_query_point_within(
                 self._handle,
-                surface.handle,
+                handle_of(surface),
                 address(points),
                 whole_number(points.size, "the number of sources"),
                 None if begin is None else address(begin),
@@ -123,7 +123,7 @@ class NearPoints(Closable):
             check(
                 library.geoidx_query_point_nearest_targets(
                     self._handle,
-                    surface.handle,
+                    handle_of(surface),
                     address(begin),
                     address(points),
                     target_count,

@@ -7,7 +7,7 @@ from enum import IntEnum
 from typing import Sequence, TypeVar
 
 from . import _native
-from ._arrays import UINT64_MAX, real_number, whole_number
+from ._arrays import UINT64_MAX, flag, real_number, whole_number
 from ._callbacks import Callbacks, Progress
 from ._errors import InvalidArgumentError
 from ._mesh import MeshView
@@ -71,9 +71,9 @@ class OpenOptions:
     ) -> None:
         self.struct = _native.OpenOptions()
         library.geoidx_open_options_init_sized(byref(self.struct), sizeof(self.struct))
-        if pairs:
+        if flag(pairs, "pairs"):
             self.struct.flags |= _native.OPEN_PAIRS
-        if not labels:
+        if not flag(labels, "labels"):
             self.struct.flags |= _native.OPEN_NO_LABELS
         self.struct.threads = whole_number(threads, "threads")
         self.struct.max_vertices = whole_number(max_vertices, "max_vertices", UINT64_MAX)

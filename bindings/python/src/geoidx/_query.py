@@ -28,7 +28,7 @@ from ._handle import Handle, OneThread
 from ._matrix import matrix
 from ._native import PathPoint, library
 from ._near_points import NearPoints, offset_list
-from ._surface import Path, Step, Surface, SurfacePoints, one_point, point_list
+from ._surface import Path, Step, Surface, SurfacePoints, handle_of, one_point, point_list
 
 PATH_QUALITIES = ("straight", "exact")
 
@@ -223,7 +223,7 @@ class Query(NearPoints):
         with self._one_thread:
             check(
                 library.geoidx_query_point_sssd(
-                    self._handle, surface.handle, address(ends[0]), address(ends[1]), byref(distance)
+                    self._handle, handle_of(surface), address(ends[0]), address(ends[1]), byref(distance)
                 )
             )
         return distance.value
@@ -247,7 +247,7 @@ class Query(NearPoints):
             check(
                 library.geoidx_query_point_msad(
                     self._handle,
-                    surface.handle,
+                    handle_of(surface),
                     address(points),
                     whole_number(points.size, "the number of sources"),
                     None if begin is None else address(begin),
@@ -271,7 +271,7 @@ class Query(NearPoints):
         with self._one_thread:
             status = library.geoidx_query_path(
                 self._handle,
-                surface.handle,
+                handle_of(surface),
                 address(ends[0]),
                 address(ends[1]),
                 PATH_QUALITIES.index(quality),
@@ -289,7 +289,7 @@ class Query(NearPoints):
         """Keeps the target of `next_step` until the next call."""
         point = one_point(target, "target")
         with self._one_thread:
-            check(library.geoidx_query_prepare_target(self._handle, surface.handle, address(point)))
+            check(library.geoidx_query_prepare_target(self._handle, handle_of(surface), address(point)))
 
     def next_step(self, surface: Surface, point: SurfacePoints) -> Step | None:
         """The next step to the prepared target from any point; None if they lie in different components.
@@ -308,7 +308,7 @@ class Query(NearPoints):
         distance = c_double()
         with self._one_thread:
             status = library.geoidx_query_next_step(
-                self._handle, surface.handle, address(begin), address(ends), byref(distance)
+                self._handle, handle_of(surface), address(begin), address(ends), byref(distance)
             )
         if status == Status.NO_PATH:
             return None

@@ -37,7 +37,7 @@ def surface_points(triangles: ArrayLike, weights: ArrayLike) -> SurfacePoints:
     given = as_array(weights, "weights")
     rows = given.reshape(0, 3) if given.shape == (0,) else np.atleast_2d(given)
     corners = doubles(rows, "weights", None, 3)
-    of_each = broadcast(id_list(triangles, "triangles"), corners[:, 0])[0]
+    of_each = broadcast(id_list(triangles, "triangles", "a triangle"), corners[:, 0])[0]
     points: NDArray[Any] = np.zeros(len(of_each), SURFACE_POINT)
     points["triangle"] = of_each
     points["weights"] = corners
@@ -132,6 +132,12 @@ class Surface(Closable):
         distance = c_double()
         check(library.geoidx_closest_point(self._handle, address(place), address(point), byref(distance)))
         return point, distance.value
+
+
+def handle_of(surface: Surface) -> Handle:
+    if not isinstance(surface, Surface):
+        raise TypeError(f"surface is a {type(surface).__name__}, not a geoidx.Surface")
+    return surface.handle
 
 
 def surface_of(index: Handle, metric: MetricLike) -> Surface:
