@@ -197,14 +197,11 @@ enum { GEOIDX_MAX_LEVELS = 8 };
 
 typedef struct geoidx_build_options {
     uint32_t struct_size;
-    uint32_t metric; /* GEOIDX_METRIC_* */
-    /* Vertices at most this far apart are one; 0 (default): equal positions only. In any case the two ends of
-     * an edge that is no longer than 1e-11 of the bounding box's diagonal are one, since only rounding makes
-     * such edges; not where edge_lengths or edge_costs are given. */
-    double weld_tolerance;
-    double delta;     /* pruning threshold, 0 .. 100 % of the bounding-box diagonal; 0 (default): none */
-    uint64_t seed;    /* of every random choice; the same seed gives the same bytes */
-    uint32_t threads; /* 0 (default): one per processor; at most 1024 */
+    uint32_t metric;       /* GEOIDX_METRIC_* */
+    double weld_tolerance; /* vertices at most this far apart are one; 0 (default): equal positions only */
+    double delta;          /* pruning threshold, 0 .. 100 % of the bounding-box diagonal; 0 (default): none */
+    uint64_t seed;         /* of every random choice; the same seed gives the same bytes */
+    uint32_t threads;      /* 0 (default): one per processor; at most 1024 */
     /* Levels below the whole mesh, at most GEOIDX_MAX_LEVELS; 0 (default): automatic. */
     uint32_t level_count;
     /* patches[0] is n1, the number of patches of level 1; patches[i] how many each patch of level i is split
@@ -571,8 +568,7 @@ typedef struct geoidx_surface_point {
 typedef struct geoidx_surface_options {
     uint32_t struct_size;
     uint32_t reserved;                  /* not read */
-    double weld_tolerance;              /* that the index was built with; default 0. As there, the ends of the
-                                           shortest edges are one, unless edge costs are given. */
+    double weld_tolerance;              /* that the index was built with; default 0 */
     const uint32_t* edge_cost_vertices; /* two ids an edge */
     const double* edge_costs;
     const double* face_costs;

@@ -111,10 +111,8 @@ void check_metric_options(const geoidx_build_options& options) {
                         ", which has unknown flags");
 }
 
-// An edge that is given a length or a cost is meant to be one, however close its ends are.
 IntakeOptions intake_options(const geoidx_build_options& options) {
-    const bool has_own_edges = options.edge_length_count > 0 || options.edge_cost_count > 0;
-    return {options.weld_tolerance, options.refuse_edges_of_many != 0, has_own_edges};
+    return {options.weld_tolerance, options.refuse_edges_of_many != 0};
 }
 
 std::vector<double> given_lengths(const geoidx_mesh& mesh, const Intake& intake,

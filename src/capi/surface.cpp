@@ -30,9 +30,9 @@ geoidx_status geoidx_surface_create(const geoidx_mesh* mesh, const geoidx_surfac
         require(out, "out is NULL");
         require(mesh, "mesh is NULL");
         const auto all_options = whole_or_default(options, geoidx_surface_options_init);
-        const IntakeOptions intake_options{.weld_tolerance = all_options.weld_tolerance,
-                                           .keep_short_edges = all_options.edge_cost_count > 0};
-        *out = make_surface(take_in(whole(*mesh, geoidx_mesh_init), intake_options), all_options);
+        *out = make_surface(
+            take_in(whole(*mesh, geoidx_mesh_init), {.weld_tolerance = all_options.weld_tolerance}),
+            all_options);
     });
 }
 

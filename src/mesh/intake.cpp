@@ -4,7 +4,6 @@
 #include <cfloat>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <numeric>
 #include <string>
 
@@ -173,37 +172,13 @@ void refuse_edges_of_many(const Intake& intake) {
                  " triangles, more than two");
 }
 
-class BoundingBox {
-public:
-    void add(const Eigen::Vector3d& position) {
-        low_ = low_.cwiseMin(position);
-        high_ = high_.cwiseMax(position);
-    }
-    double diagonal() const { return (high_ - low_).stableNorm(); }
-
-private:
-    Eigen::Vector3d low_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
-};
-
 double bounding_box_diagonal(const Mesh& mesh) {
-    BoundingBox box;
-    for (const auto& position : mesh.positions) box.add(position);
-    return box.diagonal();
-}
-
-// Edges shorter than this share of the bounding box's diagonal come from rounding, as where a program has
-// computed a position twice. To the rounding of distances as long as that diagonal they have no direction,
-// which paths around their ends need.
-constexpr double ROUNDING = 1e-11;
-
-void join_rounded_edges(const std::vector<Eigen::Vector3d>& positions,
-                        std::span<const std::array<uint32_t, 3>> triangles,
-                        std::vector<uint32_t>& representative) {
-    BoundingBox box;
-    for (const auto& triangle : triangles)
-        for (const uint32_t id : triangle) box.add(positions[id]);
-    if (box.diagonal() <= double{FLT_MAX}) // else the mesh is refused
-        join_short_edges(positions, triangles, ROUNDING * box.diagonal(), representative);
+    Eigen::Vector3d low = mesh.positions[0], high = mesh.positions[0];
+    for (const auto& p : mesh.positions) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    return (high - low).stableNorm();
 }
 
 // Of floats, so that a mesh is the same one whether its positions are given in single or in double precision.
@@ -271,10 +246,7 @@ Intake take_in(const geoidx_mesh& mesh, const IntakeOptions& options) {
         refuse_argument("weld_tolerance must be finite and not negative");
     check_arrays(mesh);
     const auto positions = positions_of(mesh);
-    const auto triangles = read_triangles(mesh);
-    std::vector<uint32_t> representative = weld(positions, options.weld_tolerance);
-    if (!options.keep_short_edges) join_rounded_edges(positions, triangles, representative);
-    Intake intake = clean_mesh(positions, triangles, representative);
+    Intake intake = clean_mesh(positions, read_triangles(mesh), weld(positions, options.weld_tolerance));
     if (options.refuse_edges_of_many) refuse_edges_of_many(intake);
     return intake;
 }

@@ -24,7 +24,6 @@ struct Intake {
 struct IntakeOptions {
     double weld_tolerance = 0;
     bool refuse_edges_of_many = false; // of more than two triangles
-    bool keep_short_edges = false;     // else ends of edges that only rounding can have made are one vertex
 };
 
 // Checks the caller's mesh and makes a clean one of it; throws Error naming the first offending element.

@@ -94,21 +94,4 @@ std::vector<uint32_t> weld(const std::vector<Eigen::Vector3d>& positions, double
     return representative;
 }
 
-// A representative that is joined to another one has the lower one.
-void join_short_edges(const std::vector<Eigen::Vector3d>& positions,
-                      std::span<const std::array<uint32_t, 3>> triangles, double length,
-                      std::vector<uint32_t>& representative) {
-    const auto find = [&](uint32_t i) {
-        while (representative[i] != i) i = representative[i] = representative[representative[i]];
-        return i;
-    };
-    for (const auto& triangle : triangles)
-        for (size_t k = 0; k < 3; ++k) {
-            const uint32_t a = find(triangle[k]), b = find(triangle[(k + 1) % 3]);
-            const double apart = (positions[triangle[k]] - positions[triangle[(k + 1) % 3]]).norm();
-            if (apart <= length) representative[std::max(a, b)] = std::min(a, b);
-        }
-    for (uint32_t i = 0; i < representative.size(); ++i) representative[i] = find(i);
-}
-
 }

@@ -46,6 +46,13 @@ double angle_opposite(double a, double b, double c) {
     return 2 * std::atan2(std::sqrt(((b - c) + a) * mu), std::sqrt((b + (c + a)) * ((b - a) + c)));
 }
 
+// How far along a side the opposite corner is, at the distances `a` from where it begins and `b` from its
+// end. Squares of lengths cancel, so that those go into differences which are not the shortest.
+double foot_of_apex(double base, double a, double b) {
+    return a < base ? 0.5 * ((base - b) * (base + b) + a * a) / base
+                    : 0.5 * (base + (a - b) * ((a + b) / base));
+}
+
 // How much the two shorter sides of a face are longer than the longest.
 double slack(double a, double b, double c) {
     const double longest = std::max({a, b, c});
@@ -98,8 +105,8 @@ public:
         if (!own_lengths_.empty()) {
             const double base = own_lengths_[edge], a = own_lengths_[from_first],
                          b = own_lengths_[from_second];
-            side.apex_x = 0.5 * ((base - b) * (base + b) + a * a) / base;
-            side.apex_back = 0.5 * ((base - a) * (base + a) + b * b) / base;
+            side.apex_x = foot_of_apex(base, a, b);
+            side.apex_back = foot_of_apex(base, b, a);
             side.apex_depth = 0.5 * quadruple_area(base, a, b) / base;
             return;
         }

@@ -1,7 +1,5 @@
 #include "src/mesh/weld.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -111,38 +109,4 @@ TEST_CASE("weld: coordinates far beyond what the grid can number") {
     const double far = 1e300;
     CHECK(weld({{far, 0, 0}, {-far, 0, 0}, {far, 0, 0}, {far, 1, 0}}, 1e-9) ==
           std::vector<uint32_t>{0, 1, 0, 3});
-}
-
-TEST_CASE("weld: what short edges join is one, whichever way they lead") {
-    std::mt19937_64 random(7);
-    for (const double length : {0.0, 0.1, 0.25}) {
-        const auto positions = random_positions(200, -1, 1, 8);
-        std::vector<std::array<uint32_t, 3>> triangles(400);
-        for (auto& triangle : triangles)
-            for (uint32_t& id : triangle) id = static_cast<uint32_t>(random() % positions.size());
-        std::vector<uint32_t> representative = weld(positions, 0.05), expected = representative;
-        join_short_edges(positions, triangles, length, representative);
-        // The lowest number goes from end to end until nothing changes.
-        for (bool changed = true; changed;) {
-            changed = false;
-            const auto lower = [&](uint32_t& a, uint32_t b) {
-                changed = changed || b < a;
-                a = std::min(a, b);
-            };
-            for (uint32_t i = 0; i < positions.size(); ++i) {
-                lower(expected[i], expected[expected[i]]);
-                lower(expected[expected[i]], expected[i]);
-            }
-            for (const auto& triangle : triangles)
-                for (size_t k = 0; k < 3; ++k) {
-                    const uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
-                    if ((positions[a] - positions[b]).norm() > length) continue;
-                    lower(expected[a], expected[b]);
-                    lower(expected[b], expected[a]);
-                    lower(expected[expected[a]], expected[b]);
-                    lower(expected[expected[b]], expected[a]);
-                }
-        }
-        CHECK(representative == expected);
-    }
 }

@@ -74,7 +74,9 @@ double largest_difference(const Soup& soup, const std::vector<std::vector<double
     for (size_t source = 0; source < expected.size(); ++source) {
         const auto d = exact_field(intake.mesh, intake.vertex_of_id[source]);
         for (size_t v = 0; v < expected[source].size(); ++v)
-            largest = std::max(largest, std::abs(d[intake.vertex_of_id[v]] - expected[source][v]));
+            if (const double off = std::abs(d[intake.vertex_of_id[v]] - expected[source][v]);
+                !(off <= largest))
+                largest = off; // also NaN
     }
     return largest;
 }
@@ -95,19 +97,4 @@ TEST_CASE("short edges: paths go around tiny polygons as around the vertices in 
                   std::max(20 * radius, rounding));
         }
     }
-}
-
-TEST_CASE("short edges: those that only rounding can have made are none, others are") {
-    const Soup soup = waves();
-    const auto vertices_with = [&](double radius, bool keep) {
-        const Soup blown_up = with_tiny_polygons(soup, radius);
-        return take_in(view_of(blown_up), {.keep_short_edges = keep}).mesh.vertex_count();
-    };
-    const uint32_t all = with_tiny_polygons(soup, 0.1).vertex_count();
-    CHECK(vertices_with(1e-6, false) == all);
-    CHECK(vertices_with(1e-14, false) == soup.vertex_count());
-    CHECK(vertices_with(1e-14, true) > soup.vertex_count());
-    const Intake intake = take_in(view_of(with_tiny_polygons(soup, 1e-14)), {});
-    CHECK(intake.mesh.face_count() == soup.triangles.size());
-    for (uint32_t v = soup.vertex_count(); v < all; ++v) CHECK(intake.vertex_of_id[v] != NONE);
 }
