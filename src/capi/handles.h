@@ -12,11 +12,11 @@
 #include "geoidx.h"
 #include "src/mesh/intake.h"
 #include "src/metric/metric.h"
-#include "src/path/face_boxes.h"
 #include "src/path/next_step.h"
-#include "src/path/surface.h"
 #include "src/query/index.h"
 #include "src/query/query.h"
+#include "src/surface/face_boxes.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 

@@ -6,7 +6,7 @@
 
 #include "geoidx.h"
 #include "src/metric/metric.h"
-#include "src/path/surface.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 

@@ -9,7 +9,7 @@
 #include "src/capi/status.h"
 #include "src/path/next_step.h"
 #include "src/path/path.h"
-#include "src/path/point_queries.h"
+#include "src/points/point_queries.h"
 
 using namespace geodesic;
 

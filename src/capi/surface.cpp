@@ -9,7 +9,7 @@
 #include "src/capi/status.h"
 #include "src/capi/structs.h"
 #include "src/file/kept_mesh.h"
-#include "src/path/costs.h"
+#include "src/surface/costs.h"
 
 using namespace geodesic;
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <span>
 
-#include "src/path/costs.h"
-#include "src/path/nearby.h"
 #include "src/path/slide.h"
 #include "src/path/straighten.h"
 #include "src/path/turn.h"
+#include "src/surface/costs.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "src/base/plane.h"
-#include "src/path/nearby.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 

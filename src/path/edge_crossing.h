@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "src/path/surface.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 

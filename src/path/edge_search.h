@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "src/path/surface.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 

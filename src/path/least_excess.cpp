@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "src/path/nearby.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 

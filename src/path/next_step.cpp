@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "geoidx.h"
-#include "src/path/nearby.h"
 #include "src/path/straighten.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 

@@ -7,14 +7,14 @@
 #include "format/error.h"
 #include "geoidx.h"
 #include "src/path/corridor_path.h"
-#include "src/path/costs.h"
-#include "src/path/face_points.h"
-#include "src/path/nearby.h"
 #include "src/path/sides.h"
 #include "src/path/straighten.h"
 #include "src/path/strip_search.h"
 #include "src/path/vertex_path.h"
 #include "src/path/weighted_path.h"
+#include "src/points/face_points.h"
+#include "src/surface/costs.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 
@@ -79,13 +79,13 @@ double PathFinder::least_distance(double distance) const {
     return distance / (1 + std::max({LEAST_ERROR, stated, error_of_measured_pairs(index_, of_class)}));
 }
 
-// What the query knows of an end. Where the index is right in most places, the corners of its face lead to
-// the same strips as all that it sees, and a path between near points takes a quarter less time. A corridor
-// is as wide as errors may be, so that the less they are the better.
+// What the query knows of an end. Where faces are small for what the surface does, the corners of its face
+// mostly lead to the same strips as all that it sees, and a path between near points takes a quarter less
+// time. A corridor is as wide as errors may be, so that the less they are the better.
 FacePoint PathFinder::prepared_as(const SurfacePoint& end, PathQuality quality) const {
     constexpr double RIGHT = 5e-4; // mean error
-    if (quality == PathQuality::EXACT || index_.description.error.mean > RIGHT)
-        return points_.view_of(end).point;
+    const bool has_large_faces = index_.description.error.mean > RIGHT || surface_.flat_faces.has(end.face);
+    if (quality == PathQuality::EXACT || has_large_faces) return points_.view_of(end).point;
     return face_point_on(index_, surface_, end, points_.unfolds());
 }
 

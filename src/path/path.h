@@ -1,8 +1,8 @@
 #pragma once
 
-#include "src/path/point_queries.h"
 #include "src/path/strip.h"
 #include "src/path/surface_path.h"
+#include "src/points/point_queries.h"
 
 namespace geodesic {
 

@@ -9,8 +9,8 @@
 #include "src/base/number_map.h"
 #include "src/base/plane.h"
 #include "src/mesh/angle.h"
-#include "src/path/nearby.h"
 #include "src/path/straighten.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "src/path/edge_crossing.h"
-#include "src/path/nearby.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 

@@ -2,7 +2,7 @@
 
 #include "format/error.h"
 #include "geoidx.h"
-#include "src/path/nearby.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "src/path/strip.h"
-#include "src/path/surface.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 

@@ -9,7 +9,7 @@
 
 #include "src/base/array.h"
 #include "src/mesh/angle.h"
-#include "src/path/surface.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 

@@ -5,11 +5,11 @@
 
 #include "format/error.h"
 #include "geoidx.h"
-#include "src/path/costs.h"
 #include "src/path/edge_search.h"
-#include "src/path/face_points.h"
-#include "src/path/nearby.h"
 #include "src/path/strip.h"
+#include "src/points/face_points.h"
+#include "src/surface/costs.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "src/path/costs.h"
 #include "src/path/detours.h"
-#include "src/path/face_points.h"
-#include "src/path/nearby.h"
 #include "src/path/slide.h"
 #include "src/path/weighted_search.h"
+#include "src/points/face_points.h"
+#include "src/surface/costs.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 

@@ -5,9 +5,9 @@
 #include <unordered_map>
 
 #include "src/base/plane.h"
-#include "src/path/costs.h"
-#include "src/path/nearby.h"
 #include "src/path/open_nodes.h"
+#include "src/surface/costs.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "geoidx.h"
-#include "src/path/surface.h"
-#include "src/query/index.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 
@@ -15,10 +14,5 @@ double edge_cost(const Surface& surface, uint32_t a, uint32_t b);
 
 // The face at the edge between two vertices of a face in which a way along the edge costs least.
 uint32_t cheapest_face_at(const Surface& surface, uint32_t face, uint32_t a, uint32_t b);
-
-// Throw Error INVALID_ARGUMENT unless the surface has the costs that an index by edge costs, or by those of
-// faces, was built with.
-void require_edge_costs(const Index& index, const Surface& surface);
-void require_face_costs(const Index& index, const Surface& surface);
 
 }

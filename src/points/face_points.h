@@ -1,15 +1,20 @@
 #pragma once
 
 #include "src/index/face_point.h"
-#include "src/path/seen_faces.h"
-#include "src/path/surface.h"
+#include "src/points/seen_faces.h"
 #include "src/query/query.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 
 // Throws Error MESH_MISMATCH where the surface is of another mesh than the index, INVALID_ARGUMENT where it
 // has another number of vertices after welding.
 void require_same_mesh(const Index& index, const Surface& surface);
+
+// Throw Error INVALID_ARGUMENT unless the surface has the costs that an index by edge costs, or by those of
+// faces, was built with.
+void require_edge_costs(const Index& index, const Surface& surface);
+void require_face_costs(const Index& index, const Surface& surface);
 
 // The number that the index has for a vertex, or NONE.
 inline uint32_t number_of(const Index& index, const Surface& surface, uint32_t vertex) {
@@ -22,9 +27,6 @@ inline double end_distance(const Index& index, Query& query, const Surface& surf
     const uint32_t number = number_of(index, surface, vertex);
     return number == NONE ? UNREACHABLE : double{query.end_distance(end, number)};
 }
-
-// The vertex that a point is at, or NONE.
-uint32_t vertex_at(const Surface& surface, const SurfacePoint& point);
 
 // The point as queries take it. If the metric unfolds, ways may cross the edges that have a face beyond.
 // Lengths in the face count `cost` times. Throws Error INVALID_ARGUMENT where the index does not have all

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "src/path/face_points.h"
-#include "src/path/surface.h"
+#include "src/points/face_points.h"
 #include "src/query/query.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 

@@ -10,8 +10,8 @@
 
 #include "src/mesh/intake.h"
 #include "src/metric/metric.h"
-#include "src/path/flat_faces.h"
-#include "src/path/vertex_faces.h"
+#include "src/surface/flat_faces.h"
+#include "src/surface/vertex_faces.h"
 
 namespace geodesic {
 
@@ -49,6 +49,9 @@ struct Surface {
 };
 
 Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point);
+
+// The vertex that a point is at, or NONE.
+uint32_t vertex_at(const Surface& surface, const SurfacePoint& point);
 
 // Weights less than this count as 0, of points that callers give and of those that they get: what they get
 // and give back is the same point, on the same edges and vertices.

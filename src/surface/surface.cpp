@@ -1,4 +1,4 @@
-#include "src/path/surface.h"
+#include "src/surface/surface.h"
 
 #include <algorithm>
 
@@ -25,6 +25,12 @@ Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point) {
     const auto& [a, b, c] = surface.faces[point.face];
     return point.weights[0] * surface.positions[a] + point.weights[1] * surface.positions[b] +
            point.weights[2] * surface.positions[c];
+}
+
+uint32_t vertex_at(const Surface& surface, const SurfacePoint& point) {
+    for (size_t k = 0; k < 3; ++k)
+        if (point.weights[k] == 1) return surface.faces[point.face][k];
+    return NONE;
 }
 
 SurfacePoint point_at_vertex(const Surface& surface, uint32_t vertex) {

@@ -1,4 +1,4 @@
-#include "src/path/vertex_faces.h"
+#include "src/surface/vertex_faces.h"
 
 #include <algorithm>
 

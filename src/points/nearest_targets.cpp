@@ -1,7 +1,7 @@
 // The nearest of some points of a surface.
 #include <algorithm>
 
-#include "src/path/point_queries.h"
+#include "src/points/point_queries.h"
 
 namespace geodesic {
 

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "src/index/face_point.h"
-#include "src/path/surface.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 

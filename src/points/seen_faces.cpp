@@ -1,12 +1,12 @@
-#include "src/path/seen_faces.h"
+#include "src/points/seen_faces.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "src/base/plane.h"
-#include "src/path/indexed_faces.h"
-#include "src/path/nearby.h"
-#include "src/path/unfolded_face.h"
+#include "src/surface/indexed_faces.h"
+#include "src/surface/nearby.h"
+#include "src/surface/unfolded_vertex.h"
 
 namespace geodesic {
 

@@ -1,4 +1,4 @@
-#include "src/path/face_boxes.h"
+#include "src/surface/face_boxes.h"
 
 #include <algorithm>
 #include <bit>

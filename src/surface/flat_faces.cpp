@@ -1,4 +1,4 @@
-#include "src/path/flat_faces.h"
+#include "src/surface/flat_faces.h"
 
 #include <algorithm>
 #include <cmath>

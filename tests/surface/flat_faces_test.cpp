@@ -1,5 +1,5 @@
 // Points as those of the faces that flipping edges makes of planes.
-#include "src/path/flat_faces.h"
+#include "src/surface/flat_faces.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "src/path/face_points.h"
+#include "src/points/face_points.h"
 
 #include <algorithm>
 #include <string>
@@ -6,15 +6,16 @@
 #include "format/error.h"
 #include "geoidx.h"
 #include "src/overlay/point_ways.h"
-#include "src/path/indexed_faces.h"
-#include "src/path/seen_faces.h"
+#include "src/points/seen_faces.h"
+#include "src/surface/indexed_faces.h"
 
 namespace geodesic {
 
 namespace {
 
-// A point by the corners of its face.
+// A point by the corners of its face, which is one of the index or one of the surface.
 struct CornerPoint {
+    bool is_of_index;
     uint32_t face;
     std::array<uint32_t, 3> corners;
     std::array<double, 3> weights;
@@ -24,21 +25,26 @@ struct CornerPoint {
 CornerPoint unfolded_point(const Surface& surface, const SurfacePoint& point) {
     if (vertex_at(surface, point) == NONE)
         if (const auto indexed = indexed_point(surface, point))
-            return {indexed->face, indexed_corners(surface, indexed->face), indexed->weights};
-    return {point.face, surface.faces[point.face], point.weights};
+            return {true, indexed->face, indexed_corners(surface, indexed->face), indexed->weights};
+    return {false, point.face, surface.faces[point.face], point.weights};
 }
 
 // Beyond the edge opposite to each corner of a face, the vertex that is no end of that edge, or NONE where
 // the surface ends; any one of several.
-std::array<uint32_t, 3> vertices_beyond(const Surface& surface, uint32_t face,
-                                        const std::array<uint32_t, 3>& corners) {
+std::array<uint32_t, 3> vertices_beyond(const Surface& surface, const CornerPoint& point) {
     std::array<uint32_t, 3> beyond{NONE, NONE, NONE};
     for (size_t k = 0; k < 3; ++k) {
-        const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
-        for_each_indexed_face_beyond(surface, face, a, b, [&](uint32_t other) {
-            for (const uint32_t vertex : indexed_corners(surface, other))
+        const uint32_t a = point.corners[(k + 1) % 3], b = point.corners[(k + 2) % 3];
+        const auto take = [&](const std::array<uint32_t, 3>& corners) {
+            for (const uint32_t vertex : corners)
                 if (vertex != a && vertex != b) beyond[k] = vertex;
-        });
+        };
+        if (point.is_of_index)
+            for_each_indexed_face_beyond(surface, point.face, a, b,
+                                         [&](uint32_t other) { take(indexed_corners(surface, other)); });
+        else
+            for_each_face_beyond(surface, point.face, a, b,
+                                 [&](uint32_t other) { take(surface.faces[other]); });
     }
     return beyond;
 }
@@ -76,18 +82,28 @@ void require_same_mesh(const Index& index, const Surface& surface) {
                         ": they differ in weld_tolerance");
 }
 
-uint32_t vertex_at(const Surface& surface, const SurfacePoint& point) {
-    for (size_t k = 0; k < 3; ++k)
-        if (point.weights[k] == 1) return surface.faces[point.face][k];
-    return NONE;
+void require_edge_costs(const Index& index, const Surface& surface) {
+    if (surface.costs.edge_fingerprint == 0)
+        refuse_argument("the index was built with edge costs: the surface needs edge_costs");
+    if (surface.costs.edge_fingerprint != index.description.metric_fingerprint)
+        refuse_argument("edge_costs of the surface are not those that the index was built with");
+}
+
+// An index does not tell lengths of edges from other costs.
+void require_face_costs(const Index& index, const Surface& surface) {
+    if (surface.costs.of_face.empty())
+        refuse_argument("the metric of the index is GEOIDX_METRIC_WEIGHTED: the surface needs face_costs");
+    if (surface.costs.face_fingerprint != index.description.metric_fingerprint)
+        refuse_argument("face_costs or points_per_edge of the surface are not those that the index was built "
+                        "with, or it was built with edge_lengths, for which there are no paths");
 }
 
 FacePoint face_point_on(const Index& index, const Surface& surface, const SurfacePoint& point, bool unfolds,
                         double cost) {
-    const auto [face, corners, weights] =
-        unfolds ? unfolded_point(surface, point)
-                : CornerPoint{point.face, surface.faces[point.face], point.weights};
-    const auto beyond = vertices_beyond(surface, face, corners);
+    const CornerPoint at = unfolds ? unfolded_point(surface, point)
+                                   : CornerPoint{false, point.face, surface.faces[point.face], point.weights};
+    const auto& corners = at.corners;
+    const auto beyond = vertices_beyond(surface, at);
     std::array<bool, 3> crosses;
     std::array<uint32_t, 3> beside;
     std::array<uint32_t, 3> numbers;
@@ -101,7 +117,7 @@ FacePoint face_point_on(const Index& index, const Surface& surface, const Surfac
     }
     if (std::ranges::find(numbers, NONE) != numbers.end())
         refuse_argument("the surface has a triangle that the index does not: they differ in weld_tolerance");
-    FacePoint found = face_point(numbers, lengths, weights, crosses);
+    FacePoint found = face_point(numbers, lengths, at.weights, crosses);
     if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine))
         found.leaf = leaf_of_face(*overlay, numbers, lengths, beside);
     return found;

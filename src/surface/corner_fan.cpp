@@ -1,10 +1,10 @@
-#include "src/path/corner_fan.h"
+#include "src/surface/corner_fan.h"
 
 #include <algorithm>
 
 #include <Eigen/Geometry>
 
-#include "src/path/unfolded_face.h"
+#include "src/surface/unfolded_vertex.h"
 
 namespace geodesic {
 

@@ -1,11 +1,11 @@
-#include "src/path/point_queries.h"
+#include "src/points/point_queries.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "format/error.h"
 #include "geoidx.h"
-#include "src/path/nearby.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 

@@ -1,11 +1,10 @@
-#include "src/path/nearby.h"
+#include "src/surface/nearby.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "src/base/plane.h"
-#include "src/path/corner_fan.h"
-#include "src/path/face_points.h"
+#include "src/surface/corner_fan.h"
 
 namespace geodesic {
 

@@ -1,4 +1,4 @@
-#include "src/path/costs.h"
+#include "src/surface/costs.h"
 
 #include <algorithm>
 
@@ -37,22 +37,6 @@ uint32_t cheapest_face_at(const Surface& surface, uint32_t face, uint32_t a, uin
         if (cost[other] < cost[cheapest]) cheapest = other;
     });
     return cheapest;
-}
-
-void require_edge_costs(const Index& index, const Surface& surface) {
-    if (surface.costs.edge_fingerprint == 0)
-        refuse_argument("the index was built with edge costs: the surface needs edge_costs");
-    if (surface.costs.edge_fingerprint != index.description.metric_fingerprint)
-        refuse_argument("edge_costs of the surface are not those that the index was built with");
-}
-
-// An index does not tell lengths of edges from other costs.
-void require_face_costs(const Index& index, const Surface& surface) {
-    if (surface.costs.of_face.empty())
-        refuse_argument("the metric of the index is GEOIDX_METRIC_WEIGHTED: the surface needs face_costs");
-    if (surface.costs.face_fingerprint != index.description.metric_fingerprint)
-        refuse_argument("face_costs or points_per_edge of the surface are not those that the index was built "
-                        "with, or it was built with edge_lengths, for which there are no paths");
 }
 
 }

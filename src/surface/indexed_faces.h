@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "src/path/surface.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 

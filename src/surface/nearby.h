@@ -5,7 +5,7 @@
 #include <span>
 
 #include "src/index/face_point.h"
-#include "src/path/surface.h"
+#include "src/surface/surface.h"
 
 namespace geodesic {
 

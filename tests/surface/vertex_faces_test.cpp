@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "src/path/vertex_faces.h"
+#include "src/surface/vertex_faces.h"
 
 using geodesic::ListOfLists;
 using geodesic::VertexFaces;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/path/indexed_faces.h"
-#include "src/path/nearby.h"
-#include "src/path/seen_faces.h"
+#include "src/points/seen_faces.h"
+#include "src/surface/indexed_faces.h"
+#include "src/surface/nearby.h"
 #include "tests/path/path_cases.h"
 #include "tests/support/drilled_plate.h"
 
