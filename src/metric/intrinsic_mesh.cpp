@@ -47,7 +47,8 @@ double angle_opposite(double a, double b, double c) {
 }
 
 // How far along a side the opposite corner is, at the distances `a` from where it begins and `b` from its
-// end. Squares of lengths cancel, so that those go into differences which are not the shortest.
+// end: (base^2 + a^2 - b^2) / (2 base). The difference of the squares of two long sides is a product, so that
+// it keeps what is left of it beside the short one.
 double foot_of_apex(double base, double a, double b) {
     return a < base ? 0.5 * ((base - b) * (base + b) + a * a) / base
                     : 0.5 * (base + (a - b) * ((a + b) / base));

@@ -22,8 +22,7 @@ struct Spoke {
 // second at `length`, and the face below it with its third vertex, the apex, at (apex_x, -apex_depth).
 struct Side {
     double apex_x, apex_depth;
-    double
-        apex_back; // length - apex_x, but right to rounding also where the apex is next to the second vertex
+    double apex_back; // length - apex_x, measured from the second vertex
     uint32_t apex;
     uint32_t face;
     // The two other edges of the face: [0] from the first vertex to the apex, [1] from the second. The lowest
