@@ -277,21 +277,21 @@ static inline void geoidx_build_options_init(geoidx_build_options* options) {
 }
 
 /* Flags of geoidx_open_options. GEOIDX_OPEN_PAIRS makes an index ready for pairs of vertices while it is
- * opened: about 0.04 s for 40,000 vertices. Without it, the first call that asks for a pair (geoidx_sssd,
+ * opened: about 0.1 s for 40,000 vertices. Without it, the first call that asks for a pair (geoidx_sssd,
  * geoidx_query_sssd and the like) makes a part of what pairs need, in a tenth of that time, and takes the
- * memory for all of it, about half as much as the rest of the index; each later one makes what is missing
- * around its vertices, which takes 1 to 3 ms, once for all threads, some twenty times for 40,000 vertices. An
- * index of which only fields are asked never takes either. It is the same for an index that was just built.
- * The answers are the same bits. Nothing is made for GEOIDX_ENGINE_GRAPH. */
+ * memory for all of it, about as much as the rest of the index; each later one makes what is missing around
+ * its vertices, which takes 1 to 15 ms, once for all threads, some thirty times for 40,000 vertices. An index
+ * of which only fields are asked never takes either. It is the same for an index that was just built. The
+ * answers are the same bits. Nothing is made for GEOIDX_ENGINE_GRAPH. */
 enum {
     GEOIDX_OPEN_PAIRS = 1,
     /* geoidx_open_memory only: `data` stays as it is until geoidx_close, so that the tables of a file of
      * GEOIDX_CODEC_MAPPED need not be copied. It must be aligned to 8 bytes, better to 64. */
     GEOIDX_OPEN_BORROW = 2,
-    /* What pairs need is made without labels, the distances of each vertex to a border that lies farther out.
-     * Pairs then take a tenth of the time to be made ready for, and a quarter of the memory, and each takes
-     * about twice as long. Answers differ from those with labels by 0.01 % on average, and by 1 to 3 % at
-     * most. An index that was just built has labels. */
+    /* What pairs need is made without labels, the distances of each vertex to one or two borders that lie
+     * farther out. Pairs then take a tenth of the time to be made ready for, and a third of the memory, and
+     * each takes two to three times as long. Answers differ from those with labels by 0.01 % on average, and
+     * by 1 to 3 % at most. An index that was just built has labels. */
     GEOIDX_OPEN_NO_LABELS = 4
 };
 

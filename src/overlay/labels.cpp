@@ -19,32 +19,52 @@ namespace {
 
 constexpr size_t SOURCES = InnerSweep::MOST_SOURCES;
 
-// A labelled border has at most so many places.
-constexpr uint32_t MOST_PLACES = 200;
+// A labelled border has at most so many places, and at most so many labelled patches lie one in another.
+constexpr uint32_t MOST_PLACES = 400, MOST_LABELS = 2;
+
+// Distances of a smaller index are short, so that the steps of rows with few codes would round them by too
+// large a share; and it needs less memory.
+constexpr uint32_t FEWEST_VERTICES_OF_RUNS = 1 << 14;
 
 // Calls use(patch) for each patch to be labelled.
 template <class Use>
 void for_each_labelled(const OverlayIndex& index, const Use& use) {
     const Numbering& numbering = index.numbering;
-    std::vector<uint8_t> is_inside(numbering.patch_count(), 0); // of a labelled patch
+    std::vector<uint8_t> labels(numbering.patch_count(), 0); // how many lie around the patch, or are its own
     for (uint32_t p = 1; p < numbering.first_leaf(); ++p) {
         const uint32_t places = index.rings.size(p);
-        is_inside[p] = is_inside[numbering.parent[p]];
-        if (is_inside[p] || places == 0 || places > MOST_PLACES) continue;
-        is_inside[p] = 1;
+        labels[p] = labels[numbering.parent[p]];
+        if (labels[p] == MOST_LABELS || places == 0 || places > MOST_PLACES) continue;
+        ++labels[p];
         use(p);
     }
 }
 
-// Calls use(patch, inside, codes) for each patch to be labelled and each patch inside of it, with the number
-// of codes in that patch's labels.
-template <class Use>
-void for_each_with_labels(const OverlayIndex& index, const Use& use) {
-    for_each_labelled(index, [&](uint32_t patch) {
-        descend_into(index.numbering, patch, [&](uint32_t inside) {
-            use(patch, inside, uint64_t{index.numbering.inner_size(inside)} * index.rings.size(patch));
-        });
-    });
+// How many vertices are inner vertices of each patch, or of patches in it.
+std::vector<uint32_t> vertices_within(const Numbering& numbering) {
+    std::vector<uint32_t> within(numbering.patch_count());
+    for (uint32_t p = numbering.patch_count(); p-- > 0;) {
+        within[p] += numbering.inner_size(p);
+        if (p > 0) within[numbering.parent[p]] += within[p];
+    }
+    return within;
+}
+
+// How many rows lead to the border of a labelled patch. within[p] is as above.
+uint32_t label_rows(const Numbering& numbering, std::span<const uint32_t> within, uint32_t patch) {
+    return within[patch] - numbering.inner_size(patch);
+}
+
+// Fills Labels::before.
+void count_vertices_before(const Numbering& numbering, std::span<const uint32_t> within,
+                           std::span<uint32_t> before) {
+    for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
+        uint32_t next = before[p] + numbering.inner_size(p);
+        for (uint32_t child = numbering.child_begin[p]; child < numbering.child_begin[p + 1]; ++child) {
+            before[child] = next;
+            next += within[child];
+        }
+    }
 }
 
 // Sweeps from the border of a patch down to the inner vertices of all its descendants, with SOURCES border
@@ -56,7 +76,7 @@ public:
           distances_(make_room<float>(SOURCES * index.numbering.border_vertex_count(), memory)),
           of_leaf_(make_room<float>(SOURCES * index.numbering.largest_inner_size(), memory)),
           of_border_(memory), begin_(make_room<size_t>(index.numbering.patch_count(), memory)),
-          codes_(memory) {}
+          codes_(memory), of_places_(memory) {}
 
     void label(uint32_t patch) {
         lay_out_distances(patch);
@@ -64,7 +84,7 @@ public:
             start(patch, first);
             descend_into(numbering_, patch, [&](uint32_t p) { hop_down(p, first); });
         }
-        const float quantum = quantum_of_distances();
+        const float quantum = std::max(quantum_of_distances(), labels_.least_quantum[patch]);
         labels_.quantum[patch] = quantum;
         descend_into(numbering_, patch, [&](uint32_t p) { encode(p, patch, quantum); });
     }
@@ -122,12 +142,28 @@ private:
         codes_.resize(count * border_size_);
         TableCode::round_all({of_border_.data() + begin_[patch], codes_.size()}, steps_per_distance(quantum),
                              codes_.data());
-        const uint16_t* position = index_.rings.position.data() + index_.rings.begin[labelled];
-        const uint32_t places = index_.rings.size(labelled);
-        uint16_t* code = labels_.codes.get() + labels_.begin[patch];
-        for (size_t row = 0; row < codes_.size(); row += border_size_)
-            for (uint32_t k = 0; k < places; ++k) *code++ = codes_[row + position[k]];
-        std::fill_n(code, TableCode::PADDING, TableCode::UNREACHED);
+        const auto runs = labels_.runs_of(labelled);
+        of_places_.resize(index_.rings.size(labelled));
+        uint8_t* row = labels_.rows.get() + label_row_begin(index_, labels_, patch, 0, labelled);
+        for (size_t codes = 0; codes < codes_.size(); codes += border_size_) {
+            lay_out_by_places(labelled, codes_.data() + codes);
+            write_label_row(of_places_, runs, row);
+            row += label_row_size(of_places_.size(), runs.size());
+        }
+    }
+
+    // Fills of_places_ from the codes of the border's vertices. Along a chain these are in the ring's order.
+    void lay_out_by_places(uint32_t labelled, const uint16_t* codes) {
+        const uint32_t ring = index_.rings.begin[labelled];
+        uint16_t* const of_places = of_places_.data();
+        const auto repeat = [&](uint32_t place) {
+            of_places[place - ring] = codes[index_.rings.position[place]];
+        };
+        for (const auto& [first, last, is_closed] : index_.rings.chains_of(labelled)) {
+            for (uint32_t i = 1; i <= Rings::REACH; ++i) repeat(first - i);
+            std::copy_n(codes + index_.rings.position[first], last + 1 - first, of_places + (first - ring));
+            for (uint32_t i = 1; i <= Rings::REACH; ++i) repeat(last + i);
+        }
     }
 
     const OverlayIndex& index_;
@@ -140,7 +176,8 @@ private:
     Array<float> of_border_;
     Room<size_t> begin_; // per patch: where its rows begin in of_border_
     size_t border_size_ = 0;
-    Array<uint16_t> codes_; // of the rows of one patch, by border vertices
+    Array<uint16_t> codes_;     // of the rows of one patch, by border vertices
+    Array<uint16_t> of_places_; // of one of these rows, by places
 };
 
 // Makes the labels of labelled patches that have none yet.
@@ -159,20 +196,35 @@ void make_labels_of(const OverlayIndex& index, std::span<const uint32_t> patches
 }
 
 uint64_t count_label_codes(const OverlayIndex& index) {
+    const auto within = vertices_within(index.numbering);
     uint64_t codes = 0;
-    for_each_with_labels(index, [&](uint32_t, uint32_t, uint64_t count) { codes += count; });
+    for_each_labelled(index, [&](uint32_t patch) {
+        codes += uint64_t{label_rows(index.numbering, within, patch)} * index.rings.size(patch);
+    });
     return codes;
 }
 
 Labels lay_out_labels(const OverlayIndex& index, std::pmr::memory_resource* memory) {
-    Labels labels(index.numbering.patch_count(), memory);
-    uint64_t codes = 0;
-    for_each_with_labels(index, [&](uint32_t patch, uint32_t inside, uint64_t count) {
+    const Numbering& numbering = index.numbering;
+    const auto within = vertices_within(numbering);
+    Labels labels(numbering.patch_count(), memory);
+    count_vertices_before(numbering, within, labels.before);
+    uint64_t bytes = 0;
+    for_each_labelled(index, [&](uint32_t patch) {
         labels.is_labelled[patch] = 1;
-        labels.begin[inside] = codes;
-        codes += count + TableCode::PADDING;
+        labels.begin[patch] = bytes;
+        const uint32_t places = index.rings.size(patch);
+        labels.run_begin[patch] = static_cast<uint32_t>(labels.runs.size());
+        if (numbering.vertex_count() < FEWEST_VERTICES_OF_RUNS)
+            for (uint32_t place = 0; place < places; ++place)
+                labels.runs.push_back(static_cast<uint16_t>(place));
+        else
+            labels.least_quantum[patch] = find_runs(index.rings, patch, labels.runs);
+        labels.run_count[patch] = static_cast<uint32_t>(labels.runs.size()) - labels.run_begin[patch];
+        bytes +=
+            uint64_t{label_rows(numbering, within, patch)} * label_row_size(places, labels.run_count[patch]);
     });
-    if (codes > 0) labels.codes = make_room<uint16_t>(codes, memory);
+    if (bytes > 0) labels.rows = make_room<uint8_t>(bytes + LABEL_ROW_PADDING, memory);
     return labels;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -65,6 +66,14 @@ struct Rings {
 // The own place of a vertex of a patch's border, counted over all rings.
 inline uint32_t own_place(const Rings& rings, const Numbering& numbering, uint32_t patch, uint32_t position) {
     return rings.begin[patch] + rings.place_of_slot[numbering.border_begin[patch] + position];
+}
+
+// Calls use(place, length) for each segment of a border. It begins at a place of its own, counted over all
+// rings, and ends at the next place.
+template <class Use>
+void for_each_segment(const Rings& rings, uint32_t patch, const Use& use) {
+    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
+        if (rings.is_own[k] && !std::isnan(rings.segment_length[k])) use(k, rings.segment_length[k]);
 }
 
 // Border segments, per slot (see Numbering). `end` is the position, in the same border, of the vertex at the

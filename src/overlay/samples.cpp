@@ -20,15 +20,6 @@ constexpr uint32_t FEWEST_OF_CHAIN = 3;
 // Ways along a border to where it meets the parent's are made longer by this share of a spacing.
 constexpr float LONGER_ALONG_BORDER = 0.5f;
 
-// Calls use(place, length) for each segment of a border. It begins at a place of its own, counted over all
-// rings, and ends at the next place.
-template <class Use>
-void for_each_segment(const OverlayIndex& index, uint32_t patch, const Use& use) {
-    const Rings& rings = index.rings;
-    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
-        if (rings.is_own[k] && !std::isnan(rings.segment_length[k])) use(k, rings.segment_length[k]);
-}
-
 // The share of the vertices of a patch's border that are to be samples.
 double share_of(const OverlayIndex& index, uint32_t patch) {
     const uint32_t size = std::max(1u, index.numbering.border_size(patch));
@@ -38,7 +29,7 @@ double share_of(const OverlayIndex& index, uint32_t patch) {
 // How far samples are to be apart along a border, on average. Segments longer than this are long.
 float spacing_of(const OverlayIndex& index, uint32_t patch) {
     double length = 0;
-    for_each_segment(index, patch, [&](uint32_t, float segment) { length += double{segment}; });
+    for_each_segment(index.rings, patch, [&](uint32_t, float segment) { length += double{segment}; });
     return static_cast<float>(length /
                               std::max(1.0, share_of(index, patch) * index.numbering.border_size(patch)));
 }
@@ -77,7 +68,7 @@ private:
 
     void mark(uint32_t patch) {
         const float spacing = spacing_of(index_, patch);
-        for_each_segment(index_, patch, [&](uint32_t place, float length) {
+        for_each_segment(index_.rings, patch, [&](uint32_t place, float length) {
             if (length > spacing) is_sample(place) = is_sample(place + 1) = 1;
         });
         // Segments without length count as none: a border may have no others.
@@ -210,7 +201,7 @@ private:
             return static_cast<uint32_t>(std::ranges::lower_bound(places, own - index_.rings.begin[patch]) -
                                          places.begin());
         };
-        for_each_segment(index_, patch, [&](uint32_t place, float length) {
+        for_each_segment(index_.rings, patch, [&](uint32_t place, float length) {
             if (length > samples_.spacing[patch])
                 samples_.long_segments.push_back({sample_at(place), sample_at(place + 1), length});
         });

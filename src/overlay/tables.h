@@ -128,23 +128,36 @@ struct Samples {
     }
 };
 
-// The labels of vertices: rows as those of inner tables, of distances to the border of a patch farther out,
-// in steps of a quantum of their own. Of the patches around a vertex, the outermost one whose border is
-// neither empty nor long is labelled, if it is no leaf; vertices that lie deeper than its inner vertices have
-// labels. Pairs of vertices that meet outside of labelled patches need not cross the borders inside.
+// The labels of vertices: distances to the borders of patches farther out, in steps of quanta of their own.
+// A patch is labelled if it is no leaf, its border is neither empty nor long, and at most one patch around it
+// is labelled, too. All vertices that lie deeper than its inner vertices have a row to its border, which
+// label_rows.h describes, so a vertex has up to two labels. Pairs of vertices that meet outside of a labelled
+// patch need not cross the borders inside.
 //
 // Labels are made patch by patch, each when a pair needs it (see require_labels): what belongs to a labelled
 // patch may be read once are_made[patch] has been seen.
 struct Labels {
     Labels(uint32_t patches, std::pmr::memory_resource* memory)
-        : is_labelled(patches, uint8_t{0}, memory), begin(patches, 0, memory), quantum(patches, 0.f, memory),
+        : is_labelled(patches, uint8_t{0}, memory), before(patches, 0, memory), begin(patches, 0, memory),
+          run_begin(patches, 0, memory), run_count(patches, 0, memory), runs(memory),
+          least_quantum(patches, 0.f, memory), quantum(patches, 0.f, memory),
           are_made(patches, std::pmr::polymorphic_allocator<>(memory)) {}
 
-    Array<uint8_t> is_labelled;        // per patch
-    Array<uint64_t> begin;             // per patch: where the labels of its inner vertices begin in `codes`
-    Array<float> quantum;              // per patch; of labelled ones
-    Array<std::atomic<bool>> are_made; // per patch; of labelled ones
-    Room<uint16_t> codes;              // NULL if no patch is labelled
+    Array<uint8_t> is_labelled; // per patch
+    // Per patch: how many vertices are inner vertices of patches before it, where each patch is followed by
+    // all that lie in it. In this order the rows of a labelled patch follow each other.
+    Array<uint32_t> before;
+    // Per patch, of labelled ones.
+    Array<uint64_t> begin;                // where the rows to its border begin in `rows`
+    Array<uint32_t> run_begin, run_count; // where the runs of its rows are in `runs`
+    Array<uint16_t> runs;                 // see find_runs()
+    Array<float> least_quantum, quantum;  // see find_runs(); and that of its rows, once they are made
+    Array<std::atomic<bool>> are_made;
+    Room<uint8_t> rows; // NULL if no patch is labelled
+
+    std::span<const uint16_t> runs_of(uint32_t patch) const {
+        return {runs.data() + run_begin[patch], run_count[patch]};
+    }
 };
 
 // What only pairs of vertices need. It is empty until require_pair_tables() makes it, when the first pair is

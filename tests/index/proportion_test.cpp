@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "src/overlay/label_rows.h"
 #include "tests/overlay/overlay_of.h"
 
 using namespace geodesic;
@@ -15,13 +16,8 @@ uint64_t sample_codes(const OverlayIndex& index) {
     return index.pairs.samples.codes.size() - TableCode::PADDING;
 }
 uint64_t label_codes(const OverlayIndex& index) {
-    const Numbering& numbering = index.numbering;
-    const Labels& labels = *index.pairs.labels;
-    uint64_t padded = 0; // patches that lie in a labelled one
-    for (uint32_t p = 1; p < numbering.patch_count(); ++p)
-        for (uint32_t q = numbering.parent[p]; q != NONE; q = numbering.parent[q])
-            padded += labels.is_labelled[q];
-    return labels.codes.get_deleter().size - padded * TableCode::PADDING;
+    const Room<uint8_t>& rows = index.pairs.labels->rows;
+    return rows ? (rows.get_deleter().size - LABEL_ROW_PADDING) / sizeof(uint16_t) : 0;
 }
 uint64_t codes_made(const OverlayIndex& index) {
     return index.hops.border_begin.back() + index.hops.owned_begin.back() +

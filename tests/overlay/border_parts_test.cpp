@@ -195,7 +195,7 @@ TEST_CASE("border parts: ways over several ranges are those over the whole borde
     std::mt19937 random(11);
     const auto compare = [&](uint32_t leaf, uint32_t inner) {
         const uint32_t parent = numbering.parent[leaf];
-        Ascent ascent(std::pmr::get_default_resource());
+        Ascent ascent(overlay, std::pmr::get_default_resource());
         ascent.patches = {leaf, parent};
         ascent.first_row = inner_row_of(overlay, inner);
         const BorderPart whole(whole_border(rings, leaf)), above(whole_border(rings, parent));

@@ -34,7 +34,7 @@ TEST_CASE("sampled ascent: the ways back are the least ones over all samples") {
     const OverlayIndex& overlay = of.overlay();
     const Numbering& numbering = overlay.numbering;
     SampledAscent sampled(overlay, std::pmr::get_default_resource());
-    Ascent ascent(std::pmr::get_default_resource());
+    Ascent ascent(overlay, std::pmr::get_default_resource());
     for (uint32_t leaf = numbering.first_leaf(); leaf < numbering.patch_count(); leaf += 3) {
         ascent.patches.clear();
         for (uint32_t p = leaf; p != 0; p = numbering.parent[p]) ascent.patches.push_back(p);

@@ -11,7 +11,8 @@ from several_sources import SeveralSources
 f = numpy.float32
 INFINITE = f(numpy.inf)
 LARGEST, NO_PATH = 32766, 32767
-MOST_LABEL_PLACES = 200
+MOST_LABEL_PLACES, MOST_LABELS = 400, 2
+FEWEST_VERTICES_OF_RUNS, STEPS_OF_LONGEST = 1 << 14, f(124)
 
 
 class Border:
@@ -261,15 +262,13 @@ class OverlayEngine:
         return self.index.children[patch] if patch < self.index.inner_count else []
 
     def labelled_patches(self):
-        """Of the patches around a vertex, but for leaves, the outermost one whose border is neither empty nor long."""
-        labelled, patches = set(), list(self.children_of(0))
-        for patch in patches:
-            if patch >= self.index.inner_count:
-                continue
-            if 0 < len(self.index.places(patch)[0]) <= MOST_LABEL_PLACES:
+        """Of the patches around a vertex, but for leaves, the outermost ones whose borders are neither empty nor long."""
+        labelled, around = set(), {0: 0}
+        for patch in range(1, self.index.inner_count):
+            around[patch] = around[self.index.parent[patch]]
+            if around[patch] < MOST_LABELS and 0 < len(self.index.places(patch)[0]) <= MOST_LABEL_PLACES:
                 labelled.add(patch)
-            else:
-                patches += self.children_of(patch)
+                around[patch] += 1
         return labelled
 
     def label(self, number, patch):
@@ -286,11 +285,19 @@ class OverlayEngine:
             for child in deeper:
                 distance[list(index.inside[child])] = self.hop_down(child, distance[self.borders[child].vertices])
         numbers = [number for child in deeper for number in index.inside[child]]
-        return dict(zip(numbers, self.in_steps(table[:, numbers].T)))
+        return dict(zip(numbers, self.in_steps(table[:, numbers].T, self.least_quantum(patch))))
+
+    def least_quantum(self, patch):
+        """With which the steps along all segments but a few long ones fit into a byte."""
+        lengths = numpy.sort(self.borders[patch].length)  # NaN comes last
+        count = numpy.count_nonzero(~numpy.isnan(lengths))
+        if self.index.vertex_count < FEWEST_VERTICES_OF_RUNS or count == 0:
+            return f(0)
+        return lengths[count - 1 - count // 16] / STEPS_OF_LONGEST
 
     @staticmethod
-    def in_steps(distances):
-        quantum = numpy.max(distances[distances < INFINITE], initial=f(0)) / f(LARGEST)
+    def in_steps(distances, least_quantum):
+        quantum = max(numpy.max(distances[distances < INFINITE], initial=f(0)) / f(LARGEST), least_quantum)
         scale = min(f(1) / quantum, numpy.finfo(f).max) if quantum > 0 else f(0)
         codes = numpy.trunc(numpy.minimum(distances * scale + f(0.5), f(LARGEST)))
         codes = numpy.where(distances > 0, numpy.maximum(codes, f(1)), f(0))

@@ -13,15 +13,15 @@ namespace Geoidx
         /// <summary>
         /// Makes what distances between two vertices need while the index is opened. Otherwise the first one that is
         /// asked for makes a part of it, and takes the memory for all, and later ones make the rest as they need it,
-        /// which takes 1 to 3 ms each time; where only fields are asked for, it is never made and takes no memory.
+        /// which takes 1 to 15 ms each time; where only fields are asked for, it is never made and takes no memory.
         /// Default: false.
         /// </summary>
         public bool Pairs { get; set; }
 
         /// <summary>
-        /// Makes labels a part of what distances between two vertices need: the distances of each vertex to a border
-        /// that lies farther out. Without labels all of this takes a quarter of the memory and a tenth of the time to
-        /// be made, and each distance between two vertices takes about twice as long and differs by
+        /// Makes labels a part of what distances between two vertices need: the distances of each vertex to one or
+        /// two borders that lie farther out. Without labels all of this takes a third of the memory and a tenth of the
+        /// time to be made, and each distance between two vertices takes two to three times as long and differs by
         /// 0.01 % or so. Fields do not need labels and stay the same bits. An index that was just built has labels.
         /// Default: true.
         /// </summary>

@@ -2,6 +2,7 @@
 
 #include <memory_resource>
 
+#include "src/base/prefetch.h"
 #include "src/overlay/labels.h"
 #include "src/overlay/tables.h"
 
@@ -23,15 +24,14 @@ inline RingRow inner_row_of(const OverlayIndex& index, uint32_t vertex) {
             index.rings.begin[patch], index.quantum[patch]};
 }
 
-// The label of a vertex that lies deeper inside of a labelled patch than its inner vertices.
-inline RingRow label_of(const OverlayIndex& index, uint32_t vertex, uint32_t labelled) {
+// The row of the label of a vertex that lies deeper inside of a labelled patch than its inner vertices.
+inline const uint8_t* label_of(const OverlayIndex& index, uint32_t vertex, uint32_t labelled) {
     const Numbering& numbering = index.numbering;
-    const Labels& labels = *index.pairs.labels;
     require_labels(index, labelled);
+    const Labels& labels = *index.pairs.labels;
     const uint32_t patch = numbering.innermost_patch(vertex);
-    const uint64_t row = uint64_t{vertex - numbering.first_inner(patch)} * index.rings.size(labelled);
-    return {labels.codes.get() + labels.begin[patch] + row, index.rings.begin[labelled],
-            labels.quantum[labelled]};
+    return labels.rows.get() +
+           label_row_begin(index, labels, patch, vertex - numbering.first_inner(patch), labelled);
 }
 
 // One end of a path and the patches whose borders the path crosses, each the parent of the one before it:
@@ -39,13 +39,18 @@ inline RingRow label_of(const OverlayIndex& index, uint32_t vertex, uint32_t lab
 // a child of the patch where the ends meet. There is none if the end is an inner vertex of the patch where
 // the ends meet.
 struct Ascent {
-    explicit Ascent(std::pmr::memory_resource* memory) : patches(memory) {}
+    Ascent(const OverlayIndex& index, std::pmr::memory_resource* memory)
+        : patches(memory), label_codes(index.rings.largest_size() + LABEL_ROW_PADDING, memory) {
+        patches.reserve(index.numbering.level_count());
+    }
 
     uint32_t last_patch() const { return patches.back(); }
 
     uint32_t vertex = 0;
     Array<uint32_t> patches;
-    RingRow first_row; // from the vertex to the border of the first patch
+    RingRow first_row;              // from the vertex to the border of the first patch,
+    const uint8_t* label = nullptr; // unless this is a label that has not been read
+    Array<uint16_t> label_codes;    // of the first row, if it is a label
 };
 
 // The end of a path: a vertex, or a point of a face with its row to the ring of a leaf (see fill_row).
@@ -65,26 +70,46 @@ inline uint32_t innermost_patch(const Numbering& numbering, const PathEnd& end) 
 inline void climb_from_point(const OverlayIndex& index, const PathEnd& end, uint32_t top, Ascent& ascent) {
     ascent.vertex = NONE;
     ascent.patches.clear();
+    ascent.label = nullptr;
     ascent.first_row = {end.row, index.rings.begin[end.leaf], end.quantum};
     for (uint32_t patch = end.leaf; patch != top; patch = index.numbering.parent[patch])
         ascent.patches.push_back(patch);
 }
 
-// Climbs from a vertex up to a child of `top`.
+// Climbs from a vertex up to a child of `top`. A label is found and asked for, but has yet to be read.
 inline void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Ascent& ascent) {
     const Numbering& numbering = index.numbering;
     const uint32_t innermost = numbering.innermost_patch(vertex);
     ascent.vertex = vertex;
+    ascent.label = nullptr;
     ascent.patches.clear();
     if (innermost == top) return;
-    ascent.first_row = inner_row_of(index, vertex);
+    uint32_t labelled = NONE;
     for (uint32_t patch = innermost; patch != top; patch = numbering.parent[patch]) {
         if (patch != innermost && index.pairs.labels->is_labelled[patch]) {
             ascent.patches.clear();
-            ascent.first_row = label_of(index, vertex, patch);
+            labelled = patch;
         }
         ascent.patches.push_back(patch);
     }
+    const size_t places = index.rings.size(ascent.patches.front());
+    if (labelled != NONE) {
+        ascent.label = label_of(index, vertex, labelled);
+        prefetch(ascent.label, label_row_size(places, index.pairs.labels->runs_of(labelled).size()));
+    } else {
+        ascent.first_row = inner_row_of(index, vertex);
+        prefetch(ascent.first_row.codes, places);
+    }
+}
+
+// Reads the label that a climb has found, if it has.
+inline void read_label(const OverlayIndex& index, Ascent& ascent) {
+    if (!ascent.label) return;
+    const Labels& labels = *index.pairs.labels;
+    const uint32_t labelled = ascent.patches.front();
+    read_label_row(ascent.label, labels.runs_of(labelled), index.rings.size(labelled),
+                   ascent.label_codes.data());
+    ascent.first_row = {ascent.label_codes.data(), index.rings.begin[labelled], labels.quantum[labelled]};
 }
 
 }

@@ -69,7 +69,6 @@ void OverlaySssd::End::climb(const OverlayIndex& index, const PathEnd& of, uint3
     else
         geodesic::climb(index, of.vertex, top, ascent);
     measured.begin();
-    if (!is_at_top()) prefetch(ascent.first_row.codes, index.rings.size(ascent.patches.front()));
 }
 
 // Whether any border of the ascent has segments.
@@ -194,6 +193,8 @@ float OverlaySssd::distance_to_border(uint32_t border_vertex, uint32_t vertex) c
 // shorter than what was measured by more than rounding: the best path may need a segment or a row that is in
 // none of the measured parts.
 float OverlaySssd::meet() {
+    read_label(index_, to_.ascent);
+    read_label(index_, from_.ascent);
     const WholeHops whole = whole_hops();
     if (whole.are_few()) {
         uint32_t place;

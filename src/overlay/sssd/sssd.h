@@ -34,8 +34,7 @@ public:
 private:
     struct End {
         End(const OverlayIndex& index, std::pmr::memory_resource* memory)
-            : ascent(memory), sampled(index, memory), parts(memory), measured(index, memory) {
-            ascent.patches.reserve(index.numbering.level_count());
+            : ascent(index, memory), sampled(index, memory), parts(memory), measured(index, memory) {
             parts.reserve(index.numbering.level_count());
         }
         void climb(const OverlayIndex& index, const PathEnd& of, uint32_t top);
