@@ -88,7 +88,7 @@ bool OverlaySssd::End::take_whole_borders(const OverlayIndex& index) {
 }
 
 // Takes the parts near the way over samples to a sample of the last border, where `last_part` is, and asks
-// for what the rings hold of them.
+// for what hops read of them.
 void OverlaySssd::End::take_parts(const OverlayIndex& index, uint32_t sample, const BorderPart& last_part) {
     parts.resize(ascent.patches.size());
     parts.back() = last_part;
@@ -98,8 +98,12 @@ void OverlaySssd::End::take_parts(const OverlayIndex& index, uint32_t sample, co
         sample = before;
     }
     const Rings& rings = index.rings;
-    for (const BorderPart& part : parts)
-        for (const BorderRange& range : part.ranges()) {
+    for (size_t b = 0; b < parts.size(); ++b)
+        for (const BorderRange& range : parts[b].ranges()) {
+            // Positions in the parent's overlay follow each other nearly as places do.
+            const uint32_t patch = ascent.patches[b], in_ring = range.first - rings.begin[patch];
+            prefetch(&index.numbering.overlay_position[index.numbering.border_begin[patch]] + in_ring,
+                     range.size());
             prefetch(rings.position.data() + range.first, range.size());
             prefetch(rings.segment_length.data() + range.first, range.size());
             prefetch(rings.half_inverse.data() + range.first, range.size());
