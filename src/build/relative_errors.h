@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "src/metric/workers.h"
-#include "src/overlay/ssad.h"
+#include "src/overlay/fields/ssad.h"
 #include "src/query/index.h"
 
 namespace geodesic {

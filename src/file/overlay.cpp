@@ -6,7 +6,7 @@
 #include "src/base/number_text.h"
 #include "src/base/numbers.h"
 #include "src/file/sections.h"
-#include "src/overlay/codes.h"
+#include "src/overlay/tables/codes.h"
 
 namespace geodesic {
 

@@ -7,7 +7,7 @@
 #include "src/file/code_tables.h"
 #include "src/file/sections.h"
 #include "src/file/tables.h"
-#include "src/overlay/codes.h"
+#include "src/overlay/tables/codes.h"
 
 namespace geodesic {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "src/file/sections.h"
-#include "src/overlay/codes.h"
+#include "src/overlay/tables/codes.h"
 
 namespace geodesic {
 

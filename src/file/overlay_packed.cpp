@@ -9,7 +9,7 @@
 #include "src/file/code_tables.h"
 #include "src/file/prediction.h"
 #include "src/file/sections.h"
-#include "src/overlay/codes.h"
+#include "src/overlay/tables/codes.h"
 
 namespace geodesic {
 

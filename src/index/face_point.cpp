@@ -18,7 +18,7 @@ struct Placed {
 };
 
 // Places a vertex by its distances from the ends of an edge. Returns whether there is such a place (see
-// mend_square in src/overlay/unfolding.h).
+// mend_square in src/overlay/kernels/unfolding.h).
 bool place(double length, double from_first, double from_second, Placed& placed) {
     if (!(length > 0)) return false;
     placed.foot = foot_of(length, from_first, from_second);

@@ -53,7 +53,7 @@ struct StoredIndex {
     std::vector<float> border_internal_tables; // BVIV: of every leaf, a row for each border vertex
     std::vector<float> internal_tables;        // IVIV: of every leaf, below the diagonal
 
-    // Overlay engine: codes of distances (src/overlay/codes.h), in steps of the quantum of the patch.
+    // Overlay engine: codes of distances (src/overlay/tables/codes.h), in steps of the quantum of the patch.
     std::vector<float> quantum;        // QUAN: per patch
     std::vector<uint8_t> shift;        // QUAN: per patch; its codes are multiples of 2^shift
     std::vector<uint32_t> segment_end; // SEGM: per element of `border`, a position there, or NONE

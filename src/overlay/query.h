@@ -5,14 +5,14 @@
 #include <optional>
 #include <span>
 
-#include "src/overlay/field_lowering.h"
-#include "src/overlay/msad.h"
-#include "src/overlay/pair_tables.h"
-#include "src/overlay/point_ways.h"
-#include "src/overlay/ssad.h"
+#include "src/overlay/fields/field_lowering.h"
+#include "src/overlay/fields/msad.h"
+#include "src/overlay/fields/point_ways.h"
+#include "src/overlay/fields/ssad.h"
+#include "src/overlay/fields/within_sweep.h"
+#include "src/overlay/sssd/pair_tables.h"
 #include "src/overlay/sssd/prepared_source.h"
 #include "src/overlay/sssd/sssd.h"
-#include "src/overlay/within_sweep.h"
 
 namespace geodesic {
 

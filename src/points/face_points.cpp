@@ -5,7 +5,7 @@
 
 #include "format/error.h"
 #include "geoidx.h"
-#include "src/overlay/point_ways.h"
+#include "src/overlay/fields/point_ways.h"
 #include "src/points/seen_faces.h"
 #include "src/surface/indexed_faces.h"
 

@@ -7,9 +7,9 @@
 #include "geoidx.h"
 #include "src/graph/prepare.h"
 #include "src/index/section_tags.h"
-#include "src/overlay/labels.h"
-#include "src/overlay/pair_tables.h"
-#include "src/overlay/prepare.h"
+#include "src/overlay/prepare/prepare.h"
+#include "src/overlay/sssd/labels.h"
+#include "src/overlay/sssd/pair_tables.h"
 
 namespace geodesic {
 

@@ -7,7 +7,7 @@
 #include "format/container.h"
 #include "src/graph/tables.h"
 #include "src/index/description.h"
-#include "src/overlay/tables.h"
+#include "src/overlay/tables/tables.h"
 
 namespace geodesic {
 

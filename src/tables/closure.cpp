@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "src/overlay/unfolding.h"
+#include "src/overlay/kernels/unfolding.h"
 
 namespace geodesic {
 

@@ -2,7 +2,7 @@
 
 #include "src/index/slots.h"
 #include "src/metric/workers.h"
-#include "src/overlay/rings.h"
+#include "src/overlay/tables/rings.h"
 #include "src/tables/distance_tables.h"
 
 namespace geodesic {

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "src/overlay/codes.h"
+#include "src/overlay/tables/codes.h"
 #include "src/tables/rounding.h"
 
 namespace geodesic {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "src/base/quartile.h"
-#include "src/overlay/codes.h"
+#include "src/overlay/tables/codes.h"
 
 namespace geodesic {
 

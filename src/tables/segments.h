@@ -4,7 +4,7 @@
 
 #include "src/index/numbering.h"
 #include "src/mesh/mesh.h"
-#include "src/overlay/rings.h"
+#include "src/overlay/tables/rings.h"
 #include "src/tables/distance_tables.h"
 
 namespace geodesic {

@@ -10,7 +10,7 @@
 #include "format/container.h"
 #include "src/file/index_file.h"
 #include "src/file/sections.h"
-#include "src/overlay/codes.h"
+#include "src/overlay/tables/codes.h"
 #include "tests/capi/calls.h"
 #include "tests/capi/refusals.h"
 #include "tests/index/changed_section.h"

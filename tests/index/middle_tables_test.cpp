@@ -1,5 +1,5 @@
 // What a sweep reads beside the tables of the file.
-#include "src/overlay/middles.h"
+#include "src/overlay/prepare/middles.h"
 
 #include <cmath>
 

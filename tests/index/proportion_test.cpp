@@ -1,9 +1,9 @@
 // What the overlay engine derives from a file, foreseen from its counts.
-#include "src/overlay/proportion.h"
+#include "src/overlay/prepare/proportion.h"
 
 #include <doctest/doctest.h>
 
-#include "src/overlay/label_rows.h"
+#include "src/overlay/sssd/label_rows.h"
 #include "tests/overlay/overlay_of.h"
 
 using namespace geodesic;

@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "src/overlay/near.h"
+#include "src/overlay/kernels/near.h"
 #include "src/overlay/sssd/measured_path.h"
 #include "src/overlay/sssd/sssd.h"
 #include "tests/overlay/long_borders.h"

@@ -1,11 +1,11 @@
 // Rows along long borders are read only where their bounds allow a short way.
-#include "src/overlay/bounds.h"
+#include "src/overlay/prepare/bounds.h"
 
 #include <cstring>
 
 #include <doctest/doctest.h>
 
-#include "src/overlay/ssad.h"
+#include "src/overlay/fields/ssad.h"
 #include "tests/overlay/overlay_of.h"
 
 using namespace geodesic;

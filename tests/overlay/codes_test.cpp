@@ -1,5 +1,5 @@
 // Distances rounded to codes.
-#include "src/overlay/codes.h"
+#include "src/overlay/tables/codes.h"
 
 #include <random>
 #include <vector>

@@ -5,8 +5,8 @@
 #include <random>
 #include <utility>
 
-#include "src/overlay/inner_sweep.h"
-#include "src/overlay/outer_crossing.h"
+#include "src/overlay/hops/inner_sweep.h"
+#include "src/overlay/hops/outer_crossing.h"
 #include "src/query/index.h"
 #include "tests/overlay/overlay_of.h"
 #include "tests/overlay/plain_hop.h"

@@ -1,5 +1,5 @@
 // The rows of labels in memory: codes in one byte a place.
-#include "src/overlay/label_rows.h"
+#include "src/overlay/sssd/label_rows.h"
 
 #include <algorithm>
 #include <random>

@@ -1,5 +1,5 @@
 // Labels: the distances of vertices to the border of a patch farther out.
-#include "src/overlay/labels.h"
+#include "src/overlay/sssd/labels.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,10 +1,10 @@
 // From what is stored to what is answered from, and back.
-#include "src/overlay/prepare.h"
+#include "src/overlay/prepare/prepare.h"
 
 #include <cmath>
 #include <random>
 
-#include "src/overlay/ssad.h"
+#include "src/overlay/fields/ssad.h"
 #include "tests/overlay/overlay_of.h"
 
 using namespace geodesic;

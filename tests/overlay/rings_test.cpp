@@ -1,5 +1,5 @@
 // Borders laid out as rings, against the segments that they are made of.
-#include "src/overlay/rings.h"
+#include "src/overlay/tables/rings.h"
 
 #include <cmath>
 #include <random>

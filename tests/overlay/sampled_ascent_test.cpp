@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "src/overlay/pair_tables.h"
+#include "src/overlay/sssd/pair_tables.h"
 #include "tests/overlay/long_borders.h"
 
 using namespace geodesic;

@@ -1,5 +1,5 @@
 // The samples of borders, over which SSSD looks for ways first.
-#include "src/overlay/samples.h"
+#include "src/overlay/sssd/samples.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "src/overlay/codes.h"
+#include "src/overlay/tables/codes.h"
 
 namespace geodesic::test {
 

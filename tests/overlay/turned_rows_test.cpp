@@ -1,5 +1,5 @@
 // Rows of tables that have them in part, or as columns.
-#include "src/overlay/turned_rows.h"
+#include "src/overlay/hops/turned_rows.h"
 
 #include <algorithm>
 #include <random>

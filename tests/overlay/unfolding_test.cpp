@@ -1,5 +1,5 @@
 // Points placed beside a segment by their distances from its ends.
-#include "src/overlay/unfolding.h"
+#include "src/overlay/kernels/unfolding.h"
 
 #include <cmath>
 

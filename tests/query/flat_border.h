@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/overlay/kernels/dispatch.h"
-#include "src/overlay/tables.h"
+#include "src/overlay/tables/tables.h"
 
 namespace geodesic::test {
 

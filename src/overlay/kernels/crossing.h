@@ -6,9 +6,9 @@
 
 #include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/kernels/lanes.h"
+#include "src/overlay/kernels/near.h"
 #include "src/overlay/kernels/nearest_places.h"
 #include "src/overlay/kernels/rounding.h"
-#include "src/overlay/near.h"
 
 namespace geodesic {
 

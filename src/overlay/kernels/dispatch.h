@@ -6,8 +6,8 @@
 #include <span>
 
 #include "src/index/face_point.h"
-#include "src/overlay/codes.h"
-#include "src/overlay/tables.h"
+#include "src/overlay/tables/codes.h"
+#include "src/overlay/tables/tables.h"
 
 namespace geodesic {
 

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "src/overlay/unfolding.h"
+#include "src/overlay/kernels/unfolding.h"
 
 namespace geodesic {
 

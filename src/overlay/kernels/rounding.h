@@ -1,7 +1,7 @@
 #pragma once
 
-#include "src/overlay/codes.h"
 #include "src/overlay/kernels/lanes.h"
+#include "src/overlay/tables/codes.h"
 
 namespace geodesic {
 

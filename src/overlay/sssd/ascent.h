@@ -3,8 +3,8 @@
 #include <memory_resource>
 
 #include "src/base/prefetch.h"
-#include "src/overlay/labels.h"
-#include "src/overlay/tables.h"
+#include "src/overlay/sssd/labels.h"
+#include "src/overlay/tables/tables.h"
 
 namespace geodesic {
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <span>
 
-#include "src/overlay/border_part.h"
-#include "src/overlay/samples.h"
-#include "src/overlay/tables.h"
+#include "src/overlay/hops/border_part.h"
+#include "src/overlay/sssd/samples.h"
+#include "src/overlay/tables/tables.h"
 
 namespace geodesic {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "src/overlay/samples.h"
+#include "src/overlay/sssd/samples.h"
 
 namespace geodesic {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "src/overlay/tables.h"
+#include "src/overlay/tables/tables.h"
 
 namespace geodesic {
 

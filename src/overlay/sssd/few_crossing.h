@@ -2,9 +2,9 @@
 
 #include <memory_resource>
 
-#include "src/overlay/border_part.h"
+#include "src/overlay/hops/border_part.h"
 #include "src/overlay/kernels/dispatch.h"
-#include "src/overlay/tables.h"
+#include "src/overlay/tables/tables.h"
 
 namespace geodesic {
 

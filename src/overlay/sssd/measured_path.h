@@ -3,8 +3,8 @@
 #include <memory_resource>
 #include <span>
 
-#include "src/overlay/border_part.h"
-#include "src/overlay/overlay_crossing.h"
+#include "src/overlay/hops/border_part.h"
+#include "src/overlay/hops/overlay_crossing.h"
 #include "src/overlay/sssd/ascent.h"
 #include "src/overlay/sssd/few_crossing.h"
 

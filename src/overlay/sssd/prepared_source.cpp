@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "src/base/four_at_a_time.h"
-#include "src/overlay/ring_segments.h"
+#include "src/overlay/tables/ring_segments.h"
 
 namespace geodesic {
 

@@ -4,10 +4,10 @@
 #include <memory_resource>
 #include <optional>
 
+#include "src/overlay/fields/point_ways.h"
+#include "src/overlay/fields/ssad.h"
 #include "src/overlay/kernels/dispatch.h"
-#include "src/overlay/point_ways.h"
-#include "src/overlay/ssad.h"
-#include "src/overlay/tables.h"
+#include "src/overlay/tables/tables.h"
 
 namespace geodesic {
 

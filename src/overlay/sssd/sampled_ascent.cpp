@@ -4,7 +4,7 @@
 
 #include "src/base/prefetch.h"
 #include "src/overlay/kernels/dispatch.h"
-#include "src/overlay/samples.h"
+#include "src/overlay/sssd/samples.h"
 
 namespace geodesic {
 

@@ -3,9 +3,9 @@
 #include <memory_resource>
 #include <span>
 
-#include "src/overlay/samples.h"
 #include "src/overlay/sssd/ascent.h"
-#include "src/overlay/tables.h"
+#include "src/overlay/sssd/samples.h"
+#include "src/overlay/tables/tables.h"
 
 namespace geodesic {
 

@@ -5,9 +5,9 @@
 
 #include "src/base/prefetch.h"
 #include "src/overlay/kernels/dispatch.h"
-#include "src/overlay/ring_segments.h"
-#include "src/overlay/samples.h"
-#include "src/overlay/unfolding.h"
+#include "src/overlay/kernels/unfolding.h"
+#include "src/overlay/sssd/samples.h"
+#include "src/overlay/tables/ring_segments.h"
 
 namespace geodesic {
 

@@ -10,7 +10,7 @@
 #include "src/overlay/sssd/measured_path.h"
 #include "src/overlay/sssd/sampled_ascent.h"
 #include "src/overlay/sssd/whole_hops.h"
-#include "src/overlay/tables.h"
+#include "src/overlay/tables/tables.h"
 
 namespace geodesic {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "src/overlay/border_part.h"
+#include "src/overlay/hops/border_part.h"
 
 namespace geodesic {
 

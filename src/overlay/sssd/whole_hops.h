@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "src/overlay/samples.h"
-#include "src/overlay/tables.h"
+#include "src/overlay/sssd/samples.h"
+#include "src/overlay/tables/tables.h"
 
 namespace geodesic {
 

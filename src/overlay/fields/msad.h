@@ -1,0 +1,65 @@
+#pragma once
+
+#include <span>
+
+#include "src/overlay/fields/ascend.h"
+#include "src/overlay/fields/nearest_sources.h"
+#include "src/overlay/fields/own_distances.h"
+#include "src/overlay/hops/inner_sweep.h"
+#include "src/overlay/hops/outer_crossing.h"
+#include "src/overlay/tables/tables.h"
+
+namespace geodesic {
+
+// Distances to the nearest of multiple sources, for all destinations over overlay tables, by one sweep up
+// from all sources and one sweep down to all leaves. Each source crosses by itself the borders on which it
+// may be the nearest one. What was measured counts instead of what tables say, source by source. Vertices are
+// given by their numbers.
+class OverlayMsad {
+public:
+    OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory);
+
+    // Sets how many threads sweep() uses, at least 1. It is 1 at first.
+    void set_threads(uint32_t count);
+
+    // What a sweep fills, by number: the distance of every vertex and, unless `source` is empty, the key of
+    // the source that it comes from, or NONE where no source reaches.
+    struct Field {
+        std::span<float> distance;
+        std::span<uint32_t> source{};
+    };
+    // Patches whose whole border is farther than `radius` are skipped, and their vertices stay at infinity,
+    // but for those with measured distances.
+    void sweep(const Sources& sources, float radius, const Field& field);
+
+private:
+    // What one thread works with.
+    struct Scratch {
+        Scratch(const OverlayIndex& index, std::pmr::memory_resource* memory);
+
+        InnerSweep sweep;
+        OwnDistances own;
+    };
+
+    bool is_within(uint32_t source, uint32_t patch) const;
+    void begin(const Field& field);
+    void lower_corrected(const Field& field, uint32_t first, std::span<const float> found,
+                         uint32_t source) const;
+    void take_measured(const Field& field);
+    void correct_border_vertex(const Field& field, uint32_t border_vertex) const;
+    void hop_up(uint32_t child, std::span<float> distance);
+    void hop_down(uint32_t patch, float radius, const Field& field, Scratch& scratch);
+    void add_way(uint32_t border_vertex, float distance, uint32_t source);
+
+    const OverlayIndex& index_;
+    const Numbering& numbering_;
+    OuterCrossing up_;
+    Scratch top_; // for the sweep up, and for the patches that are not shared out to threads
+    Array<Scratch> of_thread_;
+    Array<uint32_t> sources_inside_; // per patch: how many
+    NearestSources nearest_;
+    Array<uint32_t> corrected_; // border vertices that have measured distances from any source
+    Sources sources_{};         // of the sweep that runs
+};
+
+}

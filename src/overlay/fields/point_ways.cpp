@@ -1,0 +1,197 @@
+#include "src/overlay/fields/point_ways.h"
+
+#include <algorithm>
+
+#include "src/overlay/kernels/dispatch.h"
+
+namespace geodesic {
+
+namespace {
+
+LeafVertex leaf_vertex(const Numbering& numbering, uint32_t leaf, uint32_t number) {
+    if (numbering.is_border(number)) return {numbering.border_position(leaf, number), NONE};
+    return {NONE, number - numbering.first_internal(leaf)};
+}
+
+float distance_between(const OverlayIndex& index, uint32_t leaf, const LeafVertex& a, const LeafVertex& b) {
+    const Numbering& numbering = index.numbering;
+    if (a.internal != NONE && b.internal != NONE)
+        return a.internal == b.internal
+                   ? 0
+                   : index.distance(index.internal_code(leaf, a.internal, b.internal), leaf);
+    if (a.internal != NONE)
+        return index.distance(index.border_internal_code(leaf, b.border_position, a.internal), leaf);
+    if (b.internal != NONE) return distance_between(index, leaf, b, a);
+    const uint32_t* const positions = numbering.overlay_position.data() + numbering.border_begin[leaf];
+    const uint32_t parent = numbering.parent[leaf];
+    return index.distance(
+        index.overlay_code(parent, positions[a.border_position], positions[b.border_position]), parent);
+}
+
+}
+
+bool is_in_leaf(const Numbering& numbering, uint32_t leaf, uint32_t number) {
+    if (numbering.is_border(number)) return numbering.border_position(leaf, number) != NONE;
+    return numbering.leaf_of(number) == leaf;
+}
+
+bool are_in_leaf(const Numbering& numbering, uint32_t leaf, const std::array<uint32_t, 3>& corners) {
+    return std::ranges::all_of(corners, [&](uint32_t c) { return is_in_leaf(numbering, leaf, c); });
+}
+
+// Segments from one end to the other that are no longer than the edge together lie on it.
+bool is_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b, double length) {
+    constexpr double ROUNDING = 1e-6;
+    const Numbering& numbering = index.numbering;
+    const Rings& rings = index.rings;
+    if (!numbering.is_border(a) || !numbering.is_border(b)) return false;
+    const uint32_t position = numbering.border_position(leaf, a);
+    if (position == NONE) return false;
+    for (const int step : {1, -1}) {
+        double left = length * (1 + ROUNDING);
+        uint32_t place = own_place(rings, numbering, leaf, position);
+        for (;;) {
+            const uint32_t next = step > 0 ? place + 1 : place - 1;
+            left -= double{rings.segment_length[std::min(place, next)]};
+            if (!(left >= 0)) break; // also at a gap
+            if (rings.vertex[next] == b) return true;
+            if (rings.vertex[next] == a) break; // all around
+            place = own_place(rings, numbering, leaf, rings.position[next]);
+        }
+    }
+    return false;
+}
+
+uint32_t leaf_of_face(const OverlayIndex& index, const std::array<uint32_t, 3>& corners,
+                      const std::array<double, 3>& edge_length, const std::array<uint32_t, 3>& beside) {
+    const Numbering& numbering = index.numbering;
+    for (const uint32_t corner : corners)
+        if (!numbering.is_border(corner)) {
+            const uint32_t leaf = numbering.leaf_of(corner);
+            return are_in_leaf(numbering, leaf, corners) ? leaf : NONE;
+        }
+    const auto is_joined = [&](uint32_t leaf) {
+        for (size_t k = 0; k < 3; ++k)
+            if (beside[k] != NONE && !is_in_leaf(numbering, leaf, beside[k]) &&
+                !is_on_border(index, leaf, corners[(k + 1) % 3], corners[(k + 2) % 3], edge_length[k]))
+                return false;
+        return true;
+    };
+    uint32_t any = NONE;
+    for (const PatchPosition& at : numbering.borders_of(corners[0])) {
+        if (at.patch < numbering.first_leaf() || !are_in_leaf(numbering, at.patch, corners)) continue;
+        if (is_joined(at.patch)) return at.patch;
+        if (any == NONE) any = at.patch;
+    }
+    return any;
+}
+
+float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b) {
+    return distance_between(index, leaf, leaf_vertex(index.numbering, leaf, a),
+                            leaf_vertex(index.numbering, leaf, b));
+}
+
+bool PointsInLeaf::has_both(const FacePoint& point, const FacePoint& other) const {
+    if (point.vertex != NONE) return is_in_leaf(index_.numbering, other.leaf, point.vertex);
+    if (other.vertex != NONE) return is_in_leaf(index_.numbering, point.leaf, other.vertex);
+    return point.leaf == other.leaf;
+}
+
+float PointsInLeaf::to_vertex(const FacePoint& point, uint32_t number) const {
+    const uint32_t leaf = point.leaf;
+    const LeafVertex to = leaf_vertex(index_.numbering, leaf, number);
+    std::array<double, FacePoint::MOST_VERTICES> from_vertices;
+    for (size_t k = 0; k < point.vertex_count; ++k)
+        from_vertices[k] =
+            double{distance_between(index_, leaf, leaf_vertex(index_.numbering, leaf, point.numbers[k]), to)};
+    return static_cast<float>(distance_over(point, from_vertices));
+}
+
+// Fills a row from each vertex of the point's polygon.
+template <class FillRow>
+std::span<const float> PointsInLeaf::look_out(const FacePoint& point, size_t count, const FillRow& fill_row) {
+    const size_t row_size = NearRange::whole_parts(count);
+    rows_.assign(point.vertex_count * row_size, INFINITE);
+    distances_.resize(row_size);
+    for (size_t k = 0; k < point.vertex_count; ++k) fill_row(point.numbers[k], rows_.data() + k * row_size);
+    runnable_kernels().back().look_out(point, rows_.data(), row_size, distances_.data());
+    return std::span(distances_).first(count);
+}
+
+// Over both polygons: from the vertices of the other one to the point, then to the other point.
+float PointsInLeaf::to_point(const FacePoint& point, const FacePoint& other) {
+    if (point.vertex != NONE) return to_vertex(other, point.vertex);
+    if (other.vertex != NONE) return to_vertex(point, other.vertex);
+    const uint32_t leaf = point.leaf;
+    std::array<LeafVertex, FacePoint::MOST_VERTICES> to;
+    for (size_t k = 0; k < other.vertex_count; ++k)
+        to[k] = leaf_vertex(index_.numbering, leaf, other.numbers[k]);
+    const auto from_point = look_out(point, other.vertex_count, [&](uint32_t number, float* row) {
+        const LeafVertex from = leaf_vertex(index_.numbering, leaf, number);
+        for (size_t k = 0; k < other.vertex_count; ++k) row[k] = distance_between(index_, leaf, from, to[k]);
+    });
+    std::array<double, FacePoint::MOST_VERTICES> from_vertices;
+    std::ranges::copy(from_point, from_vertices.begin());
+    return static_cast<float>(distance_over(other, from_vertices));
+}
+
+std::span<const float> PointsInLeaf::to_border(const FacePoint& point) {
+    const uint32_t leaf = point.leaf;
+    take_columns(leaf);
+    return look_out(point, columns_.size(), [&](uint32_t number, float* row) {
+        fill_border_row(leaf, leaf_vertex(index_.numbering, leaf, number), row);
+    });
+}
+
+std::span<const float> PointsInLeaf::to_all(const FacePoint& point) {
+    const uint32_t leaf = point.leaf;
+    take_columns(leaf);
+    const size_t borders = columns_.size(), inner = index_.numbering.internal_size(leaf);
+    return look_out(point, borders + inner, [&](uint32_t number, float* row) {
+        const LeafVertex from = leaf_vertex(index_.numbering, leaf, number);
+        fill_border_row(leaf, from, row);
+        fill_internal_row(leaf, from, row + borders);
+    });
+}
+
+void PointsInLeaf::take_columns(uint32_t leaf) {
+    const Numbering& numbering = index_.numbering;
+    const uint32_t* const positions = numbering.overlay_position.data() + numbering.border_begin[leaf];
+    columns_.resize(numbering.border_size(leaf));
+    for (size_t i = 0; i < columns_.size(); ++i)
+        columns_[i] = index_.overlay_column(numbering.parent[leaf], positions[i]);
+}
+
+void PointsInLeaf::fill_border_row(uint32_t leaf, const LeafVertex& from, float* row) const {
+    const Numbering& numbering = index_.numbering;
+    const uint32_t first_slot = numbering.border_begin[leaf];
+    if (from.internal != NONE) {
+        const uint16_t* const codes = index_.hops.inner.data() + index_.inner_row(leaf, from.internal);
+        for (size_t i = 0; i < columns_.size(); ++i)
+            row[i] = index_.distance(codes[index_.rings.place_of_slot[first_slot + i]], leaf);
+        return;
+    }
+    const uint32_t parent = numbering.parent[leaf],
+                   position = numbering.overlay_position[first_slot + from.border_position];
+    for (size_t i = 0; i < columns_.size(); ++i)
+        row[i] = index_.distance(index_.overlay_code(parent, position, columns_[i]), parent);
+}
+
+void PointsInLeaf::fill_internal_row(uint32_t leaf, const LeafVertex& from, float* row) const {
+    for (uint32_t i = 0; i < index_.numbering.internal_size(leaf); ++i)
+        row[i] = distance_between(index_, leaf, from, {NONE, i});
+}
+
+// The codes that fill up the last block are those of vertices that are not reached.
+void fill_row(const OverlayIndex& index, uint32_t leaf, std::span<const float> to_border, PointRow& row) {
+    const uint32_t first = index.rings.begin[leaf], places = index.rings.size(leaf);
+    float longest = 0;
+    for (const float distance : to_border)
+        if (distance < INFINITE) longest = std::max(longest, distance);
+    row.quantum = longest / float{TableCode::LARGEST};
+    row.codes.assign(SourceCode::whole_blocks(places) + TableCode::PADDING, TableCode::UNREACHED);
+    for (uint32_t k = 0; k < places; ++k)
+        row.codes[k] = TableCode::nearest_to(to_border[index.rings.position[first + k]], row.quantum);
+}
+
+}

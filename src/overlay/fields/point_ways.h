@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+
+#include "src/index/face_point.h"
+#include "src/overlay/tables/tables.h"
+
+namespace geodesic {
+
+// What a point of a face is to a sweep: the distances to the border and to the internal vertices of a leaf,
+// as if it were an internal vertex of that leaf itself.
+struct PointWays {
+    explicit PointWays(std::pmr::memory_resource* memory) : distance(memory) {}
+
+    uint32_t leaf = NONE;
+    Array<float> distance; // border vertices in the order of the border, then internal vertices
+};
+
+// A vertex with the place that the tables of a leaf have for it.
+struct LeafVertex {
+    uint32_t border_position; // NONE if it is internal
+    uint32_t internal;        // counted from the first one of the leaf
+};
+
+// Whether a vertex is inside of a leaf or on its border.
+bool is_in_leaf(const Numbering& numbering, uint32_t leaf, uint32_t number);
+// Whether all corners of a face are.
+bool are_in_leaf(const Numbering& numbering, uint32_t leaf, const std::array<uint32_t, 3>& corners);
+
+// Whether the edge between two vertices runs along the border of a leaf. It may be cut into several segments
+// by added vertices.
+bool is_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b, double length);
+
+// A leaf with all three corners of a face inside of it or on its border, or NONE: where added vertices have
+// cut the face, or pruning has taken corners from borders, there may be none. Where several leaves have all
+// corners, that one is asked for which the face lies in: it also has the vertices beside the face, but for
+// those behind its border. beside[k] is the vertex of another face at the edge opposite to corner k, or NONE.
+uint32_t leaf_of_face(const OverlayIndex& index, const std::array<uint32_t, 3>& corners,
+                      const std::array<double, 3>& edge_length, const std::array<uint32_t, 3>& beside);
+
+// The distance of two such vertices, by the tables.
+float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b);
+
+// Distances of points by the tables of their leaves, which have all vertices of their polygons. What is
+// returned lasts until the next call.
+class PointsInLeaf {
+public:
+    PointsInLeaf(const OverlayIndex& index, std::pmr::memory_resource* memory)
+        : index_(index), columns_(memory), rows_(memory), distances_(memory) {}
+
+    // Whether two points, of which one is not at a vertex, are in one leaf.
+    bool has_both(const FacePoint& point, const FacePoint& other) const;
+    // From such a point.
+    float to_point(const FacePoint& point, const FacePoint& other);
+    // From one vertex of the leaf.
+    float to_vertex(const FacePoint& point, uint32_t number) const;
+    // From the border of the leaf, in the order of the border.
+    std::span<const float> to_border(const FacePoint& point);
+    // From the border of the leaf, then from its internal vertices.
+    std::span<const float> to_all(const FacePoint& point);
+
+private:
+    template <class FillRow>
+    std::span<const float> look_out(const FacePoint& point, size_t count, const FillRow& fill_row);
+    void take_columns(uint32_t leaf);
+    void fill_border_row(uint32_t leaf, const LeafVertex& from, float* row) const;
+    void fill_internal_row(uint32_t leaf, const LeafVertex& from, float* row) const;
+
+    const OverlayIndex& index_;
+    Array<OverlayColumn> columns_; // of the border's vertices, in the overlay of the leaf's parent
+    Array<float> rows_, distances_;
+};
+
+// The row of a point to the ring of its leaf, as the inner table has it for vertices, but in steps of its
+// own: the tables of the leaf may hold no distance that is as long, or none at all.
+struct PointRow {
+    explicit PointRow(std::pmr::memory_resource* memory) : codes(memory) {}
+
+    float quantum = 0;
+    Array<uint16_t> codes;
+};
+// From the distances by position in the border.
+void fill_row(const OverlayIndex& index, uint32_t leaf, std::span<const float> to_border, PointRow& row);
+
+}

@@ -1,0 +1,32 @@
+#include "src/overlay/prepare/proportion.h"
+
+#include <string>
+
+#include "format/error.h"
+#include "src/overlay/prepare/bounds.h"
+#include "src/overlay/sssd/labels.h"
+#include "src/overlay/sssd/samples.h"
+
+namespace geodesic {
+
+// No sum wraps around, since a ring has fewer than 2^15 places and there are fewer than 2^32 vertices.
+uint64_t derived_codes(const OverlayIndex& index) {
+    uint64_t codes = count_bound_codes(index) + count_sample_codes(index) + count_label_codes(index);
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) codes += index.hop_table_size(p);
+    return codes;
+}
+
+uint64_t stored_numbers(const OverlayIndex& index) {
+    const Numbering& numbering = index.numbering;
+    return numbering.border.size() + numbering.vertex_count() + numbering.overlay_engine_entries();
+}
+
+void require_proportion(const OverlayIndex& index) {
+    const uint64_t derived = derived_codes(index), stored = stored_numbers(index);
+    if (derived > ALWAYS_DERIVED && (derived - ALWAYS_DERIVED) / MOST_DERIVED_EACH > stored)
+        throw Error(GEOIDX_ERROR_LIMIT, "the overlay engine would derive " + std::to_string(derived) +
+                                            " codes from " + std::to_string(stored) +
+                                            " numbers, which is out of proportion");
+}
+
+}
