@@ -9,9 +9,9 @@ namespace geodesic {
 
 namespace {
 
-constexpr size_t LANES = 8; // so many codes are compared at once. All of them are below 2^15.
+constexpr size_t CODES_AT_ONCE = 8; // all codes are below 2^15
 
-using Steps = VectorOf<int16_t, LANES * sizeof(int16_t)>::Type;
+using SignedCodes = VectorOf<int16_t, CODES_AT_ONCE * sizeof(int16_t)>::Type;
 
 // The largest whole number of steps that is not more, if that is a code.
 uint16_t whole_steps(float steps) {
@@ -32,7 +32,7 @@ void MiddleRaiser::raise(uint32_t leaf, uint16_t* middles) {
     count_ = index_.numbering.internal_size(leaf);
     if (count_ > MOST_VERTICES) return;
     places_ = index_.rings.size(leaf);
-    whole_places_ = (places_ + LANES - 1) / LANES * LANES;
+    whole_places_ = (places_ + CODES_AT_ONCE - 1) / CODES_AT_ONCE * CODES_AT_ONCE;
     copy_derived();
     // Only near vertices raise each other. Middles are derived too short by a part of a segment, which the
     // share that is let pass between vertices farther apart would cover.
@@ -74,16 +74,16 @@ void MiddleRaiser::compare(size_t i, size_t j, uint16_t allowed) {
 // Whether two rows differ by more than so much in any place.
 bool MiddleRaiser::differ(size_t i, size_t j, uint16_t allowed) const {
     const uint16_t *first = derived(i), *second = derived(j);
-    Steps largest{};
-    for (size_t k = 0; k < whole_places_; k += LANES) {
-        Steps of_first, of_second;
+    SignedCodes largest{};
+    for (size_t k = 0; k < whole_places_; k += CODES_AT_ONCE) {
+        SignedCodes of_first, of_second;
         load(first + k, of_first);
         load(second + k, of_second);
-        const Steps difference = of_first - of_second, opposite = of_second - of_first;
+        const SignedCodes difference = of_first - of_second, opposite = of_second - of_first;
         largest = largest > difference ? largest : difference;
         largest = largest > opposite ? largest : opposite;
     }
-    return any<Steps>(largest > static_cast<int16_t>(allowed));
+    return any<SignedCodes>(largest > static_cast<int16_t>(allowed));
 }
 
 void MiddleRaiser::raise_row(size_t i, const uint16_t* by, uint16_t allowed) {
