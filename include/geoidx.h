@@ -278,11 +278,12 @@ static inline void geoidx_build_options_init(geoidx_build_options* options) {
 
 /* Flags of geoidx_open_options. GEOIDX_OPEN_PAIRS makes an index ready for pairs of vertices while it is
  * opened: about 0.1 s for 40,000 vertices. Without it, the first call that asks for a pair (geoidx_sssd,
- * geoidx_query_sssd and the like) makes a part of what pairs need, in a tenth of that time, and takes the
- * memory for all of it, about as much as the rest of the index; each later one makes what is missing around
- * its vertices, which takes 1 to 15 ms, once for all threads, some thirty times for 40,000 vertices. An index
- * of which only fields are asked never takes either. It is the same for an index that was just built. The
- * answers are the same bits. Nothing is made for GEOIDX_ENGINE_GRAPH. */
+ * geoidx_query_sssd and the like) makes a part of what pairs need, in up to a third of that time, and takes
+ * the memory for all of it, about as much as the rest of the index; each later one makes what is missing
+ * around its vertices, which takes 1 to 15 ms and half as much memory again meanwhile, once for all threads,
+ * some thirty times for 40,000 vertices. An index of which only fields are asked never takes either. It is
+ * the same for an index that was just built. The answers are the same bits. Nothing is made for
+ * GEOIDX_ENGINE_GRAPH. */
 enum {
     GEOIDX_OPEN_PAIRS = 1,
     /* geoidx_open_memory only: `data` stays as it is until geoidx_close, so that the tables of a file of

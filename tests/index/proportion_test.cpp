@@ -16,8 +16,14 @@ uint64_t sample_codes(const OverlayIndex& index) {
     return index.pairs.samples.codes.size() - TableCode::PADDING;
 }
 uint64_t label_codes(const OverlayIndex& index) {
-    const Room<uint8_t>& rows = index.pairs.labels->rows;
-    return rows ? (rows.get_deleter().size - LABEL_ROW_PADDING) / sizeof(uint16_t) : 0;
+    const Labels& labels = *index.pairs.labels;
+    uint64_t codes = 0;
+    for (uint32_t p = 1; p < index.numbering.patch_count(); ++p)
+        for (uint32_t q = index.numbering.parent[p]; q != NONE; q = index.numbering.parent[q])
+            if (labels.is_labelled[q]) codes += uint64_t{index.numbering.inner_size(p)} * index.rings.size(q);
+    const uint64_t bytes = labels.rows ? labels.rows.get_deleter().size : 0;
+    CHECK(bytes <= sizeof(uint16_t) * codes + LABEL_ROW_PADDING * index.numbering.patch_count());
+    return codes;
 }
 uint64_t codes_made(const OverlayIndex& index) {
     return index.hops.border_begin.back() + index.hops.owned_begin.back() +

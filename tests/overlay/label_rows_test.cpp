@@ -15,8 +15,11 @@ using Codes = std::vector<uint16_t>;
 
 // What is read of a row that was written, of which nothing else is known but its size.
 Codes there_and_back(const Codes& codes, const Codes& runs) {
-    std::vector<uint8_t> row(label_row_size(codes.size(), runs.size()) + LABEL_ROW_PADDING, 0xee);
+    const size_t size = label_row_size(codes.size(), runs.size());
+    std::vector<uint8_t> row(size + LABEL_ROW_PADDING, 0xee);
     write_label_row(codes, runs, row.data());
+    CHECK(std::all_of(row.begin() + static_cast<ptrdiff_t>(size), row.end(),
+                      [](uint8_t byte) { return byte == 0xee; }));
     Codes read(codes.size() + LABEL_ROW_PADDING);
     read_label_row(row.data(), runs, codes.size(), read.data());
     read.resize(codes.size());
@@ -31,7 +34,7 @@ Codes random_codes(size_t places, const Codes& runs, int most, uint32_t seed) {
         const bool begins = std::ranges::binary_search(runs, place);
         const int step = static_cast<int>(random() % static_cast<uint32_t>(2 * most + 1)) - most;
         codes[place] = static_cast<uint16_t>(
-            begins ? random() % 32768 : static_cast<uint32_t>(std::clamp(codes[place - 1] + step, 0, 32767)));
+            begins ? random() % 32767 : static_cast<uint32_t>(std::clamp(codes[place - 1] + step, 0, 32766)));
     }
     return codes;
 }
@@ -51,6 +54,15 @@ TEST_CASE("label rows: what is written is read, for runs of all lengths") {
     CHECK(different == 0);
 }
 
+TEST_CASE("label rows: steps of up to 127 fit") {
+    for (const int step : {127, -127}) {
+        const Codes codes{500, static_cast<uint16_t>(500 + step), 500};
+        CHECK(there_and_back(codes, {0}) == codes);
+    }
+    CHECK(there_and_back({500, 628, 628}, {0}) == Codes{500, 627, 628});
+    CHECK(there_and_back({500, 372, 372}, {0}) == Codes{500, 373, 372});
+}
+
 TEST_CASE("label rows: one byte a place, and two more where a run begins; or two bytes a place") {
     CHECK(label_row_size(300, 1) == 302);
     CHECK(label_row_size(300, 40) == 380);
@@ -68,17 +80,19 @@ TEST_CASE("label rows: a step that does not fit is made up by those after it") {
     }
 }
 
-TEST_CASE("label rows: no path stays none, in the same run and beside others") {
+TEST_CASE("label rows: no path stays none, and takes the rest of its run with it") {
     Codes codes(30, TableCode::UNREACHED);
     CHECK(there_and_back(codes, {0}) == codes);
     std::fill(codes.begin() + 12, codes.begin() + 20, uint16_t{77});
     CHECK(there_and_back(codes, {0, 12, 20}) == codes);
+    CHECK(there_and_back(codes, {0, 20}) == Codes(30, TableCode::UNREACHED));
 }
 
 TEST_CASE("label rows: runs begin with each chain and behind long segments, of which there are few") {
     static const TestMesh mesh = hills(30, 24);
     const OverlayOf made(mesh, options_of_plane(mesh, {3, 3}));
     const Rings& rings = made.overlay().rings;
+    size_t longer_of_all = 0;
     for (uint32_t patch = 1; patch < made.overlay().numbering.patch_count(); ++patch) {
         const uint32_t ring = rings.begin[patch];
         Array<uint16_t> runs(std::pmr::get_default_resource());
@@ -97,7 +111,9 @@ TEST_CASE("label rows: runs begin with each chain and behind long segments, of w
             longer += rings.is_own[place] != 0 && is_long;
         }
         CHECK(longer <= segments / 16);
+        longer_of_all += longer;
         // Two places at each end of a closed chain repeat segments.
         CHECK(runs.size() <= chains + longer + 4 * chains);
     }
+    CHECK(longer_of_all > 0);
 }

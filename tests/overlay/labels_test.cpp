@@ -131,8 +131,14 @@ TEST_CASE("labels: along edges they are those of MSAD from the border vertex, wi
 }
 
 TEST_CASE("labels: to the two outermost borders that are neither empty nor have more than 400 places") {
-    uint32_t by_level[3] = {};
-    for (const Labelled& made : on_planes()) {
+    uint32_t by_level[4] = {}, left_out = 0;
+    static const TestMesh square = grid(40, 40, 0.2);
+    std::list<Labelled> deep;
+    deep.emplace_back(square, options_of_plane(square, {2, 2, 2, 2}));
+    std::vector<const Labelled*> all{&deep.front()};
+    for (const Labelled& made : on_planes()) all.push_back(&made);
+    for (const Labelled* const one : all) {
+        const Labelled& made = *one;
         const OverlayIndex& index = made.overlay();
         const Numbering& numbering = index.numbering;
         uint64_t codes = 0;
@@ -143,6 +149,7 @@ TEST_CASE("labels: to the two outermost borders that are neither empty nor have 
                     expected.push_back(p);
                     ++by_level[level];
                 }
+            left_out += expected.size() > 2;
             if (expected.size() > 2) expected.erase(expected.begin(), expected.end() - 2);
             for (uint32_t p = leaf; p != 0; p = numbering.parent[p])
                 CHECK(index.pairs.labels->is_labelled[p] == (std::ranges::count(expected, p) > 0));
@@ -153,6 +160,7 @@ TEST_CASE("labels: to the two outermost borders that are neither empty nor have 
     }
     CHECK(by_level[1] > 0);
     CHECK(by_level[2] > 0);
+    CHECK(left_out > 0);
 }
 
 TEST_CASE("labels: none where there is one level, and where borders are too long") {
@@ -248,7 +256,7 @@ TEST_CASE("labels: on a plane, straight lines that cross borders between vertice
     }
 }
 
-TEST_CASE("labels: rows of large indices have a byte a place, and few steps do not fit") {
+TEST_CASE("labels: where distances are many segments long, rows have a byte a place") {
     static const TestMesh large = grid(130, 130, 0.2);
     const Labelled made(large, options_of_plane(large, {4, 4, 4}));
     const OverlayIndex& index = made.overlay();
@@ -263,8 +271,53 @@ TEST_CASE("labels: rows of large indices have a byte a place, and few steps do n
         });
     CHECK(wrong == 0);
     CHECK(sum / static_cast<double>(count) < 0.005);
+    uint32_t labelled = 0;
     for (uint32_t p = 1; p < index.numbering.first_leaf(); ++p)
-        if (labels.is_labelled[p]) CHECK(labels.runs_of(p).size() < index.rings.size(p) / 4);
+        if (labels.is_labelled[p]) {
+            CHECK(labels.runs_of(p).size() < index.rings.size(p) / 4);
+            CHECK(labels.quantum[p] <= 3 * index.quantum[0]);
+            ++labelled;
+        }
+    CHECK(labelled > 1);
+    CHECK(labels.rows.get_deleter().size < sizeof(uint16_t) * count_label_codes(index));
+}
+
+TEST_CASE("labels: distances of few of their steps are those without labels") {
+    static const TestMesh large = grid(130, 130, 0.2);
+    const Labelled made(large, options_of_plane(large, {4, 4, 4}));
+    Index bare(std::pmr::get_default_resource());
+    prepare(restore(made.built.index), bare);
+    leave_out_labels(bare);
+    Query with(made.built.index, std::pmr::get_default_resource());
+    Query without(bare, std::pmr::get_default_resource());
+    const auto& labels = *made.overlay().pairs.labels;
+    const float few = 1000 * std::ranges::max(labels.quantum);
+    uint32_t near = 0, different = 0, far = 0, far_and_different = 0;
+    for (uint32_t a = 0; a + 131 < made.mesh.vertex_count(); a += 17)
+        for (const uint32_t b : {a + 1, a + 131, (a * 7919) % made.mesh.vertex_count()}) {
+            if (a == b) continue;
+            const float distance = without.sssd(a, b);
+            const bool differs = with.sssd(a, b) != distance;
+            (distance < 0.9f * few ? near : far) += 1;
+            (distance < 0.9f * few ? different : far_and_different) += differs;
+        }
+    CHECK(different == 0);
+    CHECK(near > 1000);
+    CHECK(far_and_different > far / 10);
+}
+
+TEST_CASE("labels: where distances are few segments long, rows have two bytes a place") {
+    for (const Labelled& made : on_planes()) {
+        const OverlayIndex& index = made.overlay();
+        const Labels& labels = *index.pairs.labels;
+        for (uint32_t p = 1; p < index.numbering.first_leaf(); ++p) {
+            if (!labels.is_labelled[p]) continue;
+            Array<uint16_t> runs(std::pmr::get_default_resource());
+            const float needed = find_runs(index.rings, p, runs);
+            const float coarsest = std::ranges::max(index.quantum);
+            CHECK((labels.runs_of(p).size() == index.rings.size(p)) == (needed > 3 * coarsest));
+        }
+    }
 }
 
 TEST_CASE("labels: to a border that cannot be reached there is no distance") {

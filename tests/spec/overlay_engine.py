@@ -12,7 +12,7 @@ f = numpy.float32
 INFINITE = f(numpy.inf)
 LARGEST, NO_PATH = 32766, 32767
 MOST_LABEL_PLACES, MOST_LABELS = 400, 2
-FEWEST_VERTICES_OF_RUNS, STEPS_OF_LONGEST = 1 << 14, f(124)
+STEPS_OF_LONGEST, MOST_OF_COARSEST = f(124), f(3)
 
 
 class Border:
@@ -291,9 +291,8 @@ class OverlayEngine:
         """With which the steps along all segments but a few long ones fit into a byte."""
         lengths = numpy.sort(self.borders[patch].length)  # NaN comes last
         count = numpy.count_nonzero(~numpy.isnan(lengths))
-        if self.index.vertex_count < FEWEST_VERTICES_OF_RUNS or count == 0:
-            return f(0)
-        return lengths[count - 1 - count // 16] / STEPS_OF_LONGEST
+        least = lengths[count - 1 - count // 16] / STEPS_OF_LONGEST if count > 0 else f(0)
+        return least if least <= MOST_OF_COARSEST * numpy.max(self.quantum) else f(0)
 
     @staticmethod
     def in_steps(distances, least_quantum):

@@ -13,7 +13,7 @@ namespace Geoidx
         /// <summary>
         /// Makes what distances between two vertices need while the index is opened. Otherwise the first one that is
         /// asked for makes a part of it, and takes the memory for all, and later ones make the rest as they need it,
-        /// which takes 1 to 15 ms each time; where only fields are asked for, it is never made and takes no memory.
+        /// which takes 1 to 15 ms each time for 40,000 vertices; where only fields are asked for, it is never made and takes no memory.
         /// Default: false.
         /// </summary>
         public bool Pairs { get; set; }

@@ -25,7 +25,7 @@ inline RingRow inner_row_of(const OverlayIndex& index, uint32_t vertex) {
 }
 
 // The row of the label of a vertex that lies deeper inside of a labelled patch than its inner vertices.
-inline const uint8_t* label_of(const OverlayIndex& index, uint32_t vertex, uint32_t labelled) {
+inline const uint8_t* label_row_of(const OverlayIndex& index, uint32_t vertex, uint32_t labelled) {
     const Numbering& numbering = index.numbering;
     require_labels(index, labelled);
     const Labels& labels = *index.pairs.labels;
@@ -40,7 +40,7 @@ inline const uint8_t* label_of(const OverlayIndex& index, uint32_t vertex, uint3
 // the ends meet.
 struct Ascent {
     Ascent(const OverlayIndex& index, std::pmr::memory_resource* memory)
-        : patches(memory), label_codes(index.rings.largest_size() + LABEL_ROW_PADDING, memory) {
+        : patches(memory), label_codes(MOST_LABEL_PLACES + LABEL_ROW_PADDING, memory) {
         patches.reserve(index.numbering.level_count());
     }
 
@@ -48,9 +48,10 @@ struct Ascent {
 
     uint32_t vertex = 0;
     Array<uint32_t> patches;
-    RingRow first_row;              // from the vertex to the border of the first patch,
-    const uint8_t* label = nullptr; // unless this is a label that has not been read
-    Array<uint16_t> label_codes;    // of the first row, if it is a label
+    RingRow first_row;                     // from the vertex to the border of the first patch
+    float label_quantum = 0;               // of that row, if it is a label, and otherwise 0
+    const uint8_t* unread_label = nullptr; // what read_label() has yet to read the first row from, or NULL
+    Array<uint16_t> label_codes;           // of the first row, if it is a label
 };
 
 // The end of a path: a vertex, or a point of a face with its row to the ring of a leaf (see fill_row).
@@ -70,46 +71,51 @@ inline uint32_t innermost_patch(const Numbering& numbering, const PathEnd& end) 
 inline void climb_from_point(const OverlayIndex& index, const PathEnd& end, uint32_t top, Ascent& ascent) {
     ascent.vertex = NONE;
     ascent.patches.clear();
-    ascent.label = nullptr;
+    ascent.label_quantum = 0;
+    ascent.unread_label = nullptr;
     ascent.first_row = {end.row, index.rings.begin[end.leaf], end.quantum};
     for (uint32_t patch = end.leaf; patch != top; patch = index.numbering.parent[patch])
         ascent.patches.push_back(patch);
 }
 
-// Climbs from a vertex up to a child of `top`. A label is found and asked for, but has yet to be read.
-inline void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, Ascent& ascent) {
+// Climbs from a vertex up to a child of `top`. A label is asked for, and read by read_label() later,
+// so that the rows of both ends are loaded at the same time.
+inline void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, bool with_labels,
+                  Ascent& ascent) {
     const Numbering& numbering = index.numbering;
     const uint32_t innermost = numbering.innermost_patch(vertex);
     ascent.vertex = vertex;
-    ascent.label = nullptr;
+    ascent.label_quantum = 0;
+    ascent.unread_label = nullptr;
     ascent.patches.clear();
     if (innermost == top) return;
     uint32_t labelled = NONE;
     for (uint32_t patch = innermost; patch != top; patch = numbering.parent[patch]) {
-        if (patch != innermost && index.pairs.labels->is_labelled[patch]) {
+        if (with_labels && patch != innermost && index.pairs.labels->is_labelled[patch]) {
             ascent.patches.clear();
             labelled = patch;
         }
         ascent.patches.push_back(patch);
     }
-    const size_t places = index.rings.size(ascent.patches.front());
     if (labelled != NONE) {
-        ascent.label = label_of(index, vertex, labelled);
-        prefetch(ascent.label, label_row_size(places, index.pairs.labels->runs_of(labelled).size()));
+        ascent.unread_label = label_row_of(index, vertex, labelled);
+        ascent.label_quantum = index.pairs.labels->quantum[labelled];
+        prefetch(ascent.unread_label, label_row_size(index, *index.pairs.labels, labelled));
     } else {
         ascent.first_row = inner_row_of(index, vertex);
-        prefetch(ascent.first_row.codes, places);
+        prefetch(ascent.first_row.codes, index.rings.size(innermost));
     }
 }
 
 // Reads the label that a climb has found, if it has.
 inline void read_label(const OverlayIndex& index, Ascent& ascent) {
-    if (!ascent.label) return;
+    if (!ascent.unread_label) return;
     const Labels& labels = *index.pairs.labels;
     const uint32_t labelled = ascent.patches.front();
-    read_label_row(ascent.label, labels.runs_of(labelled), index.rings.size(labelled),
+    read_label_row(ascent.unread_label, labels.runs_of(labelled), index.rings.size(labelled),
                    ascent.label_codes.data());
-    ascent.first_row = {ascent.label_codes.data(), index.rings.begin[labelled], labels.quantum[labelled]};
+    ascent.first_row = {ascent.label_codes.data(), index.rings.begin[labelled], ascent.label_quantum};
+    ascent.unread_label = nullptr;
 }
 
 }

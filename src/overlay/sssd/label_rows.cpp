@@ -8,20 +8,20 @@ namespace geodesic {
 
 namespace {
 
-// Of the segments of a border, one of so many may be long.
-constexpr size_t ONE_LONG_OF = 16;
+// At most one of so many segments of a border is long.
+constexpr size_t SEGMENTS_FOR_A_LONG_ONE = 16;
 
-// The longest of the others is so many steps long. Those of a row may be a little more, where a distance in
-// it is not exact, and MOST_OF_BYTE fit.
+// The longest of the others spans so many steps. Distances that are not exact differ by a few more, which
+// still fit: a byte holds up to MOST_OF_BYTE.
 constexpr float STEPS_OF_LONGEST = 124;
 constexpr int MOST_OF_BYTE = 127;
 
-// Segments of a border up to this length are not long; 0 if it has none.
-float longest_of_runs(const Rings& rings, uint32_t patch) {
+// The length up to which segments of a border are not long; 0 if it has none.
+float longest_of_short_segments(const Rings& rings, uint32_t patch) {
     std::vector<float> lengths;
     for_each_segment(rings, patch, [&](uint32_t, float length) { lengths.push_back(length); });
     if (lengths.empty()) return 0;
-    const auto longest = lengths.end() - 1 - static_cast<ptrdiff_t>(lengths.size() / ONE_LONG_OF);
+    const auto longest = lengths.end() - 1 - static_cast<ptrdiff_t>(lengths.size() / SEGMENTS_FOR_A_LONG_ONE);
     std::ranges::nth_element(lengths, longest);
     return *longest;
 }
@@ -68,7 +68,7 @@ void add_up(EightSums& lanes) {
 
 float find_runs(const Rings& rings, uint32_t patch, Array<uint16_t>& runs) {
     const uint32_t ring = rings.begin[patch];
-    const float longest = longest_of_runs(rings, patch);
+    const float longest = longest_of_short_segments(rings, patch);
     for (const auto& [first, last, is_closed] : rings.chains_of(patch)) {
         runs.push_back(static_cast<uint16_t>(first - Rings::REACH - ring));
         for (uint32_t place = first - Rings::REACH; place < last + Rings::REACH; ++place)
@@ -85,10 +85,15 @@ void write_label_row(std::span<const uint16_t> codes, std::span<const uint16_t> 
     }
     uint8_t* const steps = row + runs.size_bytes();
     for_each_run(runs, codes.size(), [&](size_t run, size_t first, size_t end) {
-        std::memcpy(row + run * sizeof(uint16_t), &codes[first], sizeof(uint16_t));
-        steps[first] = 0;
         const auto of_run = codes.subspan(first, end - first);
-        if (!take_steps(of_run, steps + first)) take_steps_that_fit(of_run, steps + first);
+        const bool has_unreached = std::ranges::count(of_run, TableCode::UNREACHED) > 0;
+        const uint16_t code = has_unreached ? TableCode::UNREACHED : of_run.front();
+        std::memcpy(row + run * sizeof code, &code, sizeof code);
+        steps[first] = 0;
+        if (has_unreached)
+            std::fill(steps + first, steps + end, uint8_t{0});
+        else if (!take_steps(of_run, steps + first))
+            take_steps_that_fit(of_run, steps + first);
     });
 }
 

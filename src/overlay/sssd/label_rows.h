@@ -11,25 +11,31 @@
 namespace geodesic {
 
 // The row of a label in memory: the code of a distance to each place of a ring, in little more than one byte
-// a place. Along a chain of a border, distances from a vertex change by no more than the lengths of segments,
-// so a row holds the codes of a few places, and of all others by how many steps they differ from the code
-// before.
+// a place. Along a chain, the distances of a vertex from two neighbouring places differ by no more than the
+// segment between them is long. So a row holds the codes of a few places in full; each other place has one
+// byte, the difference from the code before.
 //
 // A *run* is a sequence of places of a ring whose first one has a code of two bytes. It ends with its chain,
 // and before a place that a long segment leads to. A row begins with the codes of all runs. Then comes a byte
 // with a sign for each place of the ring, the steps from the place before; 0 where a run begins. Where every
 // place is a run by itself, there are the codes alone.
+//
+// At most one segment in 16 of a border is long. The quantum of a label is chosen so that the longest of the
+// others spans 124 steps.
 
 // Adds the first place of each run of a patch's border, counted from the first one of its ring. Returns the
-// least quantum with which the steps along all segments but long ones fit into a byte.
+// quantum with which the longest segment that is not long spans 124 steps; 0 if there are no segments.
 float find_runs(const Rings& rings, uint32_t patch, Array<uint16_t>& runs);
 
-// In bytes.
+// In bytes. With the runs that find_runs() finds this is less than two bytes a place: a chain, of five places
+// or more, has one run, and one in 16 of its segments, three where they are repeated, has another.
 inline size_t label_row_size(size_t places, size_t runs) {
     return runs * sizeof(uint16_t) + (runs < places ? places : 0);
 }
 
-// Steps that do not fit into a byte are made as large as fits, and those after them lead back to the codes.
+// Of a ring's codes and runs, of which the first one begins at its first place. Steps that do not fit into a
+// byte are made as large as fits, and those after them lead back to the codes. A run that has places with a
+// path and places without, which only a file that lies can have, is written as one without.
 void write_label_row(std::span<const uint16_t> codes, std::span<const uint16_t> runs, uint8_t* row);
 
 // Reads the codes of so many places. Up to LABEL_ROW_PADDING bytes behind the row are read, and as many codes

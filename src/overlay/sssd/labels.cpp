@@ -4,6 +4,7 @@
 #include <bit>
 #include <memory_resource>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,12 +20,12 @@ namespace {
 
 constexpr size_t SOURCES = InnerSweep::MOST_SOURCES;
 
-// A labelled border has at most so many places, and at most so many labelled patches lie one in another.
-constexpr uint32_t MOST_PLACES = 400, MOST_LABELS = 2;
+// A vertex has at most so many labels.
+constexpr uint32_t MOST_LABELS = 2;
 
-// Distances of a smaller index are short, so that the steps of rows with few codes would round them by too
-// large a share; and it needs less memory.
-constexpr uint32_t FEWEST_VERTICES_OF_RUNS = 1 << 14;
+// Labels that hold codes of two bytes alone have finer steps. They do where those of one byte would be more
+// than so many times as coarse as those of the coarsest table, that of the whole mesh.
+constexpr float MOST_OF_COARSEST = 3;
 
 // Calls use(patch) for each patch to be labelled.
 template <class Use>
@@ -34,7 +35,7 @@ void for_each_labelled(const OverlayIndex& index, const Use& use) {
     for (uint32_t p = 1; p < numbering.first_leaf(); ++p) {
         const uint32_t places = index.rings.size(p);
         labels[p] = labels[numbering.parent[p]];
-        if (labels[p] == MOST_LABELS || places == 0 || places > MOST_PLACES) continue;
+        if (labels[p] == MOST_LABELS || places == 0 || places > MOST_LABEL_PLACES) continue;
         ++labels[p];
         use(p);
     }
@@ -50,21 +51,32 @@ std::vector<uint32_t> vertices_within(const Numbering& numbering) {
     return within;
 }
 
-// How many rows lead to the border of a labelled patch. within[p] is as above.
-uint32_t label_rows(const Numbering& numbering, std::span<const uint32_t> within, uint32_t patch) {
+// How many rows lead to the border of a labelled patch. `within` is of vertices_within().
+uint32_t count_label_rows(const Numbering& numbering, std::span<const uint32_t> within, uint32_t patch) {
     return within[patch] - numbering.inner_size(patch);
 }
 
-// Fills Labels::before.
-void count_vertices_before(const Numbering& numbering, std::span<const uint32_t> within,
-                           std::span<uint32_t> before) {
+// Fills Labels::first_rank.
+void rank_vertices(const Numbering& numbering, std::span<const uint32_t> within,
+                   std::span<uint32_t> first_rank) {
     for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
-        uint32_t next = before[p] + numbering.inner_size(p);
+        uint32_t next = first_rank[p] + numbering.inner_size(p);
         for (uint32_t child = numbering.child_begin[p]; child < numbering.child_begin[p + 1]; ++child) {
-            before[child] = next;
+            first_rank[child] = next;
             next += within[child];
         }
     }
+}
+
+// Adds the runs of a labelled border, and returns the least quantum of its rows, or 0 where each place is a
+// run. `coarsest` is the quantum of the coarsest table.
+float choose_runs(const OverlayIndex& index, uint32_t patch, float coarsest, Array<uint16_t>& runs) {
+    const size_t before = runs.size();
+    const float quantum = find_runs(index.rings, patch, runs);
+    if (quantum <= MOST_OF_COARSEST * coarsest) return quantum;
+    runs.resize(before + index.rings.size(patch));
+    std::iota(runs.begin() + static_cast<ptrdiff_t>(before), runs.end(), uint16_t{0});
+    return 0;
 }
 
 // Sweeps from the border of a patch down to the inner vertices of all its descendants, with SOURCES border
@@ -145,10 +157,10 @@ private:
         const auto runs = labels_.runs_of(labelled);
         of_places_.resize(index_.rings.size(labelled));
         uint8_t* row = labels_.rows.get() + label_row_begin(index_, labels_, patch, 0, labelled);
-        for (size_t codes = 0; codes < codes_.size(); codes += border_size_) {
-            lay_out_by_places(labelled, codes_.data() + codes);
+        for (size_t first_of_row = 0; first_of_row < codes_.size(); first_of_row += border_size_) {
+            lay_out_by_places(labelled, codes_.data() + first_of_row);
             write_label_row(of_places_, runs, row);
-            row += label_row_size(of_places_.size(), runs.size());
+            row += label_row_size(index_, labels_, labelled);
         }
     }
 
@@ -199,7 +211,7 @@ uint64_t count_label_codes(const OverlayIndex& index) {
     const auto within = vertices_within(index.numbering);
     uint64_t codes = 0;
     for_each_labelled(index, [&](uint32_t patch) {
-        codes += uint64_t{label_rows(index.numbering, within, patch)} * index.rings.size(patch);
+        codes += uint64_t{count_label_rows(index.numbering, within, patch)} * index.rings.size(patch);
     });
     return codes;
 }
@@ -207,24 +219,20 @@ uint64_t count_label_codes(const OverlayIndex& index) {
 Labels lay_out_labels(const OverlayIndex& index, std::pmr::memory_resource* memory) {
     const Numbering& numbering = index.numbering;
     const auto within = vertices_within(numbering);
+    const float coarsest = std::ranges::max(index.quantum);
     Labels labels(numbering.patch_count(), memory);
-    count_vertices_before(numbering, within, labels.before);
+    rank_vertices(numbering, within, labels.first_rank);
     uint64_t bytes = 0;
     for_each_labelled(index, [&](uint32_t patch) {
         labels.is_labelled[patch] = 1;
         labels.begin[patch] = bytes;
-        const uint32_t places = index.rings.size(patch);
         labels.run_begin[patch] = static_cast<uint32_t>(labels.runs.size());
-        if (numbering.vertex_count() < FEWEST_VERTICES_OF_RUNS)
-            for (uint32_t place = 0; place < places; ++place)
-                labels.runs.push_back(static_cast<uint16_t>(place));
-        else
-            labels.least_quantum[patch] = find_runs(index.rings, patch, labels.runs);
+        labels.least_quantum[patch] = choose_runs(index, patch, coarsest, labels.runs);
         labels.run_count[patch] = static_cast<uint32_t>(labels.runs.size()) - labels.run_begin[patch];
-        bytes +=
-            uint64_t{label_rows(numbering, within, patch)} * label_row_size(places, labels.run_count[patch]);
+        bytes += uint64_t{count_label_rows(numbering, within, patch)} * label_row_size(index, labels, patch) +
+                 LABEL_ROW_PADDING;
     });
-    if (bytes > 0) labels.rows = make_room<uint8_t>(bytes + LABEL_ROW_PADDING, memory);
+    if (bytes > 0) labels.rows = make_room<uint8_t>(bytes, memory);
     return labels;
 }
 

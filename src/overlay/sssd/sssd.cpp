@@ -31,6 +31,9 @@ constexpr size_t MOST_NEAR_PAIRS = size_t{1} << 19;
 // Distances over samples come from rounded codes: they may be too short by less than this share.
 constexpr float SAMPLES_ROUNDING = 1e-3f;
 
+// A distance that begins at labels is a sum of two that were rounded: of so many steps, by up to 0.1 %.
+constexpr float FEW_STEPS = 1000;
+
 // Parts are moved along with the way at most this many times.
 constexpr int MOST_MOVES = 8;
 
@@ -63,11 +66,11 @@ uint32_t index_of_least_sum(const float* from, const float* to, uint32_t count) 
 
 // ---- One end
 
-void OverlaySssd::End::climb(const OverlayIndex& index, const PathEnd& of, uint32_t top) {
+void OverlaySssd::End::climb(const OverlayIndex& index, const PathEnd& of, uint32_t top, bool with_labels) {
     if (of.vertex == NONE)
         climb_from_point(index, of, top, ascent);
     else
-        geodesic::climb(index, of.vertex, top, ascent);
+        geodesic::climb(index, of.vertex, top, with_labels, ascent);
     measured.begin();
 }
 
@@ -100,9 +103,10 @@ void OverlaySssd::End::take_parts(const OverlayIndex& index, uint32_t sample, co
     const Rings& rings = index.rings;
     for (size_t b = 0; b < parts.size(); ++b)
         for (const BorderRange& range : parts[b].ranges()) {
-            // Positions in the parent's overlay follow each other nearly as places do.
+            // The slots of a border follow each other as its places do, but for those that repeat vertices.
             const uint32_t patch = ascent.patches[b], in_ring = range.first - rings.begin[patch];
-            prefetch(&index.numbering.overlay_position[index.numbering.border_begin[patch]] + in_ring,
+            const uint32_t about = std::min(in_ring, index.numbering.border_size(patch) - 1);
+            prefetch(&index.numbering.overlay_position[index.numbering.border_begin[patch] + about],
                      range.size());
             prefetch(rings.position.data() + range.first, range.size());
             prefetch(rings.segment_length.data() + range.first, range.size());
@@ -155,9 +159,7 @@ float OverlaySssd::distance(uint32_t low, uint32_t high) {
     const uint32_t climber = high_climbs ? high : low, other = high_climbs ? low : high;
     if (!low_climbs || !high_climbs)
         if (const float d = distance_to_border(other, climber); d < INFINITE) return d;
-    to_.climb(index_, {climber}, top);
-    from_.climb(index_, {other}, top);
-    return meet();
+    return climb_and_meet({climber}, {other}, top);
 }
 
 // A point always climbs: the leaves around it have both ends together in no table.
@@ -166,8 +168,18 @@ float OverlaySssd::distance_of_points(const PathEnd& first, const PathEnd& secon
                    second_patch = innermost_patch(numbering_, second);
     const uint32_t top = lowest_common_patch(numbering_, first_patch, second_patch);
     const bool second_climbs = second_patch != top;
-    to_.climb(index_, second_climbs ? second : first, top);
-    from_.climb(index_, second_climbs ? first : second, top);
+    return climb_and_meet(second_climbs ? second : first, second_climbs ? first : second, top);
+}
+
+// Labels have coarse steps: a distance of few of them is measured without.
+float OverlaySssd::climb_and_meet(const PathEnd& to, const PathEnd& from, uint32_t top) {
+    to_.climb(index_, to, top, true);
+    from_.climb(index_, from, top, true);
+    const float distance = meet();
+    const float quantum = std::max(to_.ascent.label_quantum, from_.ascent.label_quantum);
+    if (distance >= FEW_STEPS * quantum) return distance;
+    to_.climb(index_, to, top, false);
+    from_.climb(index_, from, top, false);
     return meet();
 }
 

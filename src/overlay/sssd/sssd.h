@@ -37,7 +37,7 @@ private:
             : ascent(index, memory), sampled(index, memory), parts(memory), measured(index, memory) {
             parts.reserve(index.numbering.level_count());
         }
-        void climb(const OverlayIndex& index, const PathEnd& of, uint32_t top);
+        void climb(const OverlayIndex& index, const PathEnd& of, uint32_t top, bool with_labels);
         // Whether the end does not climb, since the lowest patch around both ends owns it: its distances are
         // then entries of that patch's overlay table.
         bool is_at_top() const { return ascent.patches.empty(); }
@@ -59,6 +59,7 @@ private:
 
     float distance_inside(uint32_t patch, uint32_t low, uint32_t high) const;
     float distance_to_border(uint32_t border_vertex, uint32_t vertex) const;
+    float climb_and_meet(const PathEnd& to, const PathEnd& from, uint32_t top);
     float meet();
     float measure_candidates(const WaysOverSamples& ways, float longest);
     WholeHops whole_hops() const;

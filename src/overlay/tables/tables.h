@@ -138,20 +138,21 @@ struct Samples {
 // patch may be read once are_made[patch] has been seen.
 struct Labels {
     Labels(uint32_t patches, std::pmr::memory_resource* memory)
-        : is_labelled(patches, uint8_t{0}, memory), before(patches, 0, memory), begin(patches, 0, memory),
+        : is_labelled(patches, uint8_t{0}, memory), first_rank(patches, 0, memory), begin(patches, 0, memory),
           run_begin(patches, 0, memory), run_count(patches, 0, memory), runs(memory),
           least_quantum(patches, 0.f, memory), quantum(patches, 0.f, memory),
           are_made(patches, std::pmr::polymorphic_allocator<>(memory)) {}
 
     Array<uint8_t> is_labelled; // per patch
-    // Per patch: how many vertices are inner vertices of patches before it, where each patch is followed by
-    // all that lie in it. In this order the rows of a labelled patch follow each other.
-    Array<uint32_t> before;
+    // Per patch: the rank of its first inner vertex where patches are visited depth first, each before those
+    // in it. In this order the rows to a labelled border follow each other.
+    Array<uint32_t> first_rank;
     // Per patch, of labelled ones.
     Array<uint64_t> begin;                // where the rows to its border begin in `rows`
     Array<uint32_t> run_begin, run_count; // where the runs of its rows are in `runs`
     Array<uint16_t> runs;                 // see find_runs()
-    Array<float> least_quantum, quantum;  // see find_runs(); and that of its rows, once they are made
+    Array<float> least_quantum;           // see find_runs(); 0 where each place is a run
+    Array<float> quantum;                 // of its rows, once they are made
     Array<std::atomic<bool>> are_made;
     Room<uint8_t> rows; // NULL if no patch is labelled
 
