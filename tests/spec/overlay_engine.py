@@ -12,7 +12,7 @@ f = numpy.float32
 INFINITE = f(numpy.inf)
 LARGEST, NO_PATH = 32766, 32767
 MOST_LABEL_PLACES, MOST_LABELS = 400, 2
-STEPS_OF_LONGEST, MOST_OF_COARSEST = f(124), f(3)
+STEPS_OF_LONGEST, MOST_OF_COARSEST, FEW_STEPS = f(124), f(3), f(1000)
 
 
 class Border:
@@ -94,7 +94,7 @@ class OverlayEngine:
         self.overlays = [index.overlay(patch) for patch in range(index.inner_count)]
         self.position = [{number: i for i, number in enumerate(overlay)} for overlay in self.overlays]
         self.labelled = self.labelled_patches()
-        self.labels = {}
+        self.labels, self.label_quantum = {}, {}
 
     decoded = staticmethod(decoded)
 
@@ -285,7 +285,10 @@ class OverlayEngine:
             for child in deeper:
                 distance[list(index.inside[child])] = self.hop_down(child, distance[self.borders[child].vertices])
         numbers = [number for child in deeper for number in index.inside[child]]
-        return dict(zip(numbers, self.in_steps(table[:, numbers].T, self.least_quantum(patch))))
+        distances = table[:, numbers].T
+        longest = numpy.max(distances[distances < INFINITE], initial=f(0))
+        quantum = self.label_quantum[patch] = max(longest / f(LARGEST), self.least_quantum(patch))
+        return dict(zip(numbers, self.in_steps(distances, quantum)))
 
     def least_quantum(self, patch):
         """With which the steps along all segments but a few long ones fit into a byte."""
@@ -295,8 +298,7 @@ class OverlayEngine:
         return least if least <= MOST_OF_COARSEST * numpy.max(self.quantum) else f(0)
 
     @staticmethod
-    def in_steps(distances, least_quantum):
-        quantum = max(numpy.max(distances[distances < INFINITE], initial=f(0)) / f(LARGEST), least_quantum)
+    def in_steps(distances, quantum):
         scale = min(f(1) / quantum, numpy.finfo(f).max) if quantum > 0 else f(0)
         codes = numpy.trunc(numpy.minimum(distances * scale + f(0.5), f(LARGEST)))
         codes = numpy.where(distances > 0, numpy.maximum(codes, f(1)), f(0))
@@ -323,7 +325,22 @@ class OverlayEngine:
             known = self.entry_on_border(low, high)
             if known < INFINITE:
                 return known
-        return self.meet(top, low, child[0], high, child[1])
+        distance = self.meet(top, low, child[0], high, child[1])
+        quanta = [self.quantum_from_inside(number, patch) for number, patch in zip((low, high), child)]
+        if distance >= FEW_STEPS * max(quanta):
+            return distance
+        labelled, self.labelled = self.labelled, set()
+        distance = self.meet(top, low, child[0], high, child[1])
+        self.labelled = labelled
+        return distance
+
+    def quantum_from_inside(self, number, patch):
+        """Of the label that from_inside() takes, or 0."""
+        entry = int(self.index.entry[number])
+        way = list(self.index.ways_up(entry))
+        inside = way[1:way.index(patch) + 1] if patch is not None else []
+        labelled = [p for p in inside if p in self.labelled]
+        return self.label_quantum[labelled[-1]] if labelled else f(0)
 
     def entry_on_border(self, low, high):
         """Where `low` is on the border of the innermost patch of `high`, the entry of both."""
