@@ -11,6 +11,7 @@ void add_metric(CLI::App& app);
 void add_error(CLI::App& app);
 void add_several(CLI::App& app);
 void add_tails(CLI::App& app);
+void add_stated(CLI::App& app);
 void add_open(CLI::App& app);
 void add_pairs(CLI::App& app);
 void add_paths(CLI::App& app);

@@ -27,6 +27,7 @@ void add_commands(CLI::App& app) {
     add_nearest(app);
     add_matrix(app);
     add_tails(app);
+    add_stated(app);
     add_open(app);
     add_pairs(app);
     add_paths(app);
