@@ -354,7 +354,8 @@ static inline void geoidx_save_options_init(geoidx_save_options* options) {
 
 /* What an index is. Errors are of distances against the metric itself, |d - exact| / exact, measured when the
  * index was built. But for the largest ones and those of several sources, they are of MSAD over all targets
- * of `error_sources` seeded random sources. */
+ * of `error_sources` seeded random sources. Largest ones are never below what was found, and mostly above:
+ * what is expected of all pairs, by how far apart the ten largest lie that were found in different places. */
 typedef struct geoidx_info {
     uint32_t struct_size;
     uint32_t metric;              /* GEOIDX_METRIC_* */
@@ -401,9 +402,11 @@ typedef struct geoidx_info {
     /* Errors of one source by the exact distance: near is up to 10 average edges, middle up to 100, far
      * beyond. Where positions alone decide distances, edges are averaged over the mesh; where costs, lengths
      * or a callback do, over those at the random sources, each as long as the metric says. Means are of MSAD
-     * from the random sources. Maxima are also of a search for large errors, of MSAD and of SSSD, on and next
-     * to the borders of patches and around the worst pairs found so far. It is no proof: another pair may be
-     * worse, though seldom. The search is shorter on meshes of fewer than 2,000 vertices, and with
+     * from the random sources. Maxima are also of a search for large errors, of MSAD and of SSSD: on and next
+     * to the borders of patches, where both directions of a pair differ in MSAD or SSSD does from these, and
+     * around the worst pairs found so far. They are what is expected of the largest errors of all pairs, not
+     * less than what was found. It is no proof: another pair may be worse, about one in a million. The search
+     * is shorter on meshes of fewer than 2,000 vertices, and with
      * GEOIDX_ENGINE_GRAPH (MSAD only, since SSSD is no worse there), GEOIDX_METRIC_WEIGHTED and
      * GEOIDX_METRIC_CALLBACK, which take longer to ask; a callback is asked for at most 40 fields more. 0
      * where the mesh has no such distances. */
@@ -415,7 +418,8 @@ typedef struct geoidx_info {
     double error_far_max;
     /* Of MSAD from 2, 16 and 64 sources, fewer on small meshes, which lie anywhere, around one vertex, or
      * next to each other along a border; over all targets. With GEOIDX_METRIC_CALLBACK, from some of the
-     * random sources. 0 where they reach nothing else. */
+     * random sources. The maximum is no less than that of MSAD from one source, since the least of several
+     * distances is off by no more than they are. 0 where they reach nothing else. */
     double error_several_mean;
     double error_several_max;
     uint32_t has_mesh; /* 1 if the index keeps the mesh, see geoidx_surface_of_index */

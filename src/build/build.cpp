@@ -124,13 +124,14 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
         Rounds(options, filling_progress, filling, index)
             .run({surface, hierarchy}, *metric, std::move(stored));
     Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
+    std::optional<ErrorsByDistance> let_pass;
     if (filling.near_distances()) {
-        hold_wrong_pairs(intake, *filling.near_distances(), stating, index, WRONG_PAIRS_END);
+        let_pass = hold_wrong_pairs(intake, *filling.near_distances(), stating, index, WRONG_PAIRS_END);
         filling.near_distances().reset();
         hold_steep_edges(intake, stating, index, STEEP_EDGES_END);
     }
     stating.begin_stage("accuracy", 1);
-    state_errors(intake, filling.solved_fields(), stating, index);
+    state_errors(intake, filling.solved_fields(), let_pass, stating, index);
     if (options.store_mesh) keep_mesh(pack_mesh(mesh).view(), index);
 }
 

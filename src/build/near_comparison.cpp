@@ -31,7 +31,8 @@ NearComparison::NearComparison(const Index& index, const Intake& intake, const N
     : index_(index), intake_(intake), near_(near), edge_ends_(edge_ends), limit_(limit),
       finds_steep_(finds_steep), too_short_(too_short_beside(intake.bounding_box_diagonal)),
       rounded_by_limit_(largest_step(index) / limit), query_(index, std::pmr::get_default_resource()),
-      answer_(index.description.id_count, INFINITE), field_(near.vertex_count(), {0, 0}) {}
+      answer_(index.description.id_count, INFINITE), field_(near.vertex_count(), {0, 0}),
+      let_pass_(mean_edge(intake.mesh)) {}
 
 void NearComparison::compare(uint32_t source, std::vector<WrongPair>& wrong) {
     source_ = source;
@@ -45,8 +46,17 @@ void NearComparison::compare(uint32_t source, std::vector<WrongPair>& wrong) {
 void NearComparison::correct_wrong() {
     for (const auto& near : near_.of(source_)) {
         if (!has_relative_error(near.distance, too_short_)) continue;
-        if (const double error = largest_error(near.vertex); error > limit_) correct(near.vertex, error);
+        if (const double error = largest_error(near.vertex); error > limit_)
+            correct(near.vertex, error);
+        else
+            note_let_pass(near.vertex, error);
     }
+}
+
+void NearComparison::note_let_pass(uint32_t vertex, double error) {
+    const Distances& distances = field_[vertex];
+    let_pass_.add_to_max_of_fields(distances.exact, distances.error());
+    let_pass_.of(distances.exact).add_to_max(error);
 }
 
 void NearComparison::correct_steep() {

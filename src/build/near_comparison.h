@@ -36,6 +36,9 @@ public:
     //   farther off, though its error is within the limit.
     void compare(uint32_t source, std::vector<WrongPair>& wrong);
 
+    // The largest errors that were let pass, of all sources so far.
+    const ErrorsByDistance& let_pass() const { return let_pass_; }
+
 private:
     // Of a near vertex; others, and the source, have 0 for both.
     struct Distances {
@@ -47,6 +50,7 @@ private:
     uint32_t id_of(uint32_t vertex) const { return intake_.id_of_vertex[vertex]; }
     void fill_field();
     double largest_error(uint32_t vertex);
+    void note_let_pass(uint32_t vertex, double error);
     void correct(uint32_t vertex, double error);
     void correct_wrong();
     void correct_steep();
@@ -67,6 +71,7 @@ private:
     std::vector<float> answer_;    // by id; infinite but while a field is filled
     std::vector<Distances> field_; // by vertex
     std::vector<uint32_t> open_;   // vertices whose edges are to be looked at
+    ErrorsByDistance let_pass_;
 };
 
 }

@@ -82,8 +82,8 @@ public:
         if (std::ranges::any_of(near_, [&](uint32_t v) { return answers_.msad(v) == INFINITE; }))
             answers_.set_source(source.vertex, true);
         for (const uint32_t vertex : near_) {
-            note(source, vertex, answers_.msad(vertex));
-            if (answers_.may_be_worse(vertex)) note(source, vertex, answers_.sssd(vertex));
+            note(source, vertex, answers_.msad(vertex), true);
+            if (answers_.may_be_worse(vertex)) note(source, vertex, answers_.sssd(vertex), false);
         }
     }
 
@@ -99,9 +99,9 @@ private:
                 near_.push_back(v);
     }
 
-    void note(Source& source, uint32_t vertex, float answer) {
+    void note(Source& source, uint32_t vertex, float answer, bool is_of_field) {
         const double exact = solver_.distance(vertex), error = relative_error(exact, answer);
-        errors_.of(exact).add_to_max(error);
+        is_of_field ? errors_.add_to_max_of_fields(exact, error) : errors_.of(exact).add_to_max(error);
         if (error <= source.largest) return;
         source.largest = error;
         source.worst = vertex;

@@ -5,19 +5,24 @@
 #include "src/build/errors_by_distance.h"
 #include "src/build/near_search.h"
 #include "src/build/several_errors.h"
+#include "src/build/two_way_search.h"
 #include "src/query/query.h"
 
 namespace geodesic {
 
 namespace {
 
-constexpr uint64_t NEAR_SEED = 0x6E656172, GROUP_SEED = 0x67726F7570, PAIR_SEED = 0x7061697273;
+constexpr uint64_t NEAR_SEED = 0x6E656172, GROUP_SEED = 0x67726F7570, PAIR_SEED = 0x7061697273,
+                   TWO_WAY_SEED = 0x74776F776179;
+
+constexpr uint32_t VERY_FEW = 256; // vertices
 
 // How much is compared. What takes longer to ask is asked less.
 struct Effort {
     NearEffort near;
-    uint32_t pairs;  // of each source of which the whole field is known
-    uint32_t rounds; // of groups of sources
+    TwoWayEffort two_way; // no sources: it is left out
+    uint32_t pairs;       // of each source of which the whole field is known
+    uint32_t rounds;      // of groups of sources
 };
 
 // Of so many sources, half are the first ones, chosen from `screened` times as many, and half lie around the
@@ -31,31 +36,37 @@ NearEffort near_effort(uint32_t sources, uint32_t screened) {
 // few all of them; but not a number that is the same for all, which would take longer than all the rest of a
 // small build.
 uint32_t source_count(uint32_t vertex_count) {
-    constexpr uint32_t VERY_FEW = 256;
     if (vertex_count <= VERY_FEW) return 2 * vertex_count; // half of them are the first ones
     const uint32_t of_few = std::clamp(vertex_count / 6, 30u, 120u);
     return std::clamp(vertex_count / 80, of_few, 2000u);
 }
 
-// On few vertices, borders are crossed as a whole, and SSSD finds what MSAD finds. On more, it loses the ways
-// of some pairs in a million: 40 sources ask for up to a million.
-uint32_t pairs_of_source(uint32_t vertex_count) {
-    constexpr uint32_t FEW = 5000, MOST = 25000;
-    return vertex_count <= FEW ? vertex_count / 10 : std::min(vertex_count / 2, MOST);
+// SSSD loses the ways of some pairs in a million: up to a million are looked at. Of those of few vertices it
+// is a larger share.
+TwoWayEffort two_way_effort(uint32_t vertex_count) {
+    constexpr uint32_t MOST_VERTICES = 3072, AROUND_WORST = 1024, SOURCES = 20, PAIRS_PER_VERTEX = 12,
+                       MOST_PAIRS = 1000000;
+    return {std::min(vertex_count, MOST_VERTICES), AROUND_WORST, SOURCES,
+            std::min(PAIRS_PER_VERTEX * std::min(vertex_count, MOST_PAIRS), MOST_PAIRS)};
 }
 
 // Takes about a tenth of a build. The graph engine is asked for no pairs: SSSD takes the shortest of more
 // ways than MSAD, none of which is too short, so that its errors are no larger; and it takes long where
 // borders have many vertices.
-Effort effort_for(const Description& about, uint32_t vertex_count) {
+Effort effort_for(const Description& about, bool is_near_known, uint32_t vertex_count) {
     const bool is_graph = about.engine == GEOIDX_ENGINE_GRAPH;
     const uint32_t screened = is_graph ? 1 : 4;
-    if (about.metric == GEOIDX_METRIC_CALLBACK) return {near_effort(40, 4), is_graph ? 0u : 20u, 0};
+    constexpr TwoWayEffort NONE_OF_TWO_WAYS{0, 0, 0, 0};
+    if (about.metric == GEOIDX_METRIC_CALLBACK)
+        return {near_effort(40, 4), NONE_OF_TWO_WAYS, is_graph ? 0u : 20u, 0};
     const uint32_t sources = source_count(vertex_count);
-    const uint32_t pairs = is_graph ? 0 : pairs_of_source(vertex_count);
+    constexpr uint32_t PAIRS = 50;
+    const uint32_t pairs = is_graph ? 0 : PAIRS;
     if (about.metric == GEOIDX_METRIC_WEIGHTED)
-        return {near_effort(std::max(sources / 4, 12u), screened), std::min(pairs, 50u), 1};
-    return {near_effort(sources, screened), pairs, 1};
+        return {near_effort(std::max(sources / 4, 12u), screened), NONE_OF_TWO_WAYS, pairs, 1};
+    const TwoWayEffort two_way = is_graph ? NONE_OF_TWO_WAYS : two_way_effort(vertex_count);
+    // Where near errors of MSAD are known, near sources only show where SSSD has larger ones.
+    return {near_effort(is_near_known ? sources / 2 : sources, screened), two_way, pairs, 1};
 }
 
 double mean_edge_at_sources(const Mesh& mesh, const ExactFields& exact, double too_short) {
@@ -94,8 +105,8 @@ FieldErrors errors_of_field(const Index& index, const Intake& intake, const Exac
         if (!has_relative_error(distances[v], too_short)) continue;
         const double answer = answers[intake.id_of_vertex[v]];
         const double error = relative_error(distances[v], answer);
-        ErrorSum& of_class = errors.by_distance.of(distances[v]);
-        counts_in_means ? of_class.add(error) : of_class.add_to_max(error);
+        counts_in_means ? errors.by_distance.add_of_fields(distances[v], error)
+                        : errors.by_distance.add_to_max_of_fields(distances[v], error);
         errors.of_msad.push_back((answer - distances[v]) / distances[v]);
     }
     Random random(index.description.seed ^ PAIR_SEED ^ i);
@@ -132,24 +143,52 @@ MeasuredError with_measured_pairs(const MeasuredError& of_tables, std::vector<do
     return stated;
 }
 
-MeanAndMax error_of_several(const Index& index, const Intake& intake, const ExactFields& exact,
-                            double too_short, uint32_t rounds, Workers& workers) {
-    if (rounds == 0) return errors_of_known_groups(index, intake, exact, too_short, workers).result();
+ErrorSum error_of_several(const Index& index, const Intake& intake, const ExactFields& exact,
+                          double too_short, uint32_t rounds, Workers& workers) {
+    if (rounds == 0) return errors_of_known_groups(index, intake, exact, too_short, workers);
     const auto groups = source_groups(index, intake, rounds, index.description.seed ^ GROUP_SEED);
-    return errors_of_groups(index, intake, groups, too_short, workers).result();
+    return errors_of_groups(index, intake, groups, too_short, workers);
+}
+
+// Those that are looked for.
+void add_largest_errors(const Index& index, const Intake& intake, double average_edge, double too_short,
+                        const Effort& effort, Workers& workers, ErrorsByDistance& errors) {
+    const uint64_t seed = index.description.seed;
+    NearSearch near(index, intake, average_edge, too_short);
+    near.run(effort.near, seed ^ NEAR_SEED, workers);
+    errors.add(near.errors());
+    if (effort.two_way.sources == 0) return;
+    TwoWaySearch two_way(index, intake, average_edge, too_short);
+    two_way.run(effort.two_way, seed ^ TWO_WAY_SEED, workers);
+    errors.add(two_way.errors());
+}
+
+void state_largest(const ErrorsByDistance& errors, const ErrorSum& several, uint32_t vertex_count,
+                   MeasuredError& stated) {
+    // Of very few vertices, nearly all pairs have been looked at.
+    const auto largest = [&](const ErrorSum& sum) {
+        return vertex_count <= VERY_FEW ? sum.largest() : sum.expected_largest();
+    };
+    for (size_t c = 0; c < DISTANCE_CLASSES; ++c) {
+        stated.by_distance[c] = {errors.sums()[c].mean(), largest(errors.sums()[c])};
+        stated.max = std::max(stated.max, stated.by_distance[c].max);
+    }
+    // The least of distances that are each off by no more than some share is off by no more than that.
+    stated.several = {several.mean(), std::max(several.largest(), largest(errors.of_fields()))};
 }
 
 }
 
-void state_errors(const Intake& intake, std::span<const ExactFields* const> fields, Workers& workers,
-                  Index& index) {
+void state_errors(const Intake& intake, std::span<const ExactFields* const> fields,
+                  const std::optional<ErrorsByDistance>& known, Workers& workers, Index& index) {
     const Description& about = index.description;
     const ExactFields& measuring = *fields.front();
     const double too_short = too_short_to_count(about, measuring);
     const double edge = average_edge(about, intake.mesh, measuring, too_short);
-    const Effort effort = effort_for(about, intake.mesh.vertex_count());
-    ErrorsByDistance errors(edge);
-    const ErrorsByDistance none = errors;
+    const uint32_t vertex_count = intake.mesh.vertex_count();
+    const Effort effort = effort_for(about, known.has_value(), vertex_count);
+    const ErrorsByDistance none(edge);
+    ErrorsByDistance errors = known.value_or(none);
     MeasuredError stated = about.error;
     for (const ExactFields* exact : fields) {
         const bool is_measuring = exact == &measuring;
@@ -158,12 +197,9 @@ void state_errors(const Intake& intake, std::span<const ExactFields* const> fiel
         if (is_measuring && crosses_between_vertices(about))
             stated = with_measured_pairs(about.error, std::move(of_msad));
     }
-    NearSearch search(index, intake, edge, too_short);
-    search.run(effort.near, about.seed ^ NEAR_SEED, workers);
-    errors.add(search.errors());
-    stated.by_distance = errors.result();
-    for (const MeanAndMax& of_class : stated.by_distance) stated.max = std::max(stated.max, of_class.max);
-    stated.several = error_of_several(index, intake, measuring, too_short, effort.rounds, workers);
+    add_largest_errors(index, intake, edge, too_short, effort, workers, errors);
+    state_largest(errors, error_of_several(index, intake, measuring, too_short, effort.rounds, workers),
+                  vertex_count, stated);
     index.description.error = stated;
     release_pairs(index);
 }

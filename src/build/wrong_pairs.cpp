@@ -43,7 +43,7 @@ public:
     Search(const Intake& intake, NearDistances& near, Workers& workers, Index& index, double end_fraction)
         : intake_(intake), near_(near), workers_(workers), end_fraction_(end_fraction), index_(index),
           edge_ends_(edge_ends_at_vertices(intake.mesh)), average_edge_(mean_edge(intake.mesh)),
-          vertex_of_number_(index.numbering().vertex_count(), NONE) {
+          vertex_of_number_(index.numbering().vertex_count(), NONE), let_pass_(average_edge_) {
         for (uint32_t v = 0; v < near.vertex_count(); ++v) {
             vertex_of_number_[number_of(v)] = v;
             most_work_ += WORK * near.of(v).size();
@@ -56,6 +56,9 @@ public:
         while (!hold_all() && limit_ < 1) limit_ *= RAISE;
         hold_steep();
     }
+
+    // The largest errors of pairs that were compared and are not held.
+    const ErrorsByDistance& let_pass() const { return let_pass_; }
 
 private:
     size_t most() const { return MOST_PAIRS * near_.vertex_count(); }
@@ -101,6 +104,7 @@ private:
     bool find(std::span<const uint32_t> sources, bool finds_steep) {
         const size_t at_once = std::max<size_t>(FEWEST_AT_ONCE, sources.size() / MOST_TASKS);
         std::vector<std::vector<WrongPair>> of_task((sources.size() + at_once - 1) / at_once);
+        std::vector<ErrorsByDistance> let_pass(of_task.size(), ErrorsByDistance(average_edge_));
         workers_.run(of_task.size(), [&](FieldSolver&, size_t task) {
             NearComparison comparison(index_, intake_, near_, edge_ends_, limit_, finds_steep);
             const size_t begin = task * at_once, end = std::min(begin + at_once, sources.size());
@@ -109,7 +113,9 @@ private:
                 workers_.check_cancelled();
                 comparison.compare(sources[i], of_task[task]);
             }
+            let_pass[task] = comparison.let_pass();
         });
+        for (const ErrorsByDistance& errors : let_pass) let_pass_.add(errors);
         const size_t before = held_.size();
         for (auto& found : of_task) {
             held_.insert(held_.end(), found.begin(), found.end());
@@ -199,13 +205,16 @@ private:
     uint64_t most_work_ = 0;                 // so many vertices may be found by looking farther
     uint64_t work_left_ = 0;                 // of these
     std::vector<WrongPair> held_;            // in ascending order, each once
+    ErrorsByDistance let_pass_;
 };
 
 }
 
-void hold_wrong_pairs(const Intake& intake, NearDistances& near, Workers& workers, Index& index,
-                      double end_fraction) {
-    Search(intake, near, workers, index, end_fraction).run();
+ErrorsByDistance hold_wrong_pairs(const Intake& intake, NearDistances& near, Workers& workers, Index& index,
+                                  double end_fraction) {
+    Search search(intake, near, workers, index, end_fraction);
+    search.run();
+    return search.let_pass();
 }
 
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "src/build/errors_by_distance.h"
 #include "src/mesh/intake.h"
 #include "src/metric/workers.h"
 #include "src/query/index.h"
@@ -12,9 +13,9 @@ namespace geodesic {
 // ends, or around their neighbours, these are looked at farther, as long as that takes no more than twice the
 // work of the first look at all vertices. If there are more than four pairs for each vertex, a larger error
 // than a hundredth is let pass. If there are fewer, pairs that make fields less steep take what room is left,
-// those with the largest errors first. Its progress ends at this fraction of the workers' whole work. No
-// query may be running.
-void hold_wrong_pairs(const Intake& intake, NearDistances& near, Workers& workers, Index& index,
-                      double end_fraction);
+// those with the largest errors first. Returns the largest errors of near vertices that were let pass. Its
+// progress ends at this fraction of the workers' whole work. No query may be running.
+ErrorsByDistance hold_wrong_pairs(const Intake& intake, NearDistances& near, Workers& workers, Index& index,
+                                  double end_fraction);
 
 }

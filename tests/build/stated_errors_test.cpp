@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "src/build/errors_by_distance.h"
 #include "tests/capi/calls.h"
 #include "tests/support/sanitized.h"
 
@@ -102,6 +103,58 @@ TEST_CASE("stated errors: hardly any pair that the builder did not choose is wor
             // It is an error that there is: no pair is many times better than the stated one.
             CHECK(info.error_near_max < 3 * classes[0].max);
         }
+}
+
+TEST_CASE("stated errors: of all fields, one distance in a million is worse, and none of several sources" *
+          doctest::skip(SANITIZED)) {
+    for (const TestMesh& mesh : {hills(36, 32), sphere(24, 40)}) {
+        const auto index = build(mesh, options_for(GEOIDX_ENGINE_OVERLAY));
+        const geoidx_info info = info_of(index.get());
+        check_consistent(info);
+        const double stated[] = {info.error_near_max, info.error_middle_max, info.error_far_max};
+        const uint32_t count = mesh.vertex_count();
+        const double edge = average_edge(mesh);
+        const auto metric = solver(mesh, build_options());
+        uint64_t answers = 0, worse = 0, worse_than_several = 0;
+        for (uint32_t source = 0; source < count; ++source) {
+            const auto exact = metric_distances(metric.get(), source, count);
+            const auto field = msad(index.get(), source, count);
+            for (uint32_t v = 0; v < count; ++v) {
+                if (exact[v] == 0) continue;
+                const double error = std::abs(double{field[v]} - exact[v]) / exact[v];
+                const size_t i = exact[v] <= 10 * edge ? 0 : exact[v] <= 100 * edge ? 1 : 2;
+                worse += error > stated[i] + ROUNDING;
+                worse_than_several += error > info.error_several_max + ROUNDING;
+                ++answers;
+            }
+        }
+        CAPTURE(answers);
+        CHECK(worse <= answers / 1000000 + 1);
+        CHECK(worse_than_several <= answers / 1000000 + 1);
+    }
+}
+
+TEST_CASE("stated errors: the largest of a part lets expect a larger one, by how far large ones lie apart") {
+    using geodesic::ErrorSum;
+    ErrorSum all;
+    CHECK(all.expected_largest() == 0);
+    const auto add_part = [&all](double error) {
+        ErrorSum part;
+        part.add_to_max(error / 2);
+        part.add_to_max(error);
+        all.add(part);
+    };
+    add_part(3);
+    CHECK(all.expected_largest() == 3);
+    add_part(4);
+    CHECK(all.expected_largest() == 4 + 1);
+    add_part(5);
+    CHECK(all.expected_largest() == 5 + (2 + 1) / 2.0);
+    for (int i = 0; i < 20; ++i) add_part(5);
+    CHECK(all.largest() == 5);
+    CHECK(all.expected_largest() == 5);
+    for (int i = 0; i < 9; ++i) add_part(6 + i);
+    CHECK(all.expected_largest() == doctest::Approx(14 + (1 + 2 + 3 + 4 + 5 + 6 + 7 + 8 + 9) / 9.0));
 }
 
 TEST_CASE("stated errors: three classes of distances, and nothing of those that a mesh does not have") {
@@ -232,7 +285,7 @@ TEST_CASE("stated errors: a callback is asked for few more fields") {
 }
 
 TEST_CASE("stated errors: the same whatever the threads, and others with another seed") {
-    const TestMesh mesh = hills(16, 15);
+    const TestMesh mesh = hills(18, 17);
     for (const uint32_t engine : ENGINES)
         for (const uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES}) {
             CAPTURE(engine);

@@ -73,7 +73,7 @@ std::vector<IndexRow> error_rows(const geoidx_info& info) {
         {"error_signed_mean", "relative error, signed mean", printed(info.error_signed_mean)},
         {"error_p99", "relative error, p99", printed(info.error_p99)},
         {"error_p999", "relative error, p99.9", printed(info.error_p999)},
-        {"error_max", "relative error, max seen", printed(info.error_max)},
+        {"error_max", "relative error, max", printed(info.error_max)},
         {"error_mean_at_vertices", "mean, crossing borders at vertices",
          printed(info.error_mean_at_vertices)},
         {"error_near_mean", "relative error up to 10 average edges, mean", printed(info.error_near_mean)},

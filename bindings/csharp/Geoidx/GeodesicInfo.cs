@@ -109,7 +109,7 @@ namespace Geoidx
         /// <summary>The relative error that 0.1 % of the distances exceed.</summary>
         public double ErrorP999 { get; }
 
-        /// <summary>The largest relative error that was found from one source, by MSAD or SSSD.</summary>
+        /// <summary>The largest relative error that is expected from one source, by MSAD or SSSD; no less than was found.</summary>
         public double ErrorMax { get; }
 
         /// <summary>What the mean relative error would be if paths crossed borders at vertices only.</summary>
@@ -146,7 +146,7 @@ namespace Geoidx
         /// </summary>
         public double ErrorNearMean { get; }
 
-        /// <summary>The largest relative error that was found over near distances, by MSAD or SSSD.</summary>
+        /// <summary>The largest relative error that is expected over near distances, by MSAD or SSSD.</summary>
         public double ErrorNearMax { get; }
 
         /// <summary>As <see cref="ErrorNearMean"/>, over longer distances up to 100 average edges.</summary>
@@ -164,7 +164,7 @@ namespace Geoidx
         /// <summary>The mean relative error of MSAD from several sources.</summary>
         public double ErrorSeveralMean { get; }
 
-        /// <summary>The largest relative error that was found of MSAD from several sources.</summary>
+        /// <summary>The largest relative error that is expected of MSAD from several sources.</summary>
         public double ErrorSeveralMax { get; }
 
         /// <summary>Whether the index keeps the mesh, <see cref="BuildOptions.StoreMesh"/>.</summary>

@@ -48,7 +48,7 @@ class Info:
     error_p99: float
     error_p999: float
     error_max: float
-    """The largest that was found from one source, by MSAD or SSSD."""
+    """The largest that is expected from one source, by MSAD or SSSD; no less than was found."""
     error_mean_at_vertices: float
     """The mean error if paths crossed borders at vertices only."""
     codec: Codec
@@ -64,7 +64,7 @@ class Info:
     error_near_mean: float
     """Of distances up to 10 average edges of the mesh: the mean of MSAD from random sources; 0 where there are none."""
     error_near_max: float
-    """The largest error that was found, by MSAD or SSSD."""
+    """The largest error that is expected, by MSAD or SSSD; no less than was found."""
     error_middle_mean: float
     """The same of longer distances up to 100 average edges."""
     error_middle_max: float
