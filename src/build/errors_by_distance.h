@@ -50,8 +50,10 @@ public:
 
     // What the largest error of all is expected to be if those that were looked at are a part of them. Tails
     // fall exponentially at least, so that each e-fold of what is looked at makes the largest one larger by
-    // the mean of what large errors are above the least of them.
+    // the mean of what large errors are above the least of them. Infinite where an error is, of a distance
+    // that the index does not know.
     double expected_largest() const {
+        if (std::isinf(largest_[0])) return largest_[0];
         const auto end = std::ranges::find(largest_, 0.0);
         if (end - largest_.begin() < 2) return largest_[0];
         double above = 0;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "src/build/errors_by_distance.h"
 #include "tests/capi/calls.h"
@@ -155,6 +156,8 @@ TEST_CASE("stated errors: the largest of a part lets expect a larger one, by how
     CHECK(all.expected_largest() == 5);
     for (int i = 0; i < 9; ++i) add_part(6 + i);
     CHECK(all.expected_largest() == doctest::Approx(14 + (1 + 2 + 3 + 4 + 5 + 6 + 7 + 8 + 9) / 9.0));
+    for (int i = 0; i < 2; ++i) add_part(std::numeric_limits<double>::infinity());
+    CHECK(std::isinf(all.expected_largest()));
 }
 
 TEST_CASE("stated errors: three classes of distances, and nothing of those that a mesh does not have") {
