@@ -13,8 +13,8 @@ namespace {
 
 constexpr size_t AT_ONCE = OverlayQuery::FIELDS_AT_ONCE;
 constexpr size_t FIELDS_OF_TASK = 8 * AT_ONCE, PAIRS_OF_TASK = 4096; // which share a query
-constexpr double REACH = 1.05; // how far a source looks beyond the pair that it was chosen for
-constexpr size_t WORST = 16;   // pairs around which the search goes on
+constexpr double LOOKED_BEYOND = 1.05; // how far a source looks beyond the pair that it was chosen for
+constexpr size_t WORST = 16;           // pairs around which the search goes on
 constexpr size_t FAR = DISTANCE_CLASSES - 1;
 constexpr uint32_t FEWER_FAR = 4; // times, since the metric takes longest and errors are smallest
 constexpr uint32_t CLIMBS = 10,
@@ -226,7 +226,7 @@ void TwoWaySearch::choose_sources(std::span<const Differences> largest, uint32_t
         for (const uint32_t place : order) {
             const Difference& difference = largest[place][c];
             if (left == 0 || !(difference.share > 0)) break;
-            const double wanted = REACH * double{difference.distance};
+            const double wanted = LOOKED_BEYOND * double{difference.distance};
             if (sources[place].radius < wanted && sources[difference.other].radius < wanted) {
                 sources[place].radius = wanted;
                 --left;
