@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/commands.h"
+#include "bench/neighbours.h"
 #include "bench/report.h"
 #include "bench/rows.h"
 #include "bench/workload.h"
@@ -60,15 +61,11 @@ class StatedBench {
 public:
     StatedBench(const Model& model, const geoidx_info& info, geoidx_query& query, geoidx_solver& solver)
         : model_(model), query_(query), solver_(solver), too_short_(TOO_SHORT * info.bounding_box_diagonal),
-          edge_(average_edge(model.mesh)), neighbours_(model.mesh.vertex_count()),
-          exact_(model.mesh.vertex_count()), field_(model.mesh.vertex_count()) {
+          edge_(average_edge(model.mesh)), neighbours_(model.mesh), exact_(model.mesh.vertex_count()),
+          field_(model.mesh.vertex_count()) {
         const double stated[] = {info.error_near_max, info.error_middle_max, info.error_far_max};
         for (size_t i = 0; i < std::size(stated); ++i) random_[i].stated = near_[i].stated = stated[i];
         several_.stated = info.error_several_max;
-        const auto& triangles = model.mesh.triangles;
-        for (size_t i = 0; i < triangles.size(); ++i)
-            for (const size_t j : {i / 3 * 3 + (i + 1) % 3, i / 3 * 3 + (i + 2) % 3})
-                if (triangles[j] != triangles[i]) neighbours_[triangles[i]].push_back(triangles[j]);
     }
 
     // MSAD to all vertices, and SSSD to some.
@@ -84,7 +81,7 @@ public:
 
     void ask_near(std::mt19937_64& random) {
         const uint32_t source = vertex(random);
-        std::vector<uint32_t> targets = around(source, field_.size(), MOST_EDGES);
+        std::vector<uint32_t> targets = neighbours_.around(source, FEWEST_EDGES, MOST_EDGES);
         std::ranges::shuffle(targets, random);
         targets.resize(std::min<size_t>(targets.size(), TARGETS));
         if (targets.empty()) return;
@@ -103,7 +100,8 @@ public:
     void ask_group(uint32_t size, bool is_together, std::mt19937_64& random) {
         std::vector<uint32_t> sources{vertex(random)};
         if (is_together) {
-            const auto found = around(sources.front(), size_t{TOGETHER} * size, UINT32_MAX);
+            const auto found =
+                neighbours_.around(sources.front(), FEWEST_EDGES, UINT32_MAX, size_t{TOGETHER} * size);
             while (sources.size() < size && !found.empty()) sources.push_back(found[random() % found.size()]);
         }
         while (sources.size() < size) sources.push_back(vertex(random));
@@ -135,26 +133,6 @@ private:
         classes[edges <= 10 ? 0 : edges <= 100 ? 1 : 2].add(std::abs(answer - exact) / exact);
     }
 
-    // The first vertices around one that are FEWEST_EDGES edges away or more.
-    std::vector<uint32_t> around(uint32_t center, size_t most, uint32_t most_edges) const {
-        std::vector<uint32_t> reached{center}, found;
-        std::vector<bool> is_reached(neighbours_.size(), false);
-        is_reached[center] = true;
-        for (size_t i = 0, end = 1, edges = 1; i < reached.size() && edges <= most_edges; ++edges) {
-            for (; i < end; ++i)
-                for (const uint32_t v : neighbours_[reached[i]]) {
-                    if (is_reached[v]) continue;
-                    is_reached[v] = true;
-                    reached.push_back(v);
-                    if (edges >= FEWEST_EDGES) found.push_back(v);
-                }
-            end = reached.size();
-            if (found.size() >= most) break;
-        }
-        found.resize(std::min(found.size(), most));
-        return found;
-    }
-
     void ask(const std::vector<uint32_t>& sources) {
         tools::require_ok(geoidx_solver_distances(&solver_, sources.data(),
                                                   static_cast<uint32_t>(sources.size()), nullptr,
@@ -179,7 +157,7 @@ private:
     geoidx_query& query_;
     geoidx_solver& solver_;
     const double too_short_, edge_;
-    std::vector<std::vector<uint32_t>> neighbours_;
+    Neighbours neighbours_;
     std::vector<double> exact_;
     std::vector<float> field_;
     Classes random_, near_;

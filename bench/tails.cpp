@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/commands.h"
+#include "bench/neighbours.h"
 #include "bench/report.h"
 #include "bench/rows.h"
 #include "bench/workload.h"
@@ -35,36 +36,16 @@ struct MeasuredEdge {
 // Each edge once, and the neighbours of each vertex.
 struct Edges {
     explicit Edges(const tools::TriangleMesh& mesh) : neighbours(mesh.vertex_count()) {
-        for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-            const uint32_t a = mesh.triangles[i], b = mesh.triangles[i % 3 == 2 ? i - 2 : i + 1];
-            if (std::ranges::find(neighbours[a], b) != neighbours[a].end()) continue;
-            neighbours[a].push_back(b);
-            neighbours[b].push_back(a);
-            all.push_back({a, b, straight(mesh, a, b)});
-        }
+        for_each_side(mesh, [&](uint32_t a, uint32_t b) {
+            if (neighbours.add(a, b)) all.push_back({a, b, straight(mesh, a, b)});
+        });
     }
     static double straight(const tools::TriangleMesh& mesh, uint32_t a, uint32_t b) {
         const double *p = mesh.positions.data() + size_t{3} * a, *q = mesh.positions.data() + size_t{3} * b;
         return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
     }
 
-    // The vertices FEWEST_EDGES to MOST_EDGES edges from a vertex, the nearest first.
-    std::vector<uint32_t> around(uint32_t center) const {
-        std::vector<uint32_t> reached{center}, found;
-        std::vector<uint8_t> seen(neighbours.size(), 0);
-        seen[center] = 1;
-        size_t begin = 0;
-        for (uint32_t edges = 1; edges <= MOST_EDGES; ++edges)
-            for (const size_t end = reached.size(); begin < end; ++begin)
-                for (const uint32_t v : neighbours[reached[begin]]) {
-                    if (std::exchange(seen[v], 1)) continue;
-                    reached.push_back(v);
-                    if (edges >= FEWEST_EDGES) found.push_back(v);
-                }
-        return found;
-    }
-
-    std::vector<std::vector<uint32_t>> neighbours;
+    Neighbours neighbours;
     std::vector<MeasuredEdge> all;
 };
 
@@ -135,7 +116,7 @@ public:
 
     void ask_near(std::mt19937_64& random) {
         const uint32_t source = vertex(random);
-        std::vector<uint32_t> targets = edges_.around(source);
+        std::vector<uint32_t> targets = edges_.neighbours.around(source, FEWEST_EDGES, MOST_EDGES);
         std::ranges::shuffle(targets, random);
         targets.resize(std::min<size_t>(targets.size(), TARGETS));
         if (!targets.empty()) ask(source, targets, near_);
