@@ -53,6 +53,13 @@ const std::list<Labelled>& on_planes() {
     return built;
 }
 
+// Of so many vertices that rows have a byte a place.
+const Labelled& on_large_plane() {
+    static const TestMesh large = grid(130, 130, 0.2);
+    static const Labelled built(large, options_of_plane(large, {4, 4, 4}));
+    return built;
+}
+
 // The distance of an inner vertex of `patch` to the i-th vertex of the border of `labelled`.
 double label_of(const OverlayIndex& index, uint32_t patch, uint32_t inner, uint32_t labelled, uint32_t i) {
     const Labels& labels = *index.pairs.labels;
@@ -257,8 +264,7 @@ TEST_CASE("labels: on a plane, straight lines that cross borders between vertice
 }
 
 TEST_CASE("labels: where distances are many segments long, rows have a byte a place") {
-    static const TestMesh large = grid(130, 130, 0.2);
-    const Labelled made(large, options_of_plane(large, {4, 4, 4}));
+    const Labelled& made = on_large_plane();
     const OverlayIndex& index = made.overlay();
     const Labels& labels = *index.pairs.labels;
     double sum = 0;
@@ -283,8 +289,7 @@ TEST_CASE("labels: where distances are many segments long, rows have a byte a pl
 }
 
 TEST_CASE("labels: distances of few of their steps are those without labels") {
-    static const TestMesh large = grid(130, 130, 0.2);
-    const Labelled made(large, options_of_plane(large, {4, 4, 4}));
+    const Labelled& made = on_large_plane();
     Index bare(std::pmr::get_default_resource());
     prepare(restore(made.built.index), bare);
     leave_out_labels(bare);

@@ -44,6 +44,13 @@ struct Ascent {
         patches.reserve(index.numbering.level_count());
     }
 
+    // Begins anew, with a vertex or with NONE.
+    void begin(uint32_t from) {
+        vertex = from;
+        patches.clear();
+        label_quantum = 0;
+        unread_label = nullptr;
+    }
     uint32_t last_patch() const { return patches.back(); }
 
     uint32_t vertex = 0;
@@ -69,10 +76,7 @@ inline uint32_t innermost_patch(const Numbering& numbering, const PathEnd& end) 
 
 // Climbs from a point, which has no labels, up to a child of `top`.
 inline void climb_from_point(const OverlayIndex& index, const PathEnd& end, uint32_t top, Ascent& ascent) {
-    ascent.vertex = NONE;
-    ascent.patches.clear();
-    ascent.label_quantum = 0;
-    ascent.unread_label = nullptr;
+    ascent.begin(NONE);
     ascent.first_row = {end.row, index.rings.begin[end.leaf], end.quantum};
     for (uint32_t patch = end.leaf; patch != top; patch = index.numbering.parent[patch])
         ascent.patches.push_back(patch);
@@ -84,10 +88,7 @@ inline void climb(const OverlayIndex& index, uint32_t vertex, uint32_t top, bool
                   Ascent& ascent) {
     const Numbering& numbering = index.numbering;
     const uint32_t innermost = numbering.innermost_patch(vertex);
-    ascent.vertex = vertex;
-    ascent.label_quantum = 0;
-    ascent.unread_label = nullptr;
-    ascent.patches.clear();
+    ascent.begin(vertex);
     if (innermost == top) return;
     uint32_t labelled = NONE;
     for (uint32_t patch = innermost; patch != top; patch = numbering.parent[patch]) {
