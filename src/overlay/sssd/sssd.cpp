@@ -24,10 +24,6 @@ constexpr float NEAR_SPACINGS = 14, MOST_SPACINGS_OF_SEGMENT = 4;
 // half of a long segment, where the way back is not straightened.
 constexpr float MOST_LONGER = 1.5f, LONGER_BY_SEGMENT = 0.5f;
 
-// Unless its hops have more pairs of places: that would take as long as a field. This limit does not hold
-// where WholeHops::are_some().
-constexpr size_t MOST_NEAR_PAIRS = size_t{1} << 19;
-
 // Distances over samples come from rounded codes: they may be too short by less than this share.
 constexpr float SAMPLES_ROUNDING = 1e-3f;
 
@@ -121,12 +117,6 @@ void OverlaySssd::End::take_parts_within(const OverlayIndex& index, float length
     parts.clear();
     for (size_t b = 0; b < ascent.patches.size(); ++b)
         parts.push_back(part_within(index, ascent.patches[b], sampled.ways_over(b), length));
-}
-
-size_t OverlaySssd::End::pairs_between_parts() const {
-    size_t pairs = 0;
-    for (size_t b = 1; b < parts.size(); ++b) pairs += size_t{parts[b - 1].size()} * parts[b].size();
-    return pairs;
 }
 
 // Moves the parts to where a shorter way may be than the one that was measured, which crosses the last border
@@ -226,11 +216,26 @@ float OverlaySssd::meet() {
     if (!crosses_segments || !(least < INFINITE)) return least;
     const float unit =
         std::max(spacing, std::min(index_.longest_segment[patch], MOST_SPACINGS_OF_SEGMENT * spacing));
-    const bool is_near = least < NEAR_SPACINGS * unit, has_some_pairs = whole.are_some();
-    uint32_t place;
-    const bool takes_all = (is_near || has_some_pairs) && take_parts_within(least, ways, has_some_pairs);
-    const float shortest = takes_all ? measure(place) : measure_candidates(ways, least + largest_spacing());
+    const bool is_near = least < NEAR_SPACINGS * unit;
+    const float shortest = is_near || whole.are_some() ? measure_all_within(least, ways)
+                                                       : measure_candidates(ways, least + largest_spacing());
     return shortest <= least * (1 + SAMPLES_ROUNDING) ? shortest : least;
+}
+
+// Measures all that a path can cross whose shortest way over samples has this length, however much that is.
+float OverlaySssd::measure_all_within(float length, const WaysOverSamples& ways) {
+    const float longest =
+        length + std::max(MOST_LONGER * largest_spacing(), LONGER_BY_SEGMENT * longest_of_long_segments());
+    const BorderPart of_meeting_border = part_within(index_, meeting_patch(), ways.lengths, longest);
+    to_.sampled.go_back(ways.from);
+    to_.take_parts_within(index_, longest);
+    to_.parts.back() = of_meeting_border;
+    if (!from_.is_at_top()) {
+        from_.sampled.go_back(ways.to);
+        from_.take_parts_within(index_, longest);
+    }
+    uint32_t place;
+    return measure(place);
 }
 
 // Measures the candidates whose ways over samples are up to so long.
@@ -253,24 +258,6 @@ float OverlaySssd::longest_of_long_segments() const {
     return largest_of_borders([&](uint32_t patch) {
         return index_.pairs.samples.long_segments_of(patch).empty() ? 0 : index_.longest_segment[patch];
     });
-}
-
-// Takes the parts of both ends that a path can cross whose shortest way over samples has this length. Returns
-// whether they may be measured: whether they are small enough, or may have any size.
-bool OverlaySssd::take_parts_within(float length, const WaysOverSamples& ways, bool any_size) {
-    const float longest =
-        length + std::max(MOST_LONGER * largest_spacing(), LONGER_BY_SEGMENT * longest_of_long_segments());
-    const BorderPart of_meeting_border = part_within(index_, meeting_patch(), ways.lengths, longest);
-    to_.sampled.go_back(ways.from);
-    to_.take_parts_within(index_, longest);
-    to_.parts.back() = of_meeting_border;
-    size_t pairs = to_.pairs_between_parts();
-    if (!from_.is_at_top()) {
-        from_.sampled.go_back(ways.to);
-        from_.take_parts_within(index_, longest);
-        pairs += from_.pairs_between_parts() + size_t{from_.parts.back().size()} * to_.parts.back().size();
-    }
-    return any_size || pairs <= MOST_NEAR_PAIRS;
 }
 
 // The hops if all borders are crossed as a whole.

@@ -45,7 +45,6 @@ private:
         bool take_whole_borders(const OverlayIndex& index);
         void take_parts(const OverlayIndex& index, uint32_t sample, const BorderPart& last_part);
         void take_parts_within(const OverlayIndex& index, float length);
-        size_t pairs_between_parts() const;
         bool move_parts(const OverlayIndex& index, uint32_t place_of_last);
 
         Ascent ascent;
@@ -61,13 +60,13 @@ private:
     float distance_to_border(uint32_t border_vertex, uint32_t vertex) const;
     float climb_and_meet(const PathEnd& to, const PathEnd& from, uint32_t top);
     float meet();
+    float measure_all_within(float length, const WaysOverSamples& ways);
     float measure_candidates(const WaysOverSamples& ways, float longest);
     WholeHops whole_hops() const;
     float distance_from_top(uint32_t place) const;
     std::span<const float> sample_from();
     void measure_ways(std::span<const float> from, std::span<const float> to);
     void take_parts(uint32_t sample, const BorderPart& of_meeting_border);
-    bool take_parts_within(float length, const WaysOverSamples& ways, bool any_size);
     // value(patch) is at least 0.
     template <class Value>
     float largest_of_borders(const Value& value) const {
