@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -79,9 +80,11 @@ inline SurfacePoint corner_point(const Surface& surface, uint32_t face, uint32_t
 // The corner of the face around a vertex that is the first one of the caller's.
 SurfacePoint point_at_vertex(const Surface& surface, uint32_t vertex);
 
-// Calls use(face) for every other face at the edge between two vertices of a face.
+// Calls use(face) for every other face at the edge between two vertices of a face. There are fewer faces to
+// look at around one end than around the hub of a wheel.
 template <class Use>
 void for_each_face_beyond(const Surface& surface, uint32_t face, uint32_t a, uint32_t b, const Use& use) {
+    if (surface.vertex_faces.room_for(b) < surface.vertex_faces.room_for(a)) std::swap(a, b);
     for (const uint32_t other : surface.vertex_faces[a])
         if (other != face && has_corner(surface, other, b)) use(other);
 }
