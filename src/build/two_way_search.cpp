@@ -69,6 +69,7 @@ std::vector<uint32_t> TwoWaySearch::vertices_around_worst(uint32_t count) const 
 
 void TwoWaySearch::look_between(std::vector<uint32_t> vertices, uint32_t sources_of_class, uint32_t pairs,
                                 Random& random, Workers& workers) {
+    if (vertices.empty()) return;
     vertices_ = std::move(vertices);
     fill_answers(workers);
     std::vector<Source> sources(vertices_.size());

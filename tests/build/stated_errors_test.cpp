@@ -135,6 +135,21 @@ TEST_CASE("stated errors: of all fields, one distance in a million is worse, and
     }
 }
 
+// Leaves, gravel or bolts: each part lies in one leaf, whose tables are as right in both directions, so that
+// no pair is worse than others. There are more vertices than are compared with all others.
+TEST_CASE("stated errors: of many small parts, there are none but rounding") {
+    TestMesh mesh;
+    for (uint32_t part = 0; part < 60; ++part) append(mesh, grid(8, 8, 0.2), 10.0 * part);
+    const auto index = build(mesh, default_options());
+    const geoidx_info info = info_of(index.get());
+    check_consistent(info);
+    CHECK(info.error_max < 0.01);
+    const auto classes = errors_of(index.get(), mesh, 31);
+    REQUIRE(classes[0].answers > 5000);
+    CHECK(classes[0].worse_than_stated == 0);
+    CHECK(classes[0].max < 0.01);
+}
+
 TEST_CASE("stated errors: the largest of a part lets expect a larger one, by how far large ones lie apart") {
     using geodesic::ErrorSum;
     ErrorSum all;
