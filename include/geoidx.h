@@ -750,7 +750,7 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * GEOIDX_METRIC_EXACT without edge_lengths and of GEOIDX_METRIC_EDGES without edge costs; with another metric
  * they are GEOIDX_ERROR_INVALID_ARGUMENT. By GEOIDX_METRIC_EDGES a way leads from a point straight to the
  * corners of the triangle that it is given on, and along edges from there. By GEOIDX_METRIC_EXACT distances
- * come from those of up to 16 vertices around the point, by GEOIDX_ENGINE_GRAPH of the three corners,
+ * come from those of up to 64 vertices around the point, by GEOIDX_ENGINE_GRAPH of the three corners,
  * unfolded over the triangles between: to the accuracy of the index, but where these are reached from
  * different sides, as around holes that are as small as triangles or between spikes, off by a share of the
  * triangles' edges. `surface` must be of the index's mesh, and stay open during the call only. */

@@ -66,9 +66,10 @@ FacePoint face_point(const std::array<uint32_t, 3>& corners, const std::array<do
 // third.
 double distance_over(const FacePoint& point, std::span<const double> from_vertices) {
     double least = NO_WAY, certain = 0;
-    for (size_t k = 0; k < point.vertex_count; ++k)
+    for (size_t k = 0; k < point.vertex_count; ++k) {
         least = std::min(least, point.straight[k] + from_vertices[k]);
-    for (size_t k = 0; k < 3; ++k) certain = std::max(certain, from_vertices[k] - point.straight[k]);
+        certain = std::max(certain, from_vertices[k] - point.straight[k]);
+    }
     for (const FacePoint::Edge& edge : std::span(point.edges).first(point.edge_count))
         least = std::min(least, way_over(edge, from_vertices[edge.first], from_vertices[edge.second]));
     return std::max(least, certain);

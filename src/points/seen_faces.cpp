@@ -1,6 +1,7 @@
 #include "src/points/seen_faces.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "src/base/plane.h"
@@ -19,11 +20,6 @@ using Eigen::Vector3d;
 // edge.
 constexpr double FLATTEST = 1e-6;
 
-// The square of the chord of an angle.
-double width_of(const Vector2d& right, const Vector2d& left) {
-    return (right.normalized() - left.normalized()).squaredNorm();
-}
-
 // Directions between two that are less than half a turn apart.
 bool is_in_angle(const Vector2d& right, const Vector2d& direction, const Vector2d& left) {
     return cross(right, direction) >= 0 && cross(direction, left) >= 0;
@@ -34,28 +30,43 @@ struct End : PlacedVertex {
     uint32_t slot; // among the vertices of the polygon
 };
 
+// One side of what the point sees of an edge: a direction of length 1, and whether it is that of the edge's
+// end, which the point then sees.
+struct Side {
+    Vector2d direction;
+    bool is_end;
+
+    Side without_end() const { return {direction, false}; }
+};
+
 // An edge of the polygon. The point, which is the origin, sees `first` to the right of `second`, and of the
 // edge what lies between two directions.
 struct Edge {
     uint32_t behind; // the face on the other side of the edge; NONE if there are several
     End first, second;
-    Vector2d right, left;
-    double width; // of the angle that is seen; 0 where nothing behind the edge can be unfolded
+    Side right, left;
 
-    double length() const { return (second.at - first.at).norm(); }
-    Vector2d along() const { return (second.at - first.at).normalized(); }
+    Vector2d along() const { return second.at - first.at; }
+
+    // The square of the chord of the angle that is seen.
+    double width() const { return (right.direction - left.direction).squaredNorm(); }
 
     // How far from the first end the edge is met in a direction.
     double met_in(const Vector2d& direction) const {
-        const double share = cross(first.at, direction) / cross(direction, second.at - first.at);
-        return std::clamp(share, 0.0, 1.0) * length();
+        const double share = cross(first.at, direction) / cross(direction, along());
+        return std::clamp(share, 0.0, 1.0) * along().norm();
     }
 };
 
+// A vertex that is seen in such a distance as a side of edges.
+Side side_at(const Vector2d& place, double distance) {
+    return {distance > 0 ? Vector2d(place / distance) : place, true};
+}
+
 class Polygon {
 public:
-    Polygon(const Surface& surface, const KnownFaces& known, FacePoint& point, SeenFaces& seen)
-        : surface_(surface), known_(known), point_(point), seen_(seen) {}
+    Polygon(const Surface& surface, const KnownFaces& known, size_t most, FacePoint& point, SeenFaces& seen)
+        : surface_(surface), known_(known), most_(most), point_(point), seen_(seen) {}
 
     // Begins with the face of the point. Returns false if it is too flat.
     bool begin(const SurfacePoint& at) {
@@ -68,23 +79,24 @@ public:
         const Vector3d origin =
             surface_.positions[corners[0]] + at.weights[1] * to_second + at.weights[2] * to_third;
         std::array<End, 3> ends;
+        std::array<Side, 3> sides;
         for (uint32_t k = 0; k < 3; ++k) {
             const Vector3d to_corner = surface_.positions[corners[k]] - origin;
             ends[k] = {{corners[k], {x.dot(to_corner), y.dot(to_corner)}}, k};
+            sides[k] = side_at(ends[k].at, ends[k].at.norm());
         }
         for (const FacePoint::Edge& edge : std::span(point_.edges).first(point_.edge_count))
-            add(at.face, ends[edge.first], ends[edge.second], ends[edge.first].at, ends[edge.second].at);
+            add(at.face, ends[edge.first], ends[edge.second], sides[edge.first], sides[edge.second]);
         return true;
     }
 
     // An edge gives way to two at most.
     void grow() {
-        while (point_.vertex_count < FacePoint::MOST_VERTICES && count_ < FacePoint::MOST_EDGES) {
-            Edge* const begin = edges_.data();
-            Edge* const widest = std::max_element(
-                begin, begin + count_, [](const Edge& a, const Edge& b) { return a.width < b.width; });
-            if (count_ == 0 || !(widest->width > 0)) return;
-            if (!unfold(*widest)) widest->width = 0;
+        while (point_.vertex_count < most_ && count_ < most_) {
+            const uint64_t key = widest_key();
+            const auto index = static_cast<uint32_t>(key);
+            if (key == key_of(0, index)) return;
+            if (!unfold(index)) keys_[index] = key_of(0, index);
         }
     }
 
@@ -92,67 +104,88 @@ public:
     void finish() {
         point_.edge_count = 0;
         for (const Edge& edge : std::span(edges_).first(count_)) {
-            const Vector2d along = edge.along();
-            const double length = edge.length();
+            const double length = edge.along().norm();
             if (!(length > 0)) continue;
+            const Vector2d along = edge.along() / length;
             point_.edges[point_.edge_count++] = {edge.first.slot,
                                                  edge.second.slot,
                                                  length,
                                                  -along.dot(edge.first.at),
                                                  std::max(cross(edge.first.at, along), 0.0),
-                                                 edge.right == edge.first.at ? 0 : edge.met_in(edge.right),
-                                                 edge.left == edge.second.at ? length
-                                                                             : edge.met_in(edge.left)};
+                                                 edge.right.is_end ? 0 : edge.met_in(edge.right.direction),
+                                                 edge.left.is_end ? length
+                                                                  : edge.met_in(edge.left.direction)};
         }
     }
 
 private:
+    // An edge by the width of its angle, for comparisons without jumps, which processors would mispredict.
+    static uint64_t key_of(double width, size_t index) {
+        return uint64_t{std::bit_cast<uint32_t>(static_cast<float>(width))} << 32 | index;
+    }
+
+    uint64_t widest_key() const {
+        uint64_t key = 0;
+        for (size_t i = 0; i < count_; ++i) key = std::max(key, keys_[i]);
+        return key;
+    }
+
     // Adds an edge of a face, unless the surface ends there.
-    void add(uint32_t face, const End& first, const End& second, const Vector2d& right,
-             const Vector2d& left) {
-        uint32_t behind = NONE, count = 0;
-        for_each_indexed_face_beyond(surface_, face, first.vertex, second.vertex, [&](uint32_t other) {
-            behind = other;
-            ++count;
-        });
-        if (count > 0)
-            edges_[count_++] = {count == 1 ? behind : NONE, first, second, right, left,
-                                width_of(right, left)};
+    void add(uint32_t face, const End& first, const End& second, const Side& right, const Side& left) {
+        const FacesBeyond beyond = indexed_faces_beyond(surface_, face, first.vertex, second.vertex);
+        if (beyond.count == 0) return;
+        edges_[count_] = {beyond.count == 1 ? beyond.face : NONE, first, second, right, left};
+        keys_[count_] = key_of(edges_[count_].width(), count_);
+        ++count_;
     }
 
     // Replaces an edge by what is seen of the two other edges of the face behind it. Returns false if that is
     // not known.
-    bool unfold(Edge& at) {
-        const Edge edge = at;
+    bool unfold(size_t index) {
+        const Edge edge = edges_[index];
         const uint32_t face = edge.behind;
         const auto& numbers = point_.numbers;
-        if (face == NONE || !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.length()))
+        if (face == NONE || !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.along()))
             return false;
-        const auto& corners = indexed_corners(surface_, face);
-        const uint32_t apex = *std::ranges::find_if(corners, [&](uint32_t corner) {
-            return corner != edge.first.vertex && corner != edge.second.vertex;
-        });
+        const uint32_t apex = apex_beyond(face, edge);
         const uint32_t number = known_.number_of(apex);
         const Vector2d place = place_ahead(surface_, edge.second, edge.first, apex);
-        const bool sees_first = cross(edge.right, place) > 0, sees_second = cross(place, edge.left) > 0;
+        const bool sees_first = cross(edge.right.direction, place) > 0,
+                   sees_second = cross(place, edge.left.direction) > 0;
         if (number == NONE || !(sees_first || sees_second)) return false;
         const bool is_seen = sees_first && sees_second;
+        const double distance = is_seen ? hypotenuse(place.x(), place.y()) : UNREACHABLE;
         const End third{{apex, place}, point_.vertex_count};
         point_.numbers[third.slot] = number;
-        point_.straight[third.slot] = is_seen ? hypotenuse(place.x(), place.y()) : UNREACHABLE;
+        point_.straight[third.slot] = distance;
         ++point_.vertex_count;
-        at = edges_[--count_];
-        if (sees_first) add(face, edge.first, third, edge.right, is_seen ? place : edge.left);
-        if (sees_second) add(face, third, edge.second, is_seen ? place : edge.right, edge.left);
+        take_out(index);
+        const Side side = is_seen ? side_at(place, distance) : Side{};
+        if (sees_first) add(face, edge.first, third, edge.right, is_seen ? side : edge.left.without_end());
+        if (sees_second) add(face, third, edge.second, is_seen ? side : edge.right.without_end(), edge.left);
         note(face, edge, third);
         return true;
+    }
+
+    // The corner of the face behind an edge that is no end of it.
+    uint32_t apex_beyond(uint32_t face, const Edge& edge) const {
+        const auto& [a, b, c] = indexed_corners(surface_, face);
+        const auto is_end = [&](uint32_t corner) {
+            return corner == edge.first.vertex || corner == edge.second.vertex;
+        };
+        return !is_end(a) ? a : !is_end(b) ? b : c;
+    }
+
+    void take_out(size_t index) {
+        edges_[index] = edges_[--count_];
+        keys_[index] = keys_[count_] - count_ + index;
     }
 
     void note(uint32_t face, const Edge& edge, const End& third) {
         SeenFaces::Face& noted = seen_.faces[seen_.count++];
         noted.face = face;
-        noted.right = edge.right;
-        noted.left = edge.left;
+        noted.right = edge.right.direction;
+        noted.left = edge.left.direction;
         const auto& corners = indexed_corners(surface_, face);
         for (const End& end : {edge.first, edge.second, third})
             noted.corners[static_cast<size_t>(std::ranges::find(corners, end.vertex) - corners.begin())] =
@@ -161,10 +194,12 @@ private:
 
     const Surface& surface_;
     const KnownFaces& known_;
+    const size_t most_; // of vertices, and of edges
     FacePoint& point_;
     SeenFaces& seen_;
     size_t count_ = 0;
     std::array<Edge, FacePoint::MOST_EDGES> edges_;
+    std::array<uint64_t, FacePoint::MOST_EDGES> keys_; // per edge, of width 0 where it cannot be unfolded
 };
 
 }
@@ -184,12 +219,18 @@ double SeenFaces::straight_to(const Surface& surface, const SurfacePoint& point)
     return least;
 }
 
-void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, FacePoint& point,
-                 SeenFaces& seen) {
-    Polygon polygon(surface, known, point, seen);
+void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, size_t most,
+                 FacePoint& point, SeenFaces& seen) {
+    Polygon polygon(surface, known, most, point, seen);
     if (!polygon.begin(at)) return;
     polygon.grow();
     polygon.finish();
+}
+
+size_t vertices_of_polygon(const Surface& surface) {
+    constexpr double FEW_EDGES_ACROSS = 5, SOME_EDGES_ACROSS = 48;
+    const double edges_across = surface.bounding_box_diagonal / surface.average_edge;
+    return edges_across < FEW_EDGES_ACROSS ? 64 : edges_across < SOME_EDGES_ACROSS ? 32 : 16;
 }
 
 }

@@ -33,16 +33,21 @@ class KnownFaces {
 public:
     // The number of a vertex, or NONE where distances from it are not known.
     virtual uint32_t number_of(uint32_t vertex) const = 0;
-    // Whether the face behind an edge is known, too, by the numbers of the ends of the edge.
-    virtual bool go_on(uint32_t a, uint32_t b, double length) const = 0;
+    // Whether the face behind an edge is known, too, by the numbers of the ends of the edge and the vector
+    // from one to the other.
+    virtual bool go_on(uint32_t a, uint32_t b, const Eigen::Vector2d& along) const = 0;
 
 protected:
     ~KnownFaces() = default;
 };
 
-// Unfolds faces around a point, those behind the widest edges first, until its polygon has as many vertices
-// as there is room for. `point` comes as the polygon of its face alone, which `at` is a point of.
-void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, FacePoint& point,
-                 SeenFaces& seen);
+// Unfolds faces around a point, those behind the widest edges first, until its polygon has `most` vertices.
+// `point` comes as the polygon of its face alone, which `at` is a point of.
+void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, size_t most,
+                 FacePoint& point, SeenFaces& seen);
+
+// How many vertices a polygon has on a surface, at most FacePoint::MOST_VERTICES. What it does not tell is a
+// share of an edge's length, so that it has more where edges are long for the whole surface.
+size_t vertices_of_polygon(const Surface& surface);
 
 }

@@ -165,16 +165,28 @@ void PointsInLeaf::take_columns(uint32_t leaf) {
 void PointsInLeaf::fill_border_row(uint32_t leaf, const LeafVertex& from, float* row) const {
     const Numbering& numbering = index_.numbering;
     const uint32_t first_slot = numbering.border_begin[leaf];
+    const size_t count = columns_.size();
     if (from.internal != NONE) {
         const uint16_t* const codes = index_.hops.inner.data() + index_.inner_row(leaf, from.internal);
-        for (size_t i = 0; i < columns_.size(); ++i)
-            row[i] = index_.distance(codes[index_.rings.place_of_slot[first_slot + i]], leaf);
+        const uint16_t* const places = index_.rings.place_of_slot.data() + first_slot;
+        const float quantum = index_.quantum[leaf];
+        for (size_t i = 0; i < count; ++i) row[i] = TableCode::distance(codes[places[i]], quantum);
         return;
     }
     const uint32_t parent = numbering.parent[leaf],
                    position = numbering.overlay_position[first_slot + from.border_position];
-    for (size_t i = 0; i < columns_.size(); ++i)
-        row[i] = index_.distance(index_.overlay_code(parent, position, columns_[i]), parent);
+    const float quantum = index_.quantum[parent];
+    if (index_.is_large[parent]) {
+        for (size_t i = 0; i < count; ++i)
+            row[i] = TableCode::distance(index_.overlay_code(parent, position, columns_[i]), quantum);
+        return;
+    }
+    const uint16_t *const to_ring = index_.row_to_ring(parent, position), *const to_owned =
+                                                                              index_.row_to_owned(parent,
+                                                                                                  position);
+    for (size_t i = 0; i < count; ++i)
+        row[i] =
+            TableCode::distance((columns_[i].is_owned ? to_owned : to_ring)[columns_[i].number], quantum);
 }
 
 void PointsInLeaf::fill_internal_row(uint32_t leaf, const LeafVertex& from, float* row) const {

@@ -60,7 +60,7 @@ struct LookOut {
                 const V straight = V{} + static_cast<float>(point.straight[k]);
                 row(k, c, from);
                 lower<V>(least, straight + from);
-                if (k < 3) lower<V>(certain, straight - from);
+                lower<V>(certain, straight - from);
             }
             store<V>(least < -certain ? -certain : least, distances + c);
         }
