@@ -1,6 +1,7 @@
 #include "src/path/path.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -47,10 +48,12 @@ public:
           target_(target), search_(surface) {}
 
     SurfacePath find(PathQuality quality);
-    StripWay find_straight(PathQuality quality);
+    StripWay find_way(PathQuality quality);
 
 private:
     FacePoint prepared_as(const SurfacePoint& end, PathQuality quality) const;
+    StripWay find_straight(const FacePoint& source, const FacePoint& target);
+    bool is_longer_than_known(double length, const FacePoint& target);
     double distance(size_t end, uint32_t vertex) {
         return end_distance(index_, query_, surface_, end, vertex);
     }
@@ -105,12 +108,12 @@ std::optional<Strip> PathFinder::led_by(size_t end) {
 
 // The errors of the two fields may lead to different ways around a bump. The longer one is given up where it
 // is the same way, or longer by more than other sides of vertices nearly ever make up for.
-StripWay PathFinder::find_straight(PathQuality quality) {
+StripWay PathFinder::find_straight(const FacePoint& source, const FacePoint& target) {
     constexpr double SAME = 1e-9;        // as a share of the length
     constexpr double MADE_UP_FOR = 0.02; // as a share of an edge
     const auto length = [](const StripWay& way) { return way.path.length; };
-    query_.prepare_end(1, prepared_as(target_, quality));
-    query_.prepare_end(0, prepared_as(source_, quality));
+    query_.prepare_end(1, target);
+    query_.prepare_end(0, source);
     std::vector<Strip> strips;
     for (const size_t end : {size_t{1}, size_t{0}})
         if (auto strip = led_by(end)) strips.push_back(std::move(*strip));
@@ -130,17 +133,36 @@ StripWay PathFinder::find_straight(PathQuality quality) {
     return std::move(*std::ranges::min_element(ways, {}, length));
 }
 
+// Whether a path is longer than the index says that the target is away, by more than it nearly ever errs.
+bool PathFinder::is_longer_than_known(double length, const FacePoint& target) {
+    constexpr double LEAST_ERROR = 1e-3;
+    std::array<double, FacePoint::MOST_VERTICES> from_vertices;
+    for (size_t k = 0; k < target.vertex_count; ++k)
+        from_vertices[k] = double{query_.end_distance(0, target.numbers[k])};
+    const double error = std::max(index_.description.error.p99, LEAST_ERROR);
+    return length > distance_over(target, from_vertices) * (1 + error);
+}
+
+// There are surfaces of so many bumps that the straight ways are not among the shortest ones. There, too, the
+// corridor is searched.
+StripWay PathFinder::find_way(PathQuality quality) {
+    const FacePoint source = prepared_as(source_, quality), target = prepared_as(target_, quality);
+    StripWay way = find_straight(source, target);
+    const bool is_far = way.strip.faces.size() > 1;
+    if (is_far && (quality == PathQuality::EXACT || is_longer_than_known(way.path.length, target))) {
+        const Corridor corridor = corridor_around(
+            surface_, way.strip, [&, length = way.path.length](uint32_t vertex, double slack) {
+                return belongs(vertex, slack, length);
+            });
+        make_shortest_in_corridor(surface_, corridor, way.strip, way.path);
+    }
+    return way;
+}
+
 SurfacePath PathFinder::find(PathQuality quality) {
     if (is_at(surface_, source_, target_) && points_.sssd(source_, target_) == 0)
         return path_of_strip(surface_, {source_, target_, {source_.face}, {}}, {});
-    auto [strip, path] = find_straight(quality);
-    if (quality == PathQuality::EXACT && strip.faces.size() > 1) {
-        const Corridor corridor =
-            corridor_around(surface_, strip, [&, length = path.length](uint32_t vertex, double slack) {
-                return belongs(vertex, slack, length);
-            });
-        make_shortest_in_corridor(surface_, corridor, strip, path);
-    }
+    const auto [strip, path] = find_way(quality);
     return path_of_strip(surface_, strip, path);
 }
 
@@ -176,7 +198,7 @@ SurfacePath find_path(const Index& index, Query& query, const Surface& surface, 
 
 StripWay find_straight_path(const Index& index, Query& query, const Surface& surface,
                             const SurfacePoint& source, const SurfacePoint& target) {
-    return PathFinder(index, query, surface, source, target).find_straight(PathQuality::STRAIGHT);
+    return PathFinder(index, query, surface, source, target).find_way(PathQuality::STRAIGHT);
 }
 
 }
