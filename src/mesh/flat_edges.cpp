@@ -1,6 +1,7 @@
 #include "src/mesh/flat_edges.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <unordered_set>
 #include <utility>
@@ -31,6 +32,11 @@ constexpr double ANGLE = 1e-4;
 // better: the rows of a grid are straighter borders.
 constexpr double WORTH_IT = 0.8;
 
+// Of corners on one circle, as those of a coin's cap, any diagonals are as good by their angles. One that is
+// shorter than another by this share takes its place: a fan becomes a tree of chords, which a path crosses
+// few of.
+constexpr double SHORTER = 0.9;
+
 struct Angle {
     double sine, cosine;
 };
@@ -40,14 +46,23 @@ Angle angle_at(const Point& corner, const Point& a, const Point& b) {
     return {to_a.cross(to_b).norm(), to_a.dot(to_b)};
 }
 
+Angle sum_of(const Angle& c, const Angle& d) {
+    return {c.sine * d.cosine + d.sine * c.cosine, c.cosine * d.cosine - c.sine * d.sine};
+}
+
 // Whether the angles opposite to an edge are at most half a turn together: no corner of the one face then
 // lies within the circle around the other, if both are laid into one plane. If both are obtuse they are more,
 // however little is missing to a whole turn.
 bool is_delaunay(const Angle& c, const Angle& d) {
-    const double sine = c.sine * d.cosine + d.sine * c.cosine;
-    const double cosine = c.cosine * d.cosine - c.sine * d.sine;
-    const bool is_nearly_a_turn = c.cosine < 0 && d.cosine < 0 && cosine > 0;
-    return sine >= -ANGLE && !is_nearly_a_turn;
+    const Angle sum = sum_of(c, d);
+    const bool is_nearly_a_turn = c.cosine < 0 && d.cosine < 0 && sum.cosine > 0;
+    return sum.sine >= -ANGLE && !is_nearly_a_turn;
+}
+
+// Whether they are half a turn together but for rounding: all four corners then lie on one circle.
+bool are_on_circle(const Angle& c, const Angle& d) {
+    const Angle sum = sum_of(c, d);
+    return std::abs(sum.sine) <= ANGLE && sum.cosine < 0;
 }
 
 // Whether the faces of an edge from `a` to `b`, with the opposite corners `c` and `d`, lie in one plane. A
@@ -147,8 +162,15 @@ private:
         if (plane_[q.first] != plane_[q.second]) return false;
         const auto& at = mesh_.positions;
         const Angle at_c = angle_at(at[q.c], at[q.a], at[q.b]), at_d = angle_at(at[q.d], at[q.a], at[q.b]);
-        return !is_delaunay(at_c, at_d) && is_flat(q) && find_edge(mesh_, q.c, q.d) == NONE &&
+        const bool is_better = !is_delaunay(at_c, at_d) || (are_on_circle(at_c, at_d) && is_shorter(q));
+        return is_better && is_flat(q) && find_edge(mesh_, q.c, q.d) == NONE &&
                !new_edges_.contains(edge_key(q.c, q.d));
+    }
+
+    // Whether the other diagonal is.
+    bool is_shorter(const Quadrangle& q) const {
+        const auto& at = mesh_.positions;
+        return (at[q.c] - at[q.d]).norm() < SHORTER * (at[q.a] - at[q.b]).norm();
     }
 
     bool is_flat(const Quadrangle& q) const {

@@ -18,7 +18,8 @@ struct FlippedEdges {
 };
 
 // Makes faces rounder without changing the surface: where two faces lie in one plane, their quadrangle may be
-// cut along either diagonal, and flat edges are flipped until they are locally Delaunay. Programs that cut
+// cut along either diagonal, and flat edges are flipped until they are locally Delaunay; of diagonals of four
+// corners on a circle, the one that is shorter by a tenth is taken, too. Programs that cut
 // faces with holes or many corners into triangles leave slivers as long as the face; borders of patches along
 // these have long segments, and exact paths cross many of them. Planes whose edges would hardly become
 // shorter stay as they are, and so do an edge of more or fewer than two faces, and one whose other diagonal

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -95,6 +96,24 @@ TEST_CASE("flat edges: a convex plane becomes its Delaunay triangulation, howeve
         for (const auto& face : mesh.faces)
             for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
                 if (!std::ranges::count(face, v)) CHECK(outside_circle(mesh, face, v) > -1e-7);
+    }
+}
+
+// By their angles all triangulations of a coin's cap are alike; in a fan, paths cross many edges. Whichever
+// corner of a tree of chords has most of them has two on each of its levels, and the edges of the rim.
+TEST_CASE("flat edges: a fan of corners on a circle becomes a tree of chords, straight or turned") {
+    constexpr uint32_t CORNERS = 256, LEVELS = 8;
+    Soup fan;
+    for (uint32_t i = 0; i < CORNERS; ++i) {
+        const double turn = 2 * std::numbers::pi * i / CORNERS;
+        fan.positions.push_back({std::cos(turn), std::sin(turn), 0});
+        if (i >= 2) fan.triangles.push_back({0, i - 1, i});
+    }
+    const double area = CORNERS / 2.0 * std::sin(2 * std::numbers::pi / CORNERS);
+    for (const Soup& soup : {fan, turned(fan)}) {
+        const Mesh mesh = flipped(soup);
+        CHECK(area_of(mesh) == doctest::Approx(area));
+        for (uint32_t v = 0; v < CORNERS; ++v) CHECK(mesh.vertex_faces[v].size() <= 2 * LEVELS + 1);
     }
 }
 
