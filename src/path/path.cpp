@@ -53,7 +53,8 @@ public:
 private:
     FacePoint prepared_as(const SurfacePoint& end, PathQuality quality) const;
     StripWay find_straight(const FacePoint& source, const FacePoint& target);
-    bool is_longer_than_known(double length, const FacePoint& target);
+    double known_length(const FacePoint& target);
+    void shorten(StripWay& way, double length, size_t most_vertices);
     double distance(size_t end, uint32_t vertex) {
         return end_distance(index_, query_, surface_, end, vertex);
     }
@@ -133,29 +134,37 @@ StripWay PathFinder::find_straight(const FacePoint& source, const FacePoint& tar
     return std::move(*std::ranges::min_element(ways, {}, length));
 }
 
-// Whether a path is longer than the index says that the target is away, by more than it nearly ever errs.
-bool PathFinder::is_longer_than_known(double length, const FacePoint& target) {
+// The least length that a path can have of which the index nearly never errs by more.
+double PathFinder::known_length(const FacePoint& target) {
     constexpr double LEAST_ERROR = 1e-3;
     std::array<double, FacePoint::MOST_VERTICES> from_vertices;
     for (size_t k = 0; k < target.vertex_count; ++k)
         from_vertices[k] = double{query_.end_distance(0, target.numbers[k])};
-    const double error = std::max(index_.description.error.p99, LEAST_ERROR);
-    return length > distance_over(target, from_vertices) * (1 + error);
+    return distance_over(target, from_vertices) * (1 + std::max(index_.description.error.p99, LEAST_ERROR));
 }
 
-// There are surfaces of so many bumps that the straight ways are not among the shortest ones. There, too, the
+// Searches the corridor of paths up to this length for a shorter one, unless it has too many vertices.
+void PathFinder::shorten(StripWay& way, double length, size_t most_vertices) {
+    size_t count = 0;
+    const Corridor corridor = corridor_around(surface_, way.strip, [&](uint32_t vertex, double slack) {
+        const bool is_one = count <= most_vertices && belongs(vertex, slack, length);
+        count += is_one;
+        return is_one;
+    });
+    if (count <= most_vertices) make_shortest_in_corridor(surface_, corridor, way.strip, way.path);
+}
+
+// There are surfaces of so many bumps that straight ways are not among the shortest ones. There, too, a
 // corridor is searched.
 StripWay PathFinder::find_way(PathQuality quality) {
+    constexpr size_t MOST_VERTICES_OF_STRAIGHT = 1000;
     const FacePoint source = prepared_as(source_, quality), target = prepared_as(target_, quality);
     StripWay way = find_straight(source, target);
-    const bool is_far = way.strip.faces.size() > 1;
-    if (is_far && (quality == PathQuality::EXACT || is_longer_than_known(way.path.length, target))) {
-        const Corridor corridor = corridor_around(
-            surface_, way.strip, [&, length = way.path.length](uint32_t vertex, double slack) {
-                return belongs(vertex, slack, length);
-            });
-        make_shortest_in_corridor(surface_, corridor, way.strip, way.path);
-    }
+    if (way.strip.faces.size() == 1) return way;
+    if (quality == PathQuality::EXACT)
+        shorten(way, way.path.length, surface_.vertex_count());
+    else if (const double length = known_length(target); way.path.length > length)
+        shorten(way, length, MOST_VERTICES_OF_STRAIGHT);
     return way;
 }
 

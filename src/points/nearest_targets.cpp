@@ -7,8 +7,9 @@ namespace geodesic {
 
 namespace {
 
-// A pair of points takes about as long as so many pairs of vertices (`geoidx_bench paths`).
-constexpr uint64_t VERTEX_PAIRS_PER_PAIR = 3;
+// A pair of points takes about as long as a pair of vertices for every so many vertices of their polygons
+// (`geoidx_bench paths`).
+constexpr uint64_t VERTICES_PER_PAIR = 5;
 
 // Each sweep looks this many times as far as the one before, or as the nearest vertex that it left out.
 constexpr float GROWTH = 2;
@@ -106,7 +107,8 @@ std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& sour
     count = std::min(count, targets.size());
     std::vector<Query::Found> found;
     if (count == 0) return found;
-    if (query_.targets_are_few(targets.size(), count, VERTEX_PAIRS_PER_PAIR)) {
+    const uint64_t vertex_pairs_per_pair = vertices_of_polygon(surface_) / VERTICES_PER_PAIR;
+    if (query_.targets_are_few(targets.size(), count, vertex_pairs_per_pair)) {
         for (uint32_t i = 0; i < targets.size(); ++i)
             if (const float distance = sssd(source, targets[i]); distance < INFINITE)
                 found.push_back({distance, i});

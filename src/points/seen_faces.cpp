@@ -160,9 +160,10 @@ private:
         point_.straight[third.slot] = distance;
         ++point_.vertex_count;
         take_out(index);
-        const Side side = is_seen ? side_at(place, distance) : Side{};
-        if (sees_first) add(face, edge.first, third, edge.right, is_seen ? side : edge.left.without_end());
-        if (sees_second) add(face, third, edge.second, is_seen ? side : edge.right.without_end(), edge.left);
+        const Side right = is_seen ? side_at(place, distance) : edge.right.without_end(),
+                   left = is_seen ? right : edge.left.without_end();
+        if (sees_first) add(face, edge.first, third, edge.right, left);
+        if (sees_second) add(face, third, edge.second, right, edge.left);
         note(face, edge, third);
         return true;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -29,13 +30,15 @@ inline Eigen::Vector2d place_ahead(const Surface& surface, const PlacedVertex& l
     const Eigen::Vector3d& begin = surface.positions[right.vertex];
     const Eigen::Vector3d along = surface.positions[left.vertex] - begin,
                           to = surface.positions[ahead] - begin;
-    const double square = along.squaredNorm();
+    const double square = along.squaredNorm(), length = std::sqrt(square);
+    const double foot = to.dot(along) / length, height = along.cross(to).norm() / length;
     const Eigen::Vector2d across = left.at - right.at;
-    if (!(square > 0) || !(across.squaredNorm() > 0)) return right.at + Eigen::Vector2d(to.norm(), 0);
+    const double placed_length = across.norm();
+    if (!(placed_length > 0)) return right.at + Eigen::Vector2d(to.norm(), 0);
     if (to.squaredNorm() < square * (SAME * SAME)) return right.at;
     if ((to - along).squaredNorm() < square * (SAME * SAME)) return left.at;
-    const double foot = to.dot(along) / square, height = along.cross(to).norm() / square; // of the edge
-    return right.at + foot * across + height * Eigen::Vector2d(across.y(), -across.x());
+    const Eigen::Vector2d direction = across / placed_length;
+    return right.at + foot * direction + height * Eigen::Vector2d(direction.y(), -direction.x());
 }
 
 }

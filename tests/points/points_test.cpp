@@ -151,8 +151,6 @@ TEST_CASE("points: on rough surfaces of few triangles they are at most twice as 
         }
 }
 
-// Around a point whose distances from the corners come from different sides, the straight way is off by a
-// share of the triangle.
 // What lies behind a cap is seen over all of its rim, or else unfolded over chords far too near.
 TEST_CASE("points: on cylinders whose caps have no vertex inside") {
     for (const double height : {0.2, 2.0}) {
@@ -172,6 +170,8 @@ TEST_CASE("points: on cylinders whose caps have no vertex inside") {
     }
 }
 
+// Around a point whose distances from the corners come from different sides, the straight way is off by a
+// share of the triangle.
 TEST_CASE("points: any pair of hard meshes, and those without a path") {
     size_t number = 0;
     for (const Soup& soup : path_soups()) {

@@ -181,9 +181,8 @@ void PointsInLeaf::fill_border_row(uint32_t leaf, const LeafVertex& from, float*
             row[i] = TableCode::distance(index_.overlay_code(parent, position, columns_[i]), quantum);
         return;
     }
-    const uint16_t *const to_ring = index_.row_to_ring(parent, position), *const to_owned =
-                                                                              index_.row_to_owned(parent,
-                                                                                                  position);
+    const uint16_t* const to_ring = index_.row_to_ring(parent, position);
+    const uint16_t* const to_owned = index_.row_to_owned(parent, position);
     for (size_t i = 0; i < count; ++i)
         row[i] =
             TableCode::distance((columns_[i].is_owned ? to_owned : to_ring)[columns_[i].number], quantum);
