@@ -134,7 +134,8 @@ StripWay PathFinder::find_straight(const FacePoint& source, const FacePoint& tar
     return std::move(*std::ranges::min_element(ways, {}, length));
 }
 
-// The least length that a path can have of which the index nearly never errs by more.
+// How long a shortest path to the target is at most, as the index has it, but for one of a hundred distances
+// that err by more.
 double PathFinder::known_length(const FacePoint& target) {
     constexpr double LEAST_ERROR = 1e-3;
     std::array<double, FacePoint::MOST_VERTICES> from_vertices;
