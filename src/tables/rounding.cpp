@@ -63,7 +63,8 @@ private:
 
     void look_at_leaf(uint32_t leaf, uint32_t count) {
         if (count == 0) return;
-        const float* to_border = &tables_.border_internal[numbering_.border_internal_entry(leaf, 0, 0)];
+        const float* to_border =
+            tables_.border_internal.data() + numbering_.border_internal_entry(leaf, 0, 0);
         for (const uint32_t b : numbering_.border_of(leaf))
             for (uint32_t i = 0; i < count; ++i) look_at(i, *to_border++, farthest_of_[b]);
         for (uint32_t i = 0; i < count; ++i)
