@@ -58,10 +58,8 @@ public:
         const uint32_t number = geodesic::number_of(index_, surface_, vertex);
         return number != NONE && is_in_leaf(overlay_.numbering, leaf_, number) ? number : NONE;
     }
-    bool go_on(uint32_t a, uint32_t b, const Eigen::Vector2d& along) const override {
-        const Numbering& numbering = overlay_.numbering;
-        return !numbering.is_border(a) || !numbering.is_border(b) ||
-               !is_on_border(overlay_, leaf_, a, b, along.norm());
+    bool go_on(uint32_t a, uint32_t b, double length) const override {
+        return !is_on_border(overlay_, leaf_, a, b, length);
     }
 
 private:
@@ -127,8 +125,7 @@ FacePoint face_point_on(const Index& index, const Surface& surface, const Surfac
 
 PointView view_from(const Index& index, const Surface& surface, const SurfacePoint& at,
                     const FacePoint& point) {
-    PointView view;
-    view.point = point;
+    PointView view(point);
     if (point.leaf == NONE || point.vertex != NONE) return view;
     if (const auto indexed = indexed_point(surface, at))
         see_farther(surface, *indexed, FacesOfLeaf(index, surface, point.leaf), vertices_of_polygon(surface),

@@ -36,6 +36,8 @@ FacePoint face_point_on(const Index& index, const Surface& surface, const Surfac
 
 // The same by a metric that unfolds, with the faces around the point as far as the index tells of them.
 struct PointView {
+    explicit PointView(const FacePoint& point) : point(point) {}
+
     FacePoint point;
     SeenFaces seen;
 };

@@ -25,10 +25,7 @@ PointView PointQueries::view_of(const SurfacePoint& point) const {
 }
 
 PointView PointQueries::view_of(const SurfacePoint& at, const FacePoint& point) const {
-    if (unfolds()) return view_from(index_, surface_, at, point);
-    PointView view;
-    view.point = point;
-    return view;
+    return unfolds() ? view_from(index_, surface_, at, point) : PointView(point);
 }
 
 // The distance of two points, by what the index says of it. No way is shorter than the straight line in

@@ -132,9 +132,13 @@ private:
 
     // Adds an edge of a face, unless the surface ends there.
     void add(uint32_t face, const End& first, const End& second, const Side& right, const Side& left) {
-        const FacesBeyond beyond = indexed_faces_beyond(surface_, face, first.vertex, second.vertex);
-        if (beyond.count == 0) return;
-        edges_[count_] = {beyond.count == 1 ? beyond.face : NONE, first, second, right, left};
+        uint32_t behind = NONE, count = 0;
+        for_each_indexed_face_beyond(surface_, face, first.vertex, second.vertex, [&](uint32_t other) {
+            behind = other;
+            ++count;
+        });
+        if (count == 0) return;
+        edges_[count_] = {count == 1 ? behind : NONE, first, second, right, left};
         keys_[count_] = key_of(edges_[count_].width(), count_);
         ++count_;
     }
@@ -145,7 +149,8 @@ private:
         const Edge edge = edges_[index];
         const uint32_t face = edge.behind;
         const auto& numbers = point_.numbers;
-        if (face == NONE || !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.along()))
+        if (face == NONE ||
+            !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.along().norm()))
             return false;
         const uint32_t apex = apex_beyond(face, edge);
         const uint32_t number = known_.number_of(apex);

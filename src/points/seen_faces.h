@@ -33,9 +33,8 @@ class KnownFaces {
 public:
     // The number of a vertex, or NONE where distances from it are not known.
     virtual uint32_t number_of(uint32_t vertex) const = 0;
-    // Whether the face behind an edge is known, too, by the numbers of the ends of the edge and the vector
-    // from one to the other.
-    virtual bool go_on(uint32_t a, uint32_t b, const Eigen::Vector2d& along) const = 0;
+    // Whether the face behind an edge is known, too, by the numbers of the ends of the edge.
+    virtual bool go_on(uint32_t a, uint32_t b, double length) const = 0;
 
 protected:
     ~KnownFaces() = default;

@@ -24,7 +24,6 @@ public:
     FlatFaces() = default;
     explicit FlatFaces(const Mesh& mesh);
 
-    bool is_empty() const { return faces_.empty(); }
     // Whether edges are flipped in the plane of a face of the mesh. A face of that number is one of these,
     // too, but not at the same place of the plane.
     bool has(uint32_t face) const { return replaced_.contains(face); }

@@ -28,13 +28,6 @@ void for_each_indexed_face_beyond(const Surface& surface, uint32_t face, uint32_
     });
 }
 
-inline FacesBeyond indexed_faces_beyond(const Surface& surface, uint32_t face, uint32_t a, uint32_t b) {
-    if (surface.flat_faces.is_empty()) return faces_beyond(surface, face, a, b);
-    FacesBeyond beyond;
-    for_each_indexed_face_beyond(surface, face, a, b, [&](uint32_t other) { beyond.add_if(true, other); });
-    return beyond;
-}
-
 // A point of the surface as one of these faces. Nothing where rounding hides which of several flipped faces
 // it lies in.
 inline std::optional<SurfacePoint> indexed_point(const Surface& surface, const SurfacePoint& point) {

@@ -80,24 +80,6 @@ inline SurfacePoint corner_point(const Surface& surface, uint32_t face, uint32_t
 // The corner of the face around a vertex that is the first one of the caller's.
 SurfacePoint point_at_vertex(const Surface& surface, uint32_t vertex);
 
-// The other faces at an edge of a face: how many, and any one of them.
-struct FacesBeyond {
-    uint32_t count = 0, face = NONE;
-
-    // Without jumps, which processors would mispredict.
-    void add_if(bool is_one, uint32_t other) {
-        face = is_one ? other : face;
-        count += is_one;
-    }
-};
-inline FacesBeyond faces_beyond(const Surface& surface, uint32_t face, uint32_t a, uint32_t b) {
-    if (surface.vertex_faces.room_for(b) < surface.vertex_faces.room_for(a)) std::swap(a, b);
-    FacesBeyond beyond;
-    for (const uint32_t other : surface.vertex_faces[a])
-        beyond.add_if((other != face) & has_corner(surface, other, b), other);
-    return beyond;
-}
-
 // Calls use(face) for every other face at the edge between two vertices of a face. There are fewer faces to
 // look at around one end than around the hub of a wheel.
 template <class Use>

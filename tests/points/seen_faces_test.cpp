@@ -15,7 +15,7 @@ namespace {
 
 struct All : KnownFaces {
     uint32_t number_of(uint32_t vertex) const override { return vertex; }
-    bool go_on(uint32_t, uint32_t, const Eigen::Vector2d&) const override { return true; }
+    bool go_on(uint32_t, uint32_t, double) const override { return true; }
 };
 
 // But not every third vertex, unless it is a corner.
@@ -29,7 +29,7 @@ struct Some final : All {
 };
 
 struct Nothing final : All {
-    bool go_on(uint32_t, uint32_t, const Eigen::Vector2d&) const override { return false; }
+    bool go_on(uint32_t, uint32_t, double) const override { return false; }
 };
 
 Surface surface_of(const Soup& soup) {
