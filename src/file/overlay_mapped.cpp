@@ -3,7 +3,6 @@
 #include <string>
 
 #include "src/file/sections.h"
-#include "src/overlay/tables/codes.h"
 
 namespace geodesic {
 
@@ -14,18 +13,10 @@ void require_little_endian() {
         throw Error(GEOIDX_ERROR_UNSUPPORTED_VERSION, "mapped files are for little-endian processors");
 }
 
-// Whether no code is over the largest, which is that of no path.
-bool are_codes(std::span<const uint16_t> values) {
-    unsigned all = 0;
-    for (const uint16_t value : values) all |= value;
-    return all <= TableCode::UNREACHED;
-}
-
 void read_hop_codes(const format::Container& container, StoredIndex& stored) {
     const auto bytes = container.view_bytes(TAG_HOP_CODES);
     if (bytes.size() % sizeof(uint16_t) != 0) refuse_as_corrupt("section HOPS ends within a code");
     stored.hop_codes = {reinterpret_cast<const uint16_t*>(bytes.data()), bytes.size() / sizeof(uint16_t)};
-    if (!are_codes(stored.hop_codes)) refuse_as_corrupt("section HOPS holds what is no code of a distance");
 }
 
 }

@@ -175,6 +175,23 @@ TEST_CASE("mapped: borrowed bytes must be aligned") {
     check_answers(open({first, mapped().size()}).get());
 }
 
+// The offsets of middles come last, two bytes in the place of a code. They may be any bytes.
+size_t first_of_offsets() {
+    static const size_t first = [] {
+        const size_t codes =
+            format::Container::parse(mapped(), INDEX_TAGS).section(TAG_HOP_CODES).raw_size / sizeof(uint16_t);
+        size_t refused = 0, accepted = codes;
+        while (accepted - refused > 1) {
+            const size_t index = (refused + accepted) / 2;
+            const Bytes file = with_section(TAG_HOP_CODES, [&](Bytes& raw) { set_code(raw, index, 0x8000); });
+            (open_status(file) == GEOIDX_OK ? accepted : refused) = index;
+        }
+        REQUIRE(accepted < codes);
+        return accepted;
+    }();
+    return first;
+}
+
 TEST_CASE("mapped: tables of another size, or with what is no code, are refused") {
     const auto status_with = [](const std::function<void(Bytes&)>& change) {
         const Bytes file = with_section(TAG_HOP_CODES, change);
@@ -187,10 +204,9 @@ TEST_CASE("mapped: tables of another size, or with what is no code, are refused"
     CHECK(status_with([](Bytes& raw) { raw.resize(raw.size() - 2); }) == GEOIDX_ERROR_CORRUPT);
     CHECK(status_with([](Bytes& raw) { raw.resize(raw.size() + 64); }) == GEOIDX_ERROR_CORRUPT);
     CHECK(status_with([](Bytes& raw) { raw.clear(); }) == GEOIDX_ERROR_CORRUPT);
-    for (const double share : {0.0, 0.5, 1.0})
-        CHECK(status_with([&](Bytes& raw) {
-                  set_code(raw, static_cast<size_t>(share * static_cast<double>(raw.size() / 2 - 1)), 0x8000);
-              }) == GEOIDX_ERROR_CORRUPT);
+    for (const size_t index : {size_t{0}, first_of_offsets() / 2, first_of_offsets() - 1})
+        CHECK(status_with([&](Bytes& raw) { set_code(raw, index, 0x8000); }) == GEOIDX_ERROR_CORRUPT);
+    CHECK(status_with([&](Bytes& raw) { set_code(raw, first_of_offsets(), 0x8000); }) == GEOIDX_OK);
 }
 
 TEST_CASE("mapped: whatever codes a file has, it is answered from or refused") {
@@ -198,8 +214,10 @@ TEST_CASE("mapped: whatever codes a file has, it is answered from or refused") {
     for (int round = 0; round < 4; ++round) {
         const Bytes file = with_section(TAG_HOP_CODES, [&](Bytes& raw) {
             for (size_t i = 0; i < raw.size() / 2; ++i)
-                if (round < 2 || random() % 50 == 0)
-                    set_code(raw, i, static_cast<uint16_t>(round == 0 ? 0x7fff : random() % 0x8000));
+                if (round < 2 || random() % 50 == 0) {
+                    const uint32_t end = i < first_of_offsets() ? 0x8000 : 0x10000;
+                    set_code(raw, i, static_cast<uint16_t>(round == 0 ? end - 1 : random() % end));
+                }
         });
         const auto index = open(file);
         const uint32_t count = mesh().vertex_count();
@@ -213,6 +231,16 @@ TEST_CASE("mapped: whatever codes a file has, it is answered from or refused") {
         CHECK(save(index.get(), GEOIDX_CODEC_MAPPED) == file);
         check_refused(save_status(index.get(), GEOIDX_CODEC_PACKED), GEOIDX_ERROR_CORRUPT, "HOPS");
         CHECK(geoidx_verify(file.data(), file.size(), nullptr, nullptr) == GEOIDX_ERROR_CORRUPT);
+    }
+}
+
+TEST_CASE("mapped: verifying finds the offset of a middle that does not follow") {
+    std::mt19937 random(5);
+    for (int round = 0; round < 10; ++round) {
+        const size_t index = first_of_offsets() + random() % 1000;
+        CAPTURE(index);
+        const Bytes file = with_section(TAG_HOP_CODES, [&](Bytes& raw) { raw[2 * index] ^= std::byte{1}; });
+        check_told(file, 112, "HOPS");
     }
 }
 

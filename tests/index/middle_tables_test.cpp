@@ -21,15 +21,19 @@ TEST_CASE("middle tables: in the plane, straight lines to the middles of segment
     const Numbering& numbering = index.numbering;
 
     uint64_t wrong = 0, middles = 0;
-    for (uint32_t p = 1; p < numbering.patch_count(); ++p)
+    std::vector<int16_t> strides;
+    for (uint32_t p = 1; p < numbering.patch_count(); ++p) {
+        measure_middle_strides(index, p, strides);
         for (uint32_t i = 0; i < numbering.inner_size(p); ++i)
             for (uint32_t k = 0; k < index.rings.size(p); ++k) {
                 const uint32_t place = index.rings.begin[p] + k;
-                const uint16_t code = index.hops.inner_middles[index.inner_row(p, i) + k];
+                const uint64_t entry = index.inner_row(p, i) + k;
+                const int8_t offset = index.hops.inner_middles[entry];
                 if (std::isnan(index.rings.segment_length[place])) {
-                    wrong += code != TableCode::UNREACHED;
+                    wrong += strides[k] != 0 || offset != 0;
                     continue;
                 }
+                const uint16_t code = MiddleOffset::code(index.hops.inner[entry], offset, strides[k]);
                 const auto& target = numbering.positions[numbering.first_inner(p) + i];
                 const auto &first = numbering.positions[index.rings.vertex[place]],
                            &second = numbering.positions[index.rings.vertex[place + 1]];
@@ -38,16 +42,18 @@ TEST_CASE("middle tables: in the plane, straight lines to the middles of segment
                     square += std::pow(target[axis] - 0.5 * (first[axis] + second[axis]), 2);
                 const double quantum = double{index.quantum[p]},
                              distance = double{numbering.position_step} * std::sqrt(square);
-                // Entries are rounded by half a step, the middle's once more; near a segment that counts
-                // more. What is no leaf's is calibrated.
+                // Entries are rounded by half a step, the middle's once more, and to half a stride; near a
+                // segment that counts more. What is no leaf's is calibrated.
                 const double length = double{index.rings.segment_length[place]};
                 const double step = std::ldexp(quantum, index.shift[p]);
                 const double rounding = step * (1 + 2 * (distance + length) / distance) +
-                                        2 * double{numbering.position_step} +
+                                        quantum * strides[k] / 2 + 2 * double{numbering.position_step} +
                                         (p < numbering.first_leaf() ? 1e-3 * distance : 0);
                 wrong += std::abs(code * quantum - distance) > rounding;
+                wrong += quantum * strides[k] > length / 254 + quantum;
                 ++middles;
             }
+    }
     CHECK(wrong == 0);
     CHECK(middles > 5000);
 }

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "src/overlay/fields/ssad.h"
+#include "src/overlay/prepare/middles.h"
 #include "tests/overlay/overlay_of.h"
 
 using namespace geodesic;
@@ -15,13 +16,18 @@ namespace {
 
 uint64_t wrong_bounds(const OverlayIndex& index, uint32_t patch) {
     const size_t places = index.rings.size(patch), blocks = InnerBounds::blocks(places);
+    std::vector<int16_t> strides;
+    measure_middle_strides(index, patch, strides);
     uint64_t wrong = 0;
     for (uint32_t i = 0; i < index.numbering.inner_size(patch); ++i) {
         std::vector<uint16_t> least(blocks, TableCode::UNREACHED);
-        for (size_t k = 0; k < places; ++k)
-            for (const auto table : {index.hops.inner, index.hops.inner_middles})
-                least[k / InnerBounds::PLACES] =
-                    std::min(least[k / InnerBounds::PLACES], table[index.inner_row(patch, i) + k]);
+        for (size_t k = 0; k < places; ++k) {
+            const uint64_t entry = index.inner_row(patch, i) + k;
+            const uint16_t code = index.hops.inner[entry];
+            uint16_t& of_block = least[k / InnerBounds::PLACES];
+            of_block = std::min(
+                {of_block, code, MiddleOffset::code(code, index.hops.inner_middles[entry], strides[k])});
+        }
         const uint16_t* bounds = index.bounds.codes.data() + index.bounds.begin[patch] + i * blocks;
         wrong += !std::equal(least.begin(), least.end(), bounds);
     }

@@ -325,7 +325,8 @@ uint64_t count_raised(const Built& built) {
     for (uint32_t patch = built.numbering().first_leaf(); patch < built.numbering().patch_count(); ++patch) {
         const auto derived =
             derived_middles(built.tables.border(patch), rows_down(built, patch), built.tables.quantum(patch));
-        const auto codes = middles_down(built, patch);
+        const auto codes = raised_middles(built.tables.border(patch), rows_down(built, patch),
+                                          built.tables.between_internal(patch), built.tables.quantum(patch));
         for (size_t i = 0; i < codes.size(); ++i)
             for (size_t k = 0; k < codes[i].size(); ++k) raised += codes[i][k] > derived[i][k];
     }

@@ -49,8 +49,8 @@ inline std::vector<std::vector<float>> derived_middles(const StoredBorder& borde
 
 // The same, raised where there are at most 256 rows. `apart` has the codes of all pairs of rows: of a leaf,
 // and of other patches no rows.
-inline std::vector<std::vector<float>> middle_codes(const StoredBorder& border, const Rows& rows,
-                                                    const Rows& apart, float quantum) {
+inline std::vector<std::vector<float>> raised_middles(const StoredBorder& border, const Rows& rows,
+                                                      const Rows& apart, float quantum) {
     const auto derived = derived_middles(border, rows, quantum);
     auto codes = derived;
     if (rows.size() > 256) return codes;
@@ -63,6 +63,27 @@ inline std::vector<std::vector<float>> middle_codes(const StoredBorder& border, 
             for (uint32_t p = 0; p < border.size(); ++p) // not where either is NaN
                 if (derived[y][p] - static_cast<float>(t + t / 25) > codes[x][p])
                     codes[x][p] = derived[y][p] - static_cast<float>(t + t / 25);
+        }
+    return codes;
+}
+
+// The same as they are kept: so many strides from the first ends of their segments. NaN where no segment
+// begins, or where the first end has no path.
+inline std::vector<std::vector<float>> middle_codes(const StoredBorder& border, const Rows& rows,
+                                                    const Rows& apart, float quantum) {
+    auto codes = raised_middles(border, rows, apart, quantum);
+    for (size_t x = 0; x < rows.size(); ++x)
+        for (uint32_t p = 0; p < border.size(); ++p) {
+            if (border.end[p] == NONE) continue;
+            const auto first = static_cast<float>(rows[x][p]);
+            const float middle = std::isnan(codes[x][p]) ? float{NO_PATH} : codes[x][p];
+            const float in_strides = border.length[p] * (1 / quantum) * (0.5f / 127) + 1;
+            const float stride = std::trunc(std::min(in_strides, 255.f));
+            const float offset = std::floor((middle - first) * (1 / stride) + 0.5f);
+            const float most = std::min(127.f, std::trunc((32766 - first) * (1 / stride)));
+            const float least = std::max(-127.f, -std::trunc(first * (1 / stride)));
+            codes[x][p] =
+                rows[x][p] == NO_PATH ? NAN : first + stride * std::max(least, std::min(most, offset));
         }
     return codes;
 }

@@ -29,13 +29,24 @@ struct Plane {
             length[k] = static_cast<float>(distance(border[k], border[k + 1]));
         length[places - 1] = NAN;
         codes.assign(targets.size() * places + SourceCode::BLOCK, 0);
-        middles = codes;
+        middles.assign(codes.size(), 0);
         for (size_t r = 0; r < targets.size(); ++r)
             for (size_t k = 0; k < places; ++k) {
-                codes[r * places + k] = code_of(distance(targets[r], border[k]));
-                middles[r * places + k] =
-                    k + 1 < places ? code_of(distance(targets[r], middle(k))) : TableCode::UNREACHED;
+                const uint16_t first = codes[r * places + k] = code_of(distance(targets[r], border[k]));
+                if (k + 1 < places)
+                    middles[r * places + k] = static_cast<int8_t>(std::lround(
+                        (code_of(distance(targets[r], middle(k))) - first) / static_cast<double>(stride(k))));
             }
+    }
+
+    int stride(size_t k) const {
+        if (std::isnan(length[k])) return 0;
+        return static_cast<int>(length[k] * steps_per_distance(quantum) * (0.5f / MiddleOffset::LARGEST) + 1);
+    }
+    // How far the middle of a segment is, by the table.
+    double from_middle(size_t k, size_t target) const {
+        const size_t entry = target * border.size() + k;
+        return double{quantum} * MiddleOffset::code(codes[entry], middles[entry], stride(k));
     }
 
     Point middle(size_t k) const {
@@ -43,10 +54,8 @@ struct Plane {
     }
     uint16_t code_of(double d) const { return static_cast<uint16_t>(std::lround(d / double{quantum})); }
 
-    void add_gap(size_t k) {
-        length[k] = NAN;
-        for (size_t r = 0; r < targets.size(); ++r) middles[r * border.size() + k] = TableCode::UNREACHED;
-    }
+    // Whatever the offsets of middles are there.
+    void add_gap(size_t k) { length[k] = NAN; }
     void add_source(Point source) {
         std::vector<float> distances(border.size());
         for (size_t k = 0; k < border.size(); ++k)
@@ -62,8 +71,7 @@ struct Plane {
             if (from[source][k] == INFINITE) continue;
             least = std::min(least, double{from[source][k]} + distance(border[k], targets[target]));
             if (k + 1 == border.size() || std::isnan(length[k]) || from[source][k + 1] == INFINITE) continue;
-            least =
-                std::min(least, distance(sources[source], middle(k)) + distance(middle(k), targets[target]));
+            least = std::min(least, distance(sources[source], middle(k)) + from_middle(k, target));
         }
         return least;
     }
@@ -71,7 +79,8 @@ struct Plane {
     std::vector<Point> border, targets, sources;
     float quantum;
     std::vector<float> length;
-    std::vector<uint16_t> codes, middles;
+    std::vector<uint16_t> codes;
+    std::vector<int8_t> middles;
     std::vector<std::vector<float>> from; // per source and place
 };
 
@@ -82,7 +91,9 @@ std::vector<uint16_t> bounds_of(const Plane& plane) {
     for (size_t r = 0; r < plane.targets.size(); ++r)
         for (size_t k = 0; k < places; ++k) {
             uint16_t& bound = bounds[r * blocks + k / InnerBounds::PLACES];
-            bound = std::min({bound, plane.codes[r * places + k], plane.middles[r * places + k]});
+            const uint16_t code = plane.codes[r * places + k];
+            bound = std::min(
+                {bound, code, MiddleOffset::code(code, plane.middles[r * places + k], plane.stride(k))});
         }
     return bounds;
 }
@@ -93,14 +104,14 @@ std::vector<float> sweep(const Kernels& kernels, const Plane& plane, size_t firs
     const size_t places = plane.border.size();
     const size_t room = (SourceCode::whole_blocks(places) + SourceCode::BLOCK) * count;
     std::vector<float> from(room, INFINITE), middle_from(room, 12345);
-    std::vector<int16_t> code(room, -77), middle(room, -77);
+    std::vector<int16_t> code(room, -77), middle(room, -77), stride(room, -77);
     for (size_t k = 0; k < places; ++k)
         for (size_t i = 0; i < count; ++i) from[k * count + i] = plane.from[first + i][k];
     const BorderDistances border{places, from.data(), plane.length.data(), plane.quantum};
     std::array<float, SOURCES> nearest{};
     std::vector<int16_t> bound(InnerBounds::blocks(places), -77);
     const std::vector<uint16_t> bounds = bounds_of(plane);
-    const BorderCodes codes{code.data(), middle.data(), nearest.data(), bound.data()};
+    const BorderCodes codes{code.data(), middle.data(), stride.data(), nearest.data(), bound.data()};
     const SweepRows rows{plane.targets.size(), plane.codes.data(), plane.middles.data(), bounds.data()};
     std::vector<float> distances(rows.count * count);
     (count == 1 ? kernels.prepare_sweep : kernels.prepare_sweep_each)(border, codes, middle_from.data());
@@ -188,18 +199,22 @@ TEST_CASE("sweep: the middle of a segment nearer than both of its ends") {
     Plane plane({{-30, 0}, {-10, 0}, {10, 0}, {30, 0}}, {{0, 1}, {0, 25}});
     for (size_t i = 0; i < SOURCES; ++i) plane.add_source({0, -0.5 - static_cast<double>(i)});
     const auto distances = sweep_every_way(plane);
-    for (size_t i = 0; i < SOURCES; ++i) {
-        CHECK(double{distances[i]} == doctest::Approx(1.5 + static_cast<double>(i)).epsilon(1e-3));
-        CHECK(double{distances[SOURCES + i]} == doctest::Approx(25.5 + static_cast<double>(i)).epsilon(1e-3));
-    }
+    const double most_off = 20.0 / 500; // of a segment of length 20
+    CHECK(std::abs(plane.from_middle(1, 0) - 1) < most_off);
+    CHECK(std::abs(plane.from_middle(1, 1) - 25) < most_off);
+    for (size_t i = 0; i < SOURCES; ++i)
+        for (size_t r = 0; r < 2; ++r) {
+            const double expected = 0.5 + static_cast<double>(i) + plane.from_middle(1, r);
+            CHECK(double{distances[r * SOURCES + i]} == doctest::Approx(expected).epsilon(1e-3));
+        }
 }
 
 TEST_CASE("sweep: targets out of reach") {
     std::mt19937 random(3);
     Plane plane = random_plane(40, 9, random);
     for (size_t k = 0; k < 40; ++k) {
-        plane.codes[k] = plane.middles[k] = TableCode::UNREACHED; // row 0: from everywhere
-        plane.middles[40 + k] = TableCode::UNREACHED;
+        plane.codes[k] = TableCode::UNREACHED; // row 0: from everywhere
+        plane.middles[k] = plane.middles[40 + k] = 0;
         if (k != 30) plane.codes[40 + k] = TableCode::UNREACHED; // row 1: but from one place, far off
     }
     plane.codes[40 + 30] = TableCode::LARGEST;

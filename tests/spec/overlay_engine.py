@@ -5,6 +5,7 @@ All is single precision, as the document has it: f below.
 
 import numpy
 
+from middle_offsets import offsets, strides
 from raised_middles import raised_middles
 from several_sources import SeveralSources
 
@@ -164,9 +165,11 @@ class OverlayEngine:
         middle = middles(rows, second, border.length / self.quantum[patch])
         reached = (numpy.maximum(rows, second) < NO_PATH) & (middle >= 0)
         codes = numpy.where(reached, numpy.trunc(middle + f(0.5)), f(NO_PATH))
-        if patch not in self.internal:
-            return codes
-        return raised_middles(codes, self.internal[patch], border.longest / self.quantum[patch], NO_PATH)
+        if patch in self.internal:
+            longest = border.longest / self.quantum[patch]
+            codes = raised_middles(codes, self.internal[patch], longest, NO_PATH)
+        stride = strides(border.length, self.quantum[patch])
+        return rows + offsets(codes, rows, stride) * stride
 
     def cross_near(self, border, source, target, ways):
         """Those that are near take the least way over any position or segment."""

@@ -11,6 +11,7 @@ import numpy
 import xxhash
 import zstandard
 
+from middle_offsets import NO_PATH, offsets, strides
 from packed import PackedTables
 from raised_middles import raised_middles
 
@@ -405,8 +406,8 @@ class Index:
         shapes = [(insides[p],) if p in self.large else (len(self.overlay(p)), insides[p]) for p in inners]
         owned = self._part(codes, shapes)
         inner = self._part(codes, [(insides[p], rings[p]) for p in range(self.patch_count)])
-        middles = self._part(codes, [(insides[p], rings[p]) for p in range(self.patch_count)])
         triangles = self._part(codes, [(1, n * (n - 1) // 2) for n in (insides[p] for p in self.leaves)])
+        middles = self._middle_offsets(codes, [(insides[p], rings[p]) for p in range(self.patch_count)])
         require(codes.at == len(codes.content), "HOPS is longer than its tables")
         self.overlay_table = []
         for patch in inners:
@@ -440,13 +441,13 @@ class Index:
         once = [self._half_size(insides[p]) for p in inners]
         twice = [(borders[p] + insides[p]) * insides[p] for p in inners]
         others = sum(borders[p] * rings[p] for p in inners)
-        others += sum(2 * inside * ring for inside, ring in zip(insides, rings))
+        others += sum(1.5 * inside * ring for inside, ring in zip(insides, rings))
         others += sum(insides[p] * (insides[p] - 1) // 2 for p in self.leaves)
         able = [p for p in inners if once[p] < twice[p]]
         large = set()
         for size in sorted({rings[p] + insides[p] for p in able}, reverse=True):
             codes = others + sum(once[p] if p in large else twice[p] for p in inners)
-            if codes <= 310 * self.vertex_count:
+            if 2 * codes <= 560 * self.vertex_count:
                 break
             large |= {p for p in able if rings[p] + insides[p] == size}
         return large
@@ -466,6 +467,14 @@ class Index:
             else entries.take("<f4", shape[0] * shape[1]).reshape(shape)
             for shape in shapes
         ]
+
+    @staticmethod
+    def _middle_offsets(codes, shapes):
+        count = sum(rows * columns for rows, columns in shapes)
+        bytes_ = codes.take("<i1", 2 * (((count + 1) // 2 + 32 + 31) // 32 * 32))
+        require(not bytes_[count:].any(), "bytes behind the offsets of middles")
+        ends = numpy.cumsum([rows * columns for rows, columns in shapes])
+        return [bytes_[end - shape[0] * shape[1] : end].reshape(shape) for end, shape in zip(ends, shapes)]
 
     @staticmethod
     def _half_table(entries, size):
@@ -493,11 +502,14 @@ class Index:
         return table
 
     def _check_middles(self, patch, on, inner, middles):
-        expected = self._middles(patch, on, inner)
-        require((numpy.isinf(expected) == numpy.isinf(middles)).all(), "a middle without a segment")
+        codes = numpy.where(numpy.isinf(inner), NO_PATH, inner)
+        derived = self._middles(patch, on, inner)
+        derived = numpy.where(numpy.isinf(derived), NO_PATH, derived)
+        lengths = [self.segment_length[patch][i] if self.segment_end[patch][i] == j else numpy.nan
+                   for i, j in zip(on, on[1:])] + [numpy.nan]
+        expected = offsets(derived, codes, strides(numpy.array(lengths), self.quantum[patch]))
         # Where the sum is rounded otherwise, the root may be, too.
-        off = numpy.abs(numpy.where(numpy.isinf(expected), 0, middles - expected))
-        require(not (off > 1).any(), "a middle is elsewhere")
+        require(not (numpy.abs(middles - expected) > 1).any(), "a middle is elsewhere")
 
     def _middles(self, patch, on, inner):
         middles = numpy.full(inner.shape, numpy.inf)

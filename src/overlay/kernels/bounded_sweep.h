@@ -20,8 +20,10 @@ struct SweepBounded {
 
     // Codes and middles of one row.
     struct Row {
-        const uint16_t *codes, *middles, *bounds;
-        size_t ahead; // in bytes
+        const uint16_t* codes;
+        const int8_t* middles;
+        const uint16_t* bounds;
+        size_t ahead; // in places
     };
 
     [[gnu::always_inline]] static int16_t least_lane(const Vector& sums) {
@@ -50,14 +52,15 @@ struct SweepBounded {
         return nearest;
     }
 
-    [[gnu::always_inline]] static void prefetch_block(const uint16_t* codes, size_t offset) {
-        prefetch_line_at(codes, offset);
-        prefetch_line_at(codes, offset + (PLACES - 1) * sizeof *codes);
+    template <class Entry>
+    [[gnu::always_inline]] static void prefetch_block(const Entry* entries, size_t offset) {
+        prefetch_line_at(entries, offset);
+        prefetch_line_at(entries, offset + PLACES - 1);
     }
 
     [[gnu::always_inline]] static int16_t least_sum_in(size_t block, const BorderCodes& codes,
                                                        const Row& row) {
-        Vector least = Vector{} + std::numeric_limits<int16_t>::max(), code, entries;
+        Vector least = Vector{} + std::numeric_limits<int16_t>::max(), code, entries, strides, middles;
         prefetch_block(row.codes + block * PLACES, row.ahead);
         prefetch_block(row.middles + block * PLACES, row.ahead);
         for (size_t k = block * PLACES; k < (block + 1) * PLACES; k += LANES) {
@@ -65,8 +68,9 @@ struct SweepBounded {
             load(row.codes + k, entries);
             lower<Vector>(least, code + entries);
             load(codes.middle + k, code);
-            load(row.middles + k, entries);
-            lower<Vector>(least, code + entries);
+            load(codes.stride + k, strides);
+            decode_middles(row.middles + k, entries, strides, middles);
+            lower<Vector>(least, code + middles);
         }
         return least_lane(least);
     }
@@ -98,8 +102,7 @@ struct SweepBounded {
             for (size_t r = 0; r < count; ++r) {
                 row_begin[r] = (done + r) * border.places;
                 const Row row{rows.codes + row_begin[r], rows.middles + row_begin[r],
-                              rows.bounds + (done + r) * blocks,
-                              ROWS_AHEAD * border.places * sizeof(uint16_t)};
+                              rows.bounds + (done + r) * blocks, ROWS_AHEAD * border.places};
                 sums[r] = least_sum(codes, row, blocks, likely);
             }
             float of_rows[ROWS];

@@ -96,15 +96,18 @@ struct BorderDistances {
 // them.
 struct BorderCodes {
     int16_t *code, *middle;
-    float* nearest; // per source; infinity: none is reached, and its codes say nothing
-    int16_t* bound; // scratch of sweep_bounded(): one a block of InnerBounds
+    int16_t* stride; // per place, of MiddleOffset, in whole blocks; 0 behind the last place
+    float* nearest;  // per source; infinity: none is reached, and its codes say nothing
+    int16_t* bound;  // scratch of sweep_bounded(): one a block of InnerBounds
 };
 
-// Rows of codes, end to end: one a place, and one a segment's middle; of long borders, also one of
-// InnerBounds a block.
+// Rows of a table, end to end: a code a place, and the MiddleOffset of the segment that begins there; of long
+// borders, also a code of InnerBounds a block.
 struct SweepRows {
     size_t count;
-    const uint16_t *codes, *middles, *bounds;
+    const uint16_t* codes;
+    const int8_t* middles;
+    const uint16_t* bounds;
 };
 
 // ---- Tables that are turned

@@ -39,6 +39,7 @@ struct PrepareSweep {
         }
         encode(border, border.distance, nearest, codes.code);
         encode(border, middle_distance, nearest, codes.middle);
+        measure_strides(border, codes.stride);
     }
 
 private:
@@ -61,6 +62,19 @@ private:
             lower(nearest[i / LANES % VECTORS], middle);
         }
         if constexpr (COUNT > 1) std::fill_n(middle_distance + border.places * COUNT, COUNT, INFINITE);
+    }
+
+    [[gnu::always_inline]] static void measure_strides(const BorderDistances& border, int16_t* strides) {
+        using Codes = typename VectorOf<int16_t, BYTES / 2>::Type;
+        const float steps_each = steps_per_distance(border.quantum);
+        for (size_t k = 0; k < border.places; k += LANES) {
+            Distances length;
+            Numbers of_places;
+            load(border.length + k, length);
+            middle_strides(length, steps_each, of_places);
+            store(__builtin_convertvector(of_places, Codes), strides + k);
+        }
+        std::fill(strides + border.places, strides + SourceCode::whole_blocks(border.places), int16_t{0});
     }
 
     // LANES codes, of distances side by side.
@@ -110,6 +124,19 @@ inline float way_over_places(const BorderDistances& border, size_t stride, const
     return least;
 }
 
+// Rows are read in parts of so many bytes of codes. Wider ones would mostly cross the ends of cache lines.
+template <size_t BYTES>
+constexpr size_t ROW_PART = std::min(BYTES, size_t{32});
+
+// Codes of middles, of as many places as there are lanes, from MiddleOffset and the codes of the places.
+template <class Codes>
+[[gnu::always_inline]] inline void decode_middles(const int8_t* offsets, const Codes& of_places,
+                                                  const Codes& strides, Codes& middles) {
+    Codes wide;
+    widen_bytes(offsets, wide);
+    middles = of_places + wide * strides;
+}
+
 // least[i]: the least lane of eight[i].
 template <class Eight>
 [[gnu::always_inline]] inline void least_lanes_of_eight(const Eight eight[8], Eight& least) {
@@ -128,38 +155,52 @@ template <class Eight>
     lower<Eight>(least, __builtin_shufflevector(two[0], two[1], 4, 5, 6, 7, 12, 13, 14, 15));
 }
 
-// Asks for the line of memory so many bytes behind the first code.
-[[gnu::always_inline]] inline void prefetch_line_at(const uint16_t* codes, size_t offset) {
-    __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<uintptr_t>(codes) + offset));
+// Asks for the line of memory so many entries behind the first one.
+template <class Entry>
+[[gnu::always_inline]] inline void prefetch_line_at(const Entry* first, size_t offset) {
+    __builtin_prefetch(
+        reinterpret_cast<const void*>(reinterpret_cast<uintptr_t>(first) + offset * sizeof(Entry)));
+}
+
+template <class Entry>
+[[gnu::always_inline]] inline void prefetch_lines(const Entry* entries, size_t begin, size_t end) {
+    constexpr size_t LINE = 64 / sizeof(Entry);
+    for (size_t offset = begin; offset < end; offset += LINE) prefetch_line_at(entries, offset);
 }
 
 // Also of rows behind the last one, with which the next sweep is likely to begin.
 [[gnu::always_inline]] inline void prefetch_rows(const BorderDistances& border, const SweepRows& rows,
                                                  size_t first, size_t count) {
-    constexpr size_t LINE = 64;
-    const size_t row_size = border.places * sizeof(uint16_t);
-    for (size_t offset = first * row_size; offset < (first + count) * row_size; offset += LINE) {
-        prefetch_line_at(rows.codes, offset);
-        prefetch_line_at(rows.middles, offset);
-    }
+    const size_t begin = first * border.places, end = (first + count) * border.places;
+    prefetch_lines(rows.codes, begin, end);
+    prefetch_lines(rows.middles, begin, end);
 }
 
 // ---- From one source: eight rows at a time, a vector of places after the other
 
 template <size_t BYTES>
 struct Sweep {
-    static constexpr size_t ROWS = 8, LANES = Lanes<BYTES>::CODES;
+    static constexpr size_t ROWS = 8, TOGETHER = 4, WIDTH = ROW_PART<BYTES>;
+    using Vector = Sums<WIDTH>;
     using Eight = Sums<ROWS * sizeof(int16_t)>;
 
-    [[gnu::always_inline]] static void lower_all(const BorderDistances& border, const int16_t* codes,
-                                                 const uint16_t* table, const size_t* row_begin,
-                                                 Sums<BYTES>* least) {
-        for (size_t k = 0; k < border.places; k += LANES) {
-            Sums<BYTES> code, entries;
-            load(codes + k, code);
-            for (size_t r = 0; r < ROWS; ++r) {
-                load(table + row_begin[r] + k, entries);
-                lower<Sums<BYTES>>(least[r], code + entries);
+    // Of TOGETHER rows.
+    [[gnu::always_inline]] static void lower_all(const BorderDistances& border, const BorderCodes& codes,
+                                                 const SweepRows& rows, const size_t* row_begin,
+                                                 Vector* least) {
+        for (size_t k = 0; k < border.places; k += Lanes<WIDTH>::CODES) {
+            Vector code, middle, strides;
+            load(codes.code + k, code);
+            load(codes.middle + k, middle);
+            load(codes.stride + k, strides);
+            const Vector beyond = middle - code;
+            for (size_t r = 0; r < TOGETHER; ++r) {
+                Vector entries, offsets;
+                load(rows.codes + row_begin[r] + k, entries);
+                widen_bytes(rows.middles + row_begin[r] + k, offsets);
+                const Vector sums = code + entries;
+                lower<Vector>(least[r], sums);
+                lower<Vector>(least[r], sums + (offsets * strides + beyond));
             }
         }
     }
@@ -168,10 +209,9 @@ struct Sweep {
     [[gnu::always_inline]] static void sweep_eight(const BorderDistances& border, const BorderCodes& codes,
                                                    const SweepRows& rows, const size_t* row_begin,
                                                    float* distances) {
-        Sums<BYTES> least[ROWS];
-        for (auto& lanes : least) lanes = Sums<BYTES>{} + std::numeric_limits<int16_t>::max();
-        lower_all(border, codes.code, rows.codes, row_begin, least);
-        lower_all(border, codes.middle, rows.middles, row_begin, least);
+        Vector least[ROWS];
+        for (auto& lanes : least) lanes = Vector{} + std::numeric_limits<int16_t>::max();
+        for (size_t r = 0; r < ROWS; r += TOGETHER) lower_all(border, codes, rows, row_begin + r, least + r);
         Eight folded[ROWS], sums;
         for (size_t r = 0; r < ROWS; ++r) fold(least[r], folded[r]);
         least_lanes_of_eight(folded, sums);
@@ -227,17 +267,41 @@ struct SweepEach {
         pairs = reinterpret_cast<Sums<BYTES>>(Pairs{} + pair);
     }
 
+    // Over so many places; entries of a row are `row_size` behind those of the row before.
     template <size_t ROWS>
-    [[gnu::always_inline]] static void lower_all(const BorderDistances& border, const int16_t* codes,
-                                                 const uint16_t* row, Sums<BYTES>* least) {
-        for (size_t k = 0; k < border.places; k += 2) {
-            Sums<BYTES> code[VECTORS], entries;
+    [[gnu::always_inline]] static void lower_all(size_t places, const int16_t* codes, const uint16_t* entries,
+                                                 size_t row_size, Sums<BYTES>* least) {
+        for (size_t k = 0; k < places; k += 2) {
+            Sums<BYTES> code[VECTORS], pair;
             std::memcpy(code, codes + k * SOURCES, sizeof code);
             for (size_t r = 0; r < ROWS; ++r) {
-                load_pair(row + r * border.places + k, entries);
+                load_pair(entries + r * row_size + k, pair);
                 for (size_t v = 0; v < VECTORS; ++v)
-                    lower<Sums<BYTES>>(least[r * VECTORS + v], code[v] + entries);
+                    lower<Sums<BYTES>>(least[r * VECTORS + v], code[v] + pair);
             }
+        }
+    }
+
+    // Over the middles of a block of places after the other. `row` is the first place of the first row.
+    template <size_t ROWS>
+    [[gnu::always_inline]] static void lower_over_middles(const BorderDistances& border,
+                                                          const BorderCodes& codes, const SweepRows& rows,
+                                                          size_t row, Sums<BYTES>* least) {
+        constexpr size_t BLOCK = SourceCode::BLOCK;
+        for (size_t first = 0; first < border.places; first += BLOCK) {
+            uint16_t middles[ROWS * BLOCK];
+            for (size_t k = 0; k < BLOCK; k += Lanes<ROW_PART<BYTES>>::CODES) {
+                Sums<ROW_PART<BYTES>> strides, entries, decoded;
+                load(codes.stride + first + k, strides);
+                for (size_t r = 0; r < ROWS; ++r) {
+                    const size_t place = row + r * border.places + first + k;
+                    load(rows.codes + place, entries);
+                    decode_middles(rows.middles + place, entries, strides, decoded);
+                    store(decoded, middles + r * BLOCK + k);
+                }
+            }
+            lower_all<ROWS>(std::min(BLOCK, border.places - first), codes.middle + first * SOURCES, middles,
+                            BLOCK, least);
         }
     }
 
@@ -247,8 +311,9 @@ struct SweepEach {
                                                   const SweepRows& rows, size_t first, float* distances) {
         Sums<BYTES> least[ROWS * VECTORS];
         for (auto& lanes : least) lanes = Sums<BYTES>{} + std::numeric_limits<int16_t>::max();
-        lower_all<ROWS>(border, codes.code, rows.codes + first * border.places, least);
-        lower_all<ROWS>(border, codes.middle, rows.middles + first * border.places, least);
+        const size_t row = first * border.places;
+        lower_all<ROWS>(border.places, codes.code, rows.codes + row, border.places, least);
+        lower_over_middles<ROWS>(border, codes, rows, row, least);
         for (size_t i = 0; i < ROWS * VECTORS; ++i) {
             const Pairs pairs = reinterpret_cast<Pairs>(least[i]);
             Pairs sums = pairs >> 16;

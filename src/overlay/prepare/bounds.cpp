@@ -1,17 +1,23 @@
 #include "src/overlay/prepare/bounds.h"
 
 #include <algorithm>
+#include <span>
+#include <vector>
+
+#include "src/overlay/prepare/middles.h"
 
 namespace geodesic {
 
 namespace {
 
-// The bounds of one row. Its codes and middles are `places` each.
-void bound_row(const uint16_t* codes, const uint16_t* middles, size_t places, uint16_t* bounds) {
+// The bounds of one row.
+void bound_row(const uint16_t* codes, const int8_t* middles, std::span<const int16_t> strides,
+               uint16_t* bounds) {
+    const size_t places = strides.size();
     for (size_t first = 0; first < places; first += InnerBounds::PLACES) {
         uint16_t least = TableCode::UNREACHED;
         for (size_t k = first; k < std::min(first + InnerBounds::PLACES, places); ++k)
-            least = std::min({least, codes[k], middles[k]});
+            least = std::min({least, codes[k], MiddleOffset::code(codes[k], middles[k], strides[k])});
         *bounds++ = least;
     }
 }
@@ -31,13 +37,15 @@ void make_inner_bounds(OverlayIndex& index) {
     for (uint32_t p = 0; p < patches; ++p)
         bounds.begin.push_back(bounds.begin.back() + bounds_of_patch(index, p));
     bounds.codes.resize(bounds.begin.back());
+    std::vector<int16_t> strides;
     for (uint32_t p = 0; p < patches; ++p) {
         const size_t places = index.rings.size(p);
         if (!InnerBounds::are_kept(places)) continue;
+        measure_middle_strides(index, p, strides);
         uint16_t* of_row = bounds.codes.data() + bounds.begin[p];
         for (uint32_t i = 0; i < index.numbering.inner_size(p); ++i, of_row += InnerBounds::blocks(places)) {
             const uint64_t row = index.inner_row(p, i);
-            bound_row(index.hops.inner.data() + row, index.hops.inner_middles.data() + row, places, of_row);
+            bound_row(index.hops.inner.data() + row, index.hops.inner_middles.data() + row, strides, of_row);
         }
     }
 }

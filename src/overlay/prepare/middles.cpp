@@ -27,10 +27,10 @@ void write_codes(const Steps& steps, uint16_t* first) {
     store(__builtin_convertvector(rounded, Codes), first);
 }
 
-// Writes the codes of the middles beside one row of an inner table. segment_length is in steps of the
-// quantum, NaN where there is a gap. It is filled up with gaps to whole vectors, so that up to three codes
-// behind the row are written, too.
-void add_middles(const uint16_t* row, std::span<const float> segment_length, uint16_t* middles) {
+// Codes of the middles beside one row of an inner table. segment_length is in steps of the quantum, NaN where
+// there is a gap. It is filled up with gaps to whole vectors, so that up to three codes behind the row are
+// written, too.
+void derive_middles(const uint16_t* row, std::span<const float> segment_length, uint16_t* middles) {
     // Its square has this root exactly.
     const Steps unreached = Steps{} + float{TableCode::UNREACHED};
     for (size_t k = 0; k < segment_length.size(); k += LANES) {
@@ -46,29 +46,105 @@ void add_middles(const uint16_t* row, std::span<const float> segment_length, uin
     }
 }
 
-// The lengths of the segments of a ring, in steps of the quantum of its patch.
-void measure_in_steps(const OverlayIndex& index, uint32_t patch, std::vector<float>& length) {
-    const float* first = index.rings.segment_length.data() + index.rings.begin[patch];
-    const size_t places = index.rings.size(patch);
-    length.assign((places + LANES - 1) / LANES * LANES, Rings::GAP);
-    for (size_t k = 0; k < places; ++k) length[k] = first[k] / index.quantum[patch];
+Steps truncated(const Steps& steps) {
+    return __builtin_convertvector(__builtin_convertvector(steps, FourKeys), Steps);
 }
 
+Steps floor_of(const Steps& steps) {
+    const Steps whole = truncated(steps);
+    return whole > steps ? whole - 1 : whole;
+}
+
+// The offsets of middles with these codes beside one row of an inner table. inverse_stride is 0 where there
+// is a gap, and as long as whole vectors. A middle is nowhere at less than 0 or at more than the largest
+// code; one that could not be derived is as far as it can be. Writes up to three offsets behind the row, too.
+void write_offsets(const uint16_t* row, const uint16_t* middles, std::span<const float> inverse_stride,
+                   int8_t* offsets) {
+    constexpr float MOST = MiddleOffset::LARGEST;
+    using Offsets = VectorOf<int8_t, LANES>::Type;
+    for (size_t k = 0; k < inverse_stride.size(); k += LANES) {
+        const Steps of_first = steps_of(row + k);
+        Steps inverse;
+        load(inverse_stride.data() + k, inverse);
+        Steps least = -truncated(of_first * inverse),
+              most = truncated((TableCode::LARGEST - of_first) * inverse);
+        least = least > -MOST ? least : Steps{} - MOST;
+        most = most < MOST ? most : Steps{} + MOST;
+        Steps offset = (steps_of(middles + k) - of_first) * inverse;
+        offset = offset < most ? offset : most;
+        offset = offset > least ? offset : least;
+        offset = floor_of(offset + 0.5f);
+        offset = of_first < TableCode::UNREACHED ? offset : Steps{};
+        store(__builtin_convertvector(__builtin_convertvector(offset, FourKeys), Offsets), offsets + k);
+    }
+}
+
+class MiddleTables {
+public:
+    explicit MiddleTables(const OverlayIndex& index) : index_(index), raiser_(index) {}
+
+    // Those of one patch.
+    void write(uint32_t patch, int8_t* offsets) {
+        measure(patch);
+        const uint32_t count = index_.numbering.inner_size(patch), places = index_.rings.size(patch);
+        const uint16_t* const rows = index_.hops.inner.data() + index_.inner_row(patch, 0);
+        // The middles of a leaf are derived together, since they raise each other.
+        const bool is_leaf = patch >= index_.numbering.first_leaf();
+        const uint32_t together = is_leaf ? count : 1;
+        codes_.resize(std::max(codes_.size(), size_t{together} * places + LANES));
+        for (uint32_t first = 0; first < count; first += together) {
+            const size_t begin = size_t{first} * places;
+            for (uint32_t i = 0; i < together; ++i)
+                derive_middles(rows + begin + size_t{i} * places, length_,
+                               codes_.data() + size_t{i} * places);
+            if (is_leaf) raiser_.raise(patch, codes_.data());
+            for (uint32_t i = 0; i < together; ++i)
+                write_offsets(rows + begin + size_t{i} * places, codes_.data() + size_t{i} * places,
+                              inverse_stride_, offsets + begin + size_t{i} * places);
+        }
+    }
+
+private:
+    // The lengths of the segments of a ring, in steps of the quantum of its patch, and their strides.
+    void measure(uint32_t patch) {
+        const float* length = index_.rings.segment_length.data() + index_.rings.begin[patch];
+        const size_t places = index_.rings.size(patch), whole_places = (places + LANES - 1) / LANES * LANES;
+        measure_middle_strides(index_, patch, strides_);
+        length_.assign(whole_places, Rings::GAP);
+        inverse_stride_.assign(whole_places, 0);
+        for (size_t k = 0; k < places; ++k) {
+            length_[k] = length[k] / index_.quantum[patch];
+            if (strides_[k] > 0) inverse_stride_[k] = 1.f / static_cast<float>(strides_[k]);
+        }
+    }
+
+    const OverlayIndex& index_;
+    MiddleRaiser raiser_;
+    std::vector<int16_t> strides_;
+    std::vector<float> length_, inverse_stride_; // per place, in whole vectors
+    std::vector<uint16_t> codes_;                // only grows
+};
+
+}
+
+void measure_middle_strides(const OverlayIndex& index, uint32_t patch, std::vector<int16_t>& strides) {
+    const float steps_each = steps_per_distance(index.quantum[patch]);
+    strides.resize(index.rings.size(patch));
+    for (size_t k = 0; k < strides.size(); ++k) {
+        Steps length = Steps{} + index.rings.segment_length[index.rings.begin[patch] + k];
+        FourKeys of_place;
+        middle_strides(length, steps_each, of_place);
+        strides[k] = static_cast<int16_t>(of_place[0]);
+    }
 }
 
 // Rows are written one after the other: what is written behind one is overwritten by the next, or is padding.
-void make_middle_tables(const OverlayIndex& index, std::span<uint16_t> middles) {
+void make_middle_tables(const OverlayIndex& index, std::span<int8_t> middles) {
     static_assert(TableCode::PADDING > LANES);
-    std::ranges::fill(middles.subspan(index.hops.inner_begin.back()), TableCode::UNREACHED);
-    std::vector<float> length;
-    MiddleRaiser raiser(index);
-    for (uint32_t p = 1; p < index.numbering.patch_count(); ++p) {
-        measure_in_steps(index, p, length);
-        for (uint32_t i = 0; i < index.numbering.inner_size(p); ++i)
-            add_middles(index.hops.inner.data() + index.inner_row(p, i), length,
-                        middles.data() + index.inner_row(p, i));
-        if (p >= index.numbering.first_leaf()) raiser.raise(p, middles.data() + index.inner_row(p, 0));
-    }
+    std::ranges::fill(middles.subspan(index.hops.inner_begin.back()), int8_t{0});
+    MiddleTables tables(index);
+    for (uint32_t p = 1; p < index.numbering.patch_count(); ++p)
+        tables.write(p, middles.data() + index.inner_row(p, 0));
 }
 
 }

@@ -31,15 +31,27 @@ void measure_segments(OverlayIndex& index) {
 // codes behind each kind, up to a whole block.
 template <class Code>
 struct HopParts {
-    std::span<Code> border, owned, inner, inner_middles, internal;
+    std::span<Code> border, owned, inner, internal;
+    std::span<Code> inner_middles; // two offsets a code
 };
 
 uint64_t size_of_part(uint64_t codes) { return SourceCode::whole_blocks(codes + TableCode::PADDING); }
 
+uint64_t size_of_middles(const OverlayIndex& index) {
+    return size_of_part((index.hops.inner_begin.back() + 1) / 2);
+}
+
 uint64_t hop_code_count(const OverlayIndex& index) {
     return size_of_part(index.hops.border_begin.back()) + size_of_part(index.hops.owned_begin.back()) +
-           2 * size_of_part(index.hops.inner_begin.back()) +
-           size_of_part(index.numbering.internal_table_begin.back());
+           size_of_part(index.hops.inner_begin.back()) +
+           size_of_part(index.numbering.internal_table_begin.back()) + size_of_middles(index);
+}
+
+std::span<const int8_t> bytes_of(std::span<const uint16_t> offsets) {
+    return {reinterpret_cast<const int8_t*>(offsets.data()), offsets.size_bytes()};
+}
+std::span<int8_t> bytes_of(std::span<uint16_t> offsets) {
+    return {reinterpret_cast<int8_t*>(offsets.data()), offsets.size_bytes()};
 }
 
 template <class Code>
@@ -53,8 +65,8 @@ HopParts<Code> parts_of(const OverlayIndex& index, std::span<Code> codes) {
     parts.border = take(index.hops.border_begin.back());
     parts.owned = take(index.hops.owned_begin.back());
     parts.inner = take(index.hops.inner_begin.back());
-    parts.inner_middles = take(index.hops.inner_begin.back());
     parts.internal = take(index.numbering.internal_table_begin.back());
+    parts.inner_middles = codes;
     return parts;
 }
 
@@ -64,8 +76,8 @@ void view_hop_codes(OverlayIndex& index, std::span<const uint16_t> codes) {
     index.hops.border = parts.border;
     index.hops.owned = parts.owned;
     index.hops.inner = parts.inner;
-    index.hops.inner_middles = parts.inner_middles;
     index.hops.internal = parts.internal;
+    index.hops.inner_middles = bytes_of(parts.inner_middles);
 }
 
 // Marks, of the vertices in the overlay of a patch's parent, those that are on the patch's border.
@@ -142,7 +154,14 @@ void make_hop_codes(const StoredIndex& stored, OverlayIndex& index) {
     const auto parts = parts_of(index, std::span(index.hops.made));
     write_overlay_tables(stored, index, parts);
     write_leaf_tables(stored, index, parts);
-    make_middle_tables(index, parts.inner_middles);
+    make_middle_tables(index, bytes_of(parts.inner_middles));
+}
+
+// Whether no code is over the largest, which is that of no path.
+bool are_codes(std::span<const uint16_t> values) {
+    unsigned all = 0;
+    for (const uint16_t value : values) all |= value;
+    return all <= TableCode::UNREACHED;
 }
 
 void take_hop_codes(const StoredIndex& stored, OverlayIndex& index) {
@@ -152,6 +171,8 @@ void take_hop_codes(const StoredIndex& stored, OverlayIndex& index) {
                     "section HOPS holds " + std::to_string(stored.hop_codes.size()) + " codes, not " +
                         std::to_string(needed),
                     TAG_HOP_CODES);
+    if (!are_codes(stored.hop_codes.first(needed - size_of_middles(index))))
+        throw Error(GEOIDX_ERROR_CORRUPT, "section HOPS holds what is no code of a distance", TAG_HOP_CODES);
     view_hop_codes(index, stored.hop_codes);
 }
 

@@ -11,9 +11,10 @@ namespace geodesic {
 
 // No sum wraps around, since a ring has fewer than 2^15 places and there are fewer than 2^32 vertices.
 uint64_t derived_codes(const OverlayIndex& index) {
-    uint64_t codes = count_bound_codes(index) + count_sample_codes(index) + count_label_codes(index);
-    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) codes += index.hop_table_size(p);
-    return codes;
+    uint64_t bytes = 0;
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) bytes += index.hop_table_bytes(p);
+    return bytes / sizeof(uint16_t) + count_bound_codes(index) + count_sample_codes(index) +
+           count_label_codes(index);
 }
 
 uint64_t stored_numbers(const OverlayIndex& index) {

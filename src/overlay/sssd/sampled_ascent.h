@@ -76,7 +76,7 @@ private:
     Array<int16_t> codes_;   // scratch of a hop
     // Of hops back, which sweep, over samples and over no middles:
     Array<float> gaps_, middles_;
-    Array<int16_t> middle_codes_;
+    Array<int16_t> middle_codes_, strides_;
 };
 
 }

@@ -35,8 +35,8 @@ namespace geodesic {
 // TurnedRows).
 //
 // A leaf has an inner table only, with a row for each of its internal vertices. Hops down read inner tables.
-// Beside each row of one lies a row of inner_middles, which has, for each place, the distance to the middle
-// of the segment that begins there.
+// Beside each row of one lies a row of inner_middles, which has, for each place, the MiddleOffset of the
+// segment that begins there.
 //
 // All codes lie one table kind after the other, so that a mapped file can hold them as they are.
 struct HopTables {
@@ -50,10 +50,11 @@ struct HopTables {
     // Per position of the overlay of a patch's parent: whether that vertex is on the patch's own border.
     // Eight flags a byte, the first one in the lowest bit.
     Array<uint8_t> on_border;
-    std::span<const uint16_t> codes; // those of the following five, in this order
-    std::span<const uint16_t> border, owned, inner, inner_middles;
+    std::span<const uint16_t> codes; // those of the following five, in this order; two offsets are a code
+    std::span<const uint16_t> border, owned, inner;
     std::span<const uint16_t> internal; // of leaves, below the diagonal, at Numbering::internal_entry()
-    Array<uint16_t> made;               // `codes`, unless they lie in a file
+    std::span<const int8_t> inner_middles;
+    Array<uint16_t> made; // `codes`, unless they lie in a file
 };
 
 // Where the vertex at a position of an overlay is in the two parts of a row.
@@ -202,11 +203,12 @@ struct OverlayIndex {
         return is_large[patch] ? HalfTable::size(owned) : uint64_t{owned} * numbering.overlay_size(patch);
     }
 
-    // The codes of a patch in all hop tables but the internal one.
-    uint64_t hop_table_size(uint32_t patch) const {
-        const uint64_t inner_and_middles = 2 * uint64_t{numbering.inner_size(patch)} * rings.size(patch);
+    // The bytes of a patch in all hop tables but the internal one.
+    uint64_t hop_table_bytes(uint32_t patch) const {
+        const uint64_t inner = uint64_t{numbering.inner_size(patch)} * rings.size(patch);
+        const uint64_t inner_and_middles = (sizeof(uint16_t) + sizeof(int8_t)) * inner;
         if (patch >= numbering.first_leaf()) return inner_and_middles;
-        return inner_and_middles + border_table_size(patch) + owned_table_size(patch);
+        return inner_and_middles + sizeof(uint16_t) * (border_table_size(patch) + owned_table_size(patch));
     }
 
     // Where a row begins in the inner table of a patch, which has one for each of its inner vertices.
