@@ -6,7 +6,6 @@
 #include <doctest/doctest.h>
 
 #include "src/overlay/fields/ssad.h"
-#include "src/overlay/prepare/middles.h"
 #include "tests/overlay/overlay_of.h"
 
 using namespace geodesic;
@@ -16,8 +15,7 @@ namespace {
 
 uint64_t wrong_bounds(const OverlayIndex& index, uint32_t patch) {
     const size_t places = index.rings.size(patch), blocks = InnerBounds::blocks(places);
-    std::vector<int16_t> strides;
-    measure_middle_strides(index, patch, strides);
+    const int16_t* const strides = index.strides.of(patch);
     uint64_t wrong = 0;
     for (uint32_t i = 0; i < index.numbering.inner_size(patch); ++i) {
         std::vector<uint16_t> least(blocks, TableCode::UNREACHED);

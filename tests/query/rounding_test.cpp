@@ -52,10 +52,10 @@ std::vector<Codes> codes_of_sweep(const Kernels& kernels, const std::vector<Dist
     for (size_t k = 0; k < places; ++k)
         for (size_t i = 0; i < count; ++i) distance[k * count + i] = all[i][k];
     const std::vector<float> gaps(places + BLOCK, NAN);
-    Codes code(room, 77), middle(room, 77), stride(room, 77);
+    Codes code(room, 77), middle(room, 77);
     (count == 1 ? kernels.prepare_sweep : kernels.prepare_sweep_each)(
-        {places, distance.data(), gaps.data(), quantum},
-        {code.data(), middle.data(), stride.data(), nearest.data(), nullptr}, middle_distance.data());
+        {places, distance.data(), gaps.data(), nullptr, quantum},
+        {code.data(), middle.data(), nearest.data(), nullptr}, middle_distance.data());
     std::vector<Codes> codes(count, Codes(places));
     for (size_t i = 0; i < count; ++i)
         for (size_t k = 0; k < places; ++k) // of several sources, two places lie side by side

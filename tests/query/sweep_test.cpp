@@ -39,10 +39,7 @@ struct Plane {
             }
     }
 
-    int stride(size_t k) const {
-        if (std::isnan(length[k])) return 0;
-        return static_cast<int>(length[k] * steps_per_distance(quantum) * (0.5f / MiddleOffset::LARGEST) + 1);
-    }
+    int16_t stride(size_t k) const { return MiddleOffset::stride(length[k], quantum); }
     // How far the middle of a segment is, by the table.
     double from_middle(size_t k, size_t target) const {
         const size_t entry = target * border.size() + k;
@@ -104,14 +101,16 @@ std::vector<float> sweep(const Kernels& kernels, const Plane& plane, size_t firs
     const size_t places = plane.border.size();
     const size_t room = (SourceCode::whole_blocks(places) + SourceCode::BLOCK) * count;
     std::vector<float> from(room, INFINITE), middle_from(room, 12345);
-    std::vector<int16_t> code(room, -77), middle(room, -77), stride(room, -77);
+    std::vector<int16_t> code(room, -77), middle(room, -77);
     for (size_t k = 0; k < places; ++k)
         for (size_t i = 0; i < count; ++i) from[k * count + i] = plane.from[first + i][k];
-    const BorderDistances border{places, from.data(), plane.length.data(), plane.quantum};
+    std::vector<int16_t> strides(SourceCode::whole_blocks(places), 0);
+    for (size_t k = 0; k < places; ++k) strides[k] = plane.stride(k);
+    const BorderDistances border{places, from.data(), plane.length.data(), strides.data(), plane.quantum};
     std::array<float, SOURCES> nearest{};
     std::vector<int16_t> bound(InnerBounds::blocks(places), -77);
     const std::vector<uint16_t> bounds = bounds_of(plane);
-    const BorderCodes codes{code.data(), middle.data(), stride.data(), nearest.data(), bound.data()};
+    const BorderCodes codes{code.data(), middle.data(), nearest.data(), bound.data()};
     const SweepRows rows{plane.targets.size(), plane.codes.data(), plane.middles.data(), bounds.data()};
     std::vector<float> distances(rows.count * count);
     (count == 1 ? kernels.prepare_sweep : kernels.prepare_sweep_each)(border, codes, middle_from.data());

@@ -16,12 +16,11 @@ constexpr size_t BLOCK = SourceCode::BLOCK;
 InnerSweep::InnerSweep(const OverlayIndex& index, size_t sources, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), rings_(index.rings), kernels_(runnable_kernels().back()),
       sources_(sources), distance_(memory), middle_distance_(memory), code_(memory), middle_(memory),
-      stride_(memory), bound_(memory), result_(index.numbering.largest_inner_size() * sources, memory),
-      field_(index, memory), rows_(memory), from_one_(memory) {
+      bound_(memory), result_(index.numbering.largest_inner_size() * sources, memory), field_(index, memory),
+      rows_(memory), from_one_(memory) {
     const size_t room = (SourceCode::whole_blocks(rings_.largest_size()) + BLOCK) * sources;
     for (Array<float>* distances : {&distance_, &middle_distance_}) distances->resize(room);
     for (Array<int16_t>* codes : {&code_, &middle_}) codes->resize(room);
-    stride_.resize(SourceCode::whole_blocks(rings_.largest_size()));
     if (sources == 1) bound_.resize(InnerBounds::blocks(rings_.largest_size()));
     rows_.resize(index.numbering.largest_inner_size());
     from_one_.resize(rows_.size());
@@ -32,7 +31,7 @@ bool InnerSweep::begin(uint32_t patch, const float* distances, const RingSegment
     patch_ = patch;
     segments_ = segments;
     const uint32_t places = rings_.size(patch);
-    border_ = {places, distance_.data(), segments.length, index_.quantum[patch]};
+    border_ = {places, distance_.data(), segments.length, index_.strides.of(patch), index_.quantum[patch]};
     const uint32_t* vertex = rings_.vertex.data() + rings_.begin[patch];
     if (sources_ == 1)
         four_at_a_time(places, [&](size_t k) { distance_[k] = distances[vertex[k]]; });
@@ -41,7 +40,7 @@ bool InnerSweep::begin(uint32_t patch, const float* distances, const RingSegment
             std::copy_n(distances + size_t{vertex[k]} * MOST_SOURCES, MOST_SOURCES,
                         distance_.data() + k * MOST_SOURCES);
     std::fill_n(distance_.data() + places * sources_, BLOCK * sources_, INFINITE);
-    codes_ = {code_.data(), middle_.data(), stride_.data(), nearest_.data(), bound_.data()};
+    codes_ = {code_.data(), middle_.data(), nearest_.data(), bound_.data()};
     (sources_ == 1 ? kernels_.prepare_sweep : kernels_.prepare_sweep_each)(border_, codes_,
                                                                            middle_distance_.data());
     const float nearest = *std::ranges::min_element(std::span(nearest_).first(sources_));

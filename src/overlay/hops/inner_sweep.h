@@ -50,8 +50,7 @@ private:
     BorderDistances border_{};
     BorderCodes codes_{};
     Array<float> distance_, middle_distance_; // [place * sources + source], as are the codes
-    Array<int16_t> code_, middle_;
-    Array<int16_t> stride_, bound_;
+    Array<int16_t> code_, middle_, bound_;
     std::array<float, MOST_SOURCES> nearest_{};
     Array<float> result_; // [inner vertex * sources + source]
     BorderField field_;   // this and what follows are for one source at a time

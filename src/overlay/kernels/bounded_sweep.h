@@ -22,6 +22,7 @@ struct SweepBounded {
     struct Row {
         const uint16_t* codes;
         const int8_t* middles;
+        const int16_t* strides;
         const uint16_t* bounds;
         size_t ahead; // in places
     };
@@ -68,7 +69,7 @@ struct SweepBounded {
             load(row.codes + k, entries);
             lower<Vector>(least, code + entries);
             load(codes.middle + k, code);
-            load(codes.stride + k, strides);
+            load(row.strides + k, strides);
             decode_middles(row.middles + k, entries, strides, middles);
             lower<Vector>(least, code + middles);
         }
@@ -101,7 +102,7 @@ struct SweepBounded {
             Eight sums{};
             for (size_t r = 0; r < count; ++r) {
                 row_begin[r] = (done + r) * border.places;
-                const Row row{rows.codes + row_begin[r], rows.middles + row_begin[r],
+                const Row row{rows.codes + row_begin[r], rows.middles + row_begin[r], border.stride,
                               rows.bounds + (done + r) * blocks, ROWS_AHEAD * border.places};
                 sums[r] = least_sum(codes, row, blocks, likely);
             }

@@ -88,17 +88,17 @@ struct BorderBetween {
 struct BorderDistances {
     size_t places;
     const float* distance;
-    const float* length; // of the segment to the next place; NaN: a gap
-    float quantum;       // of the rows
+    const float* length;   // of the segment to the next place; NaN: a gap
+    const int16_t* stride; // of that segment, as MiddleStrides has them
+    float quantum;         // of the rows
 };
 
 // The distances as codes of SourceCode, from the places and from the middles of the segments that begin at
 // them.
 struct BorderCodes {
     int16_t *code, *middle;
-    int16_t* stride; // per place, of MiddleOffset, in whole blocks; 0 behind the last place
-    float* nearest;  // per source; infinity: none is reached, and its codes say nothing
-    int16_t* bound;  // scratch of sweep_bounded(): one a block of InnerBounds
+    float* nearest; // per source; infinity: none is reached, and its codes say nothing
+    int16_t* bound; // scratch of sweep_bounded(): one a block of InnerBounds
 };
 
 // Rows of a table, end to end: a code a place, and the MiddleOffset of the segment that begins there; of long

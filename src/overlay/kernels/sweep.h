@@ -39,7 +39,6 @@ struct PrepareSweep {
         }
         encode(border, border.distance, nearest, codes.code);
         encode(border, middle_distance, nearest, codes.middle);
-        measure_strides(border, codes.stride);
     }
 
 private:
@@ -62,19 +61,6 @@ private:
             lower(nearest[i / LANES % VECTORS], middle);
         }
         if constexpr (COUNT > 1) std::fill_n(middle_distance + border.places * COUNT, COUNT, INFINITE);
-    }
-
-    [[gnu::always_inline]] static void measure_strides(const BorderDistances& border, int16_t* strides) {
-        using Codes = typename VectorOf<int16_t, BYTES / 2>::Type;
-        const float steps_each = steps_per_distance(border.quantum);
-        for (size_t k = 0; k < border.places; k += LANES) {
-            Distances length;
-            Numbers of_places;
-            load(border.length + k, length);
-            middle_strides(length, steps_each, of_places);
-            store(__builtin_convertvector(of_places, Codes), strides + k);
-        }
-        std::fill(strides + border.places, strides + SourceCode::whole_blocks(border.places), int16_t{0});
     }
 
     // LANES codes, of distances side by side.
@@ -192,7 +178,7 @@ struct Sweep {
             Vector code, middle, strides;
             load(codes.code + k, code);
             load(codes.middle + k, middle);
-            load(codes.stride + k, strides);
+            load(border.stride + k, strides);
             const Vector beyond = middle - code;
             for (size_t r = 0; r < TOGETHER; ++r) {
                 Vector entries, offsets;
@@ -292,7 +278,7 @@ struct SweepEach {
             uint16_t middles[ROWS * BLOCK];
             for (size_t k = 0; k < BLOCK; k += Lanes<ROW_PART<BYTES>>::CODES) {
                 Sums<ROW_PART<BYTES>> strides, entries, decoded;
-                load(codes.stride + first + k, strides);
+                load(border.stride + first + k, strides);
                 for (size_t r = 0; r < ROWS; ++r) {
                     const size_t place = row + r * border.places + first + k;
                     load(rows.codes + place, entries);

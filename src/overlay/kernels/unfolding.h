@@ -47,15 +47,6 @@ template <class V>
     mend_square(length, square);
 }
 
-// The strides of MiddleOffset, in whole steps, of segments with these lengths; NaN: a gap. steps_each is
-// steps_per_distance() of the quantum.
-template <class V, class Numbers>
-[[gnu::always_inline]] inline void middle_strides(const V& length, float steps_each, Numbers& strides) {
-    const V most = V{} + float{MiddleOffset::LONGEST_STRIDE};
-    const V steps = length * steps_each * (0.5f / MiddleOffset::LARGEST) + 1;
-    strides = __builtin_convertvector(length > 0 ? (steps < most ? steps : most) : V{}, Numbers);
-}
-
 // Border segments. Each lies in a plane of its own, with its first end at 0 and its second end at (length,
 // 0).
 template <class V>

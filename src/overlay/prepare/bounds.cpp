@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <span>
-#include <vector>
-
-#include "src/overlay/prepare/middles.h"
 
 namespace geodesic {
 
@@ -37,15 +34,14 @@ void make_inner_bounds(OverlayIndex& index) {
     for (uint32_t p = 0; p < patches; ++p)
         bounds.begin.push_back(bounds.begin.back() + bounds_of_patch(index, p));
     bounds.codes.resize(bounds.begin.back());
-    std::vector<int16_t> strides;
     for (uint32_t p = 0; p < patches; ++p) {
         const size_t places = index.rings.size(p);
         if (!InnerBounds::are_kept(places)) continue;
-        measure_middle_strides(index, p, strides);
         uint16_t* of_row = bounds.codes.data() + bounds.begin[p];
         for (uint32_t i = 0; i < index.numbering.inner_size(p); ++i, of_row += InnerBounds::blocks(places)) {
             const uint64_t row = index.inner_row(p, i);
-            bound_row(index.hops.inner.data() + row, index.hops.inner_middles.data() + row, strides, of_row);
+            bound_row(index.hops.inner.data() + row, index.hops.inner_middles.data() + row,
+                      {index.strides.of(p), places}, of_row);
         }
     }
 }

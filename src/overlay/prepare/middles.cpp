@@ -57,11 +57,10 @@ Steps floor_of(const Steps& steps) {
 
 // The offsets of middles with these codes beside one row of an inner table. inverse_stride is 0 where there
 // is a gap, and as long as whole vectors. A middle is nowhere at less than 0 or at more than the largest
-// code; one that could not be derived is as far as it can be. Writes up to three offsets behind the row, too.
-void write_offsets(const uint16_t* row, const uint16_t* middles, std::span<const float> inverse_stride,
-                   int8_t* offsets) {
+// code; one that could not be derived is as far as it can be. Whole vectors are written.
+void measure_offsets(const uint16_t* row, const uint16_t* middles, std::span<const float> inverse_stride,
+                     int32_t* offsets) {
     constexpr float MOST = MiddleOffset::LARGEST;
-    using Offsets = VectorOf<int8_t, LANES>::Type;
     for (size_t k = 0; k < inverse_stride.size(); k += LANES) {
         const Steps of_first = steps_of(row + k);
         Steps inverse;
@@ -75,7 +74,7 @@ void write_offsets(const uint16_t* row, const uint16_t* middles, std::span<const
         offset = offset > least ? offset : least;
         offset = floor_of(offset + 0.5f);
         offset = of_first < TableCode::UNREACHED ? offset : Steps{};
-        store(__builtin_convertvector(__builtin_convertvector(offset, FourKeys), Offsets), offsets + k);
+        store(__builtin_convertvector(offset, FourKeys), offsets + k);
     }
 }
 
@@ -87,20 +86,19 @@ public:
     void write(uint32_t patch, int8_t* offsets) {
         measure(patch);
         const uint32_t count = index_.numbering.inner_size(patch), places = index_.rings.size(patch);
-        const uint16_t* const rows = index_.hops.inner.data() + index_.inner_row(patch, 0);
         // The middles of a leaf are derived together, since they raise each other.
         const bool is_leaf = patch >= index_.numbering.first_leaf();
         const uint32_t together = is_leaf ? count : 1;
         codes_.resize(std::max(codes_.size(), size_t{together} * places + LANES));
         for (uint32_t first = 0; first < count; first += together) {
-            const size_t begin = size_t{first} * places;
             for (uint32_t i = 0; i < together; ++i)
-                derive_middles(rows + begin + size_t{i} * places, length_,
-                               codes_.data() + size_t{i} * places);
+                derive_middles(row(patch, first + i), length_, codes_.data() + size_t{i} * places);
             if (is_leaf) raiser_.raise(patch, codes_.data());
-            for (uint32_t i = 0; i < together; ++i)
-                write_offsets(rows + begin + size_t{i} * places, codes_.data() + size_t{i} * places,
-                              inverse_stride_, offsets + begin + size_t{i} * places);
+            for (uint32_t i = 0; i < together; ++i, offsets += places) {
+                measure_offsets(row(patch, first + i), codes_.data() + size_t{i} * places, inverse_stride_,
+                                offsets_.data());
+                for (uint32_t k = 0; k < places; ++k) offsets[k] = static_cast<int8_t>(offsets_[k]);
+            }
         }
     }
 
@@ -109,38 +107,42 @@ private:
     void measure(uint32_t patch) {
         const float* length = index_.rings.segment_length.data() + index_.rings.begin[patch];
         const size_t places = index_.rings.size(patch), whole_places = (places + LANES - 1) / LANES * LANES;
-        measure_middle_strides(index_, patch, strides_);
+        const int16_t* const strides = index_.strides.of(patch);
         length_.assign(whole_places, Rings::GAP);
         inverse_stride_.assign(whole_places, 0);
+        offsets_.resize(whole_places);
         for (size_t k = 0; k < places; ++k) {
             length_[k] = length[k] / index_.quantum[patch];
-            if (strides_[k] > 0) inverse_stride_[k] = 1.f / static_cast<float>(strides_[k]);
+            if (strides[k] > 0) inverse_stride_[k] = 1.f / static_cast<float>(strides[k]);
         }
+    }
+
+    const uint16_t* row(uint32_t patch, uint32_t inner) const {
+        return index_.hops.inner.data() + index_.inner_row(patch, inner);
     }
 
     const OverlayIndex& index_;
     MiddleRaiser raiser_;
-    std::vector<int16_t> strides_;
     std::vector<float> length_, inverse_stride_; // per place, in whole vectors
     std::vector<uint16_t> codes_;                // only grows
+    std::vector<int32_t> offsets_;               // of one row
 };
 
 }
 
-void measure_middle_strides(const OverlayIndex& index, uint32_t patch, std::vector<int16_t>& strides) {
-    const float steps_each = steps_per_distance(index.quantum[patch]);
-    strides.resize(index.rings.size(patch));
-    for (size_t k = 0; k < strides.size(); ++k) {
-        Steps length = Steps{} + index.rings.segment_length[index.rings.begin[patch] + k];
-        FourKeys of_place;
-        middle_strides(length, steps_each, of_place);
-        strides[k] = static_cast<int16_t>(of_place[0]);
+void measure_middle_strides(OverlayIndex& index) {
+    MiddleStrides& strides = index.strides;
+    strides.begin.clear();
+    strides.steps.clear();
+    for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) {
+        strides.begin.push_back(strides.steps.size());
+        for (uint32_t k = index.rings.begin[p]; k < index.rings.begin[p + 1]; ++k)
+            strides.steps.push_back(MiddleOffset::stride(index.rings.segment_length[k], index.quantum[p]));
+        strides.steps.resize(SourceCode::whole_blocks(strides.steps.size()));
     }
 }
 
-// Rows are written one after the other: what is written behind one is overwritten by the next, or is padding.
 void make_middle_tables(const OverlayIndex& index, std::span<int8_t> middles) {
-    static_assert(TableCode::PADDING > LANES);
     std::ranges::fill(middles.subspan(index.hops.inner_begin.back()), int8_t{0});
     MiddleTables tables(index);
     for (uint32_t p = 1; p < index.numbering.patch_count(); ++p)

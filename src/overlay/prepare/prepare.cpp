@@ -186,6 +186,7 @@ void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
     choose_large_overlays(index);
     require_proportion(index);
     measure_segments(index);
+    measure_middle_strides(index);
     lay_out_hop_tables(index);
     if (stored.description.codec == GEOIDX_CODEC_MAPPED)
         take_hop_codes(stored, index);

@@ -84,8 +84,9 @@ void SampledAscent::hop_back(size_t border) {
     const Border& from = borders_[border];
     float* const rest = ways_.data() + border * stride_;
     float nearest;
-    const BorderDistances distances{samples_of(from).size(), rest, gaps_.data(), from.quantum};
-    const BorderCodes codes{codes_.data(), middle_codes_.data(), strides_.data(), &nearest, nullptr};
+    const BorderDistances distances{samples_of(from).size(), rest, gaps_.data(), strides_.data(),
+                                    from.quantum};
+    const BorderCodes codes{codes_.data(), middle_codes_.data(), &nearest, nullptr};
     kernels.prepare_sweep(distances, codes, middles_.data());
     // Beside gaps, offsets of middles say nothing; these are any bytes that can be read.
     const auto* const offsets = reinterpret_cast<const int8_t*>(from.table);

@@ -76,6 +76,13 @@ struct SourceCode {
     static_assert(TableCode::PADDING >= BLOCK, "the last row of a table is read in whole blocks");
 };
 
+// What a distance is multiplied by to be in steps of a quantum: finite, too, where the quantum is so small
+// that its inverse is not, because 0 times infinity is no number; 0 where the quantum is 0, and all codes are
+// the same.
+inline float steps_per_distance(float quantum) {
+    return quantum > 0 ? std::min(1 / quantum, std::numeric_limits<float>::max()) : 0;
+}
+
 // The distance of a vertex from the middle of a segment is kept as one byte beside the code of its distance
 // from the segment's first end: how much longer it is, as a whole number of *strides* of so many steps each.
 // The two distances differ by at most half the length of the segment, which is no more than LARGEST strides.
@@ -85,16 +92,16 @@ struct MiddleOffset {
     // Only tables of which a segment is longer than all distances would need longer ones.
     static constexpr int LONGEST_STRIDE = 255;
 
+    // Of a segment of this length, or of a gap, which has NaN as its length.
+    static int16_t stride(float length, float quantum) {
+        if (!(length > 0)) return 0;
+        const float steps = length * steps_per_distance(quantum) * (0.5f / LARGEST) + 1;
+        return static_cast<int16_t>(std::min(steps, float{LONGEST_STRIDE}));
+    }
+
     static uint16_t code(uint16_t first, int8_t offset, int stride) {
         return static_cast<uint16_t>(first + offset * stride);
     }
 };
-
-// What a distance is multiplied by to be in steps of a quantum: finite, too, where the quantum is so small
-// that its inverse is not, because 0 times infinity is no number; 0 where the quantum is 0, and all codes are
-// the same.
-inline float steps_per_distance(float quantum) {
-    return quantum > 0 ? std::min(1 / quantum, std::numeric_limits<float>::max()) : 0;
-}
 
 }

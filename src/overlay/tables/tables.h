@@ -57,6 +57,17 @@ struct HopTables {
     Array<uint16_t> made; // `codes`, unless they lie in a file
 };
 
+// The strides of MiddleOffset, of the segments that begin at the places of every ring, and 0 behind the last
+// place of each, up to a whole block.
+struct MiddleStrides {
+    explicit MiddleStrides(std::pmr::memory_resource* memory) : begin(memory), steps(memory) {}
+
+    Array<uint64_t> begin; // per patch
+    Array<int16_t> steps;
+
+    const int16_t* of(uint32_t patch) const { return steps.data() + begin[patch]; }
+};
+
 // Where the vertex at a position of an overlay is in the two parts of a row.
 struct OverlayColumn {
     bool is_owned;
@@ -178,7 +189,8 @@ struct PairTables {
 struct OverlayIndex {
     explicit OverlayIndex(std::pmr::memory_resource* memory)
         : numbering(memory), quantum(memory), shift(memory), rings(memory), longest_segment(memory),
-          is_large(memory), hops(memory), bounds(memory), measured(memory), steep(memory), pairs(memory) {}
+          is_large(memory), hops(memory), strides(memory), bounds(memory), measured(memory), steep(memory),
+          pairs(memory) {}
 
     Numbering numbering;
     Array<float> quantum; // per patch: the distance of one step of its codes
@@ -187,6 +199,7 @@ struct OverlayIndex {
     Array<float> longest_segment; // per patch: length of the longest segment of its border, or 0
     Array<uint8_t> is_large;      // per inner patch: whether its owned table has each distance once
     HopTables hops;
+    MiddleStrides strides;
     InnerBounds bounds;
     MeasuredPairs measured; // answers of all queries from vertices, unless a field is lowered
     SteepEdges steep;       // along which fields are lowered
