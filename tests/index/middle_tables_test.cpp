@@ -27,12 +27,13 @@ TEST_CASE("middle tables: in the plane, straight lines to the middles of segment
             for (uint32_t k = 0; k < index.rings.size(p); ++k) {
                 const uint32_t place = index.rings.begin[p] + k;
                 const uint64_t entry = index.inner_row(p, i) + k;
-                const int8_t offset = index.hops.inner_middles[entry];
+                const uint8_t offset = index.hops.inner_middles[entry];
                 if (std::isnan(index.rings.segment_length[place])) {
                     wrong += strides[k] != 0 || offset != 0;
                     continue;
                 }
-                const uint16_t code = MiddleOffset::code(index.hops.inner[entry], offset, strides[k]);
+                const uint16_t code = MiddleOffset::code(index.hops.inner[entry], index.hops.inner[entry + 1],
+                                                         offset, strides[k]);
                 const auto& target = numbering.positions[numbering.first_inner(p) + i];
                 const auto &first = numbering.positions[index.rings.vertex[place]],
                            &second = numbering.positions[index.rings.vertex[place + 1]];
@@ -49,7 +50,7 @@ TEST_CASE("middle tables: in the plane, straight lines to the middles of segment
                                         quantum * strides[k] / 2 + 2 * double{numbering.position_step} +
                                         (p < numbering.first_leaf() ? 1e-3 * distance : 0);
                 wrong += std::abs(code * quantum - distance) > rounding;
-                wrong += quantum * strides[k] > length / 254 + quantum;
+                wrong += quantum * strides[k] > length / 510 + quantum;
                 ++middles;
             }
     }

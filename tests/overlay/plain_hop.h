@@ -67,23 +67,21 @@ inline std::vector<std::vector<float>> raised_middles(const StoredBorder& border
     return codes;
 }
 
-// The same as they are kept: so many strides from the first ends of their segments. NaN where no segment
-// begins, or where the first end has no path.
+// The same as they are kept: so many strides below the mean of both ends, of which one without a path counts
+// as 32767. NaN where no segment begins.
 inline std::vector<std::vector<float>> middle_codes(const StoredBorder& border, const Rows& rows,
                                                     const Rows& apart, float quantum) {
     auto codes = raised_middles(border, rows, apart, quantum);
     for (size_t x = 0; x < rows.size(); ++x)
         for (uint32_t p = 0; p < border.size(); ++p) {
             if (border.end[p] == NONE) continue;
-            const auto first = static_cast<float>(rows[x][p]);
-            const float middle = std::isnan(codes[x][p]) ? float{NO_PATH} : codes[x][p];
-            const float in_strides = border.length[p] * (1 / quantum) * (0.5f / 127) + 1;
-            const float stride = std::trunc(std::min(in_strides, 255.f));
-            const float offset = std::floor((middle - first) * (1 / stride) + 0.5f);
-            const float most = std::min(127.f, std::trunc((32766 - first) * (1 / stride)));
-            const float least = std::max(-127.f, -std::trunc(first * (1 / stride)));
-            codes[x][p] =
-                rows[x][p] == NO_PATH ? NAN : first + stride * std::max(least, std::min(most, offset));
+            const auto mean = static_cast<float>((rows[x][p] + rows[x][border.end[p]] + 1) / 2);
+            const float middle = std::isnan(codes[x][p]) ? mean : codes[x][p];
+            const float in_strides = border.length[p] * (1 / quantum) * (0.5f / 255) + 1;
+            const float stride = std::trunc(std::min(in_strides, 127.f));
+            const float offset = std::trunc((mean - middle) * (1 / stride) + 0.5f);
+            const float most = std::min(255.f, std::trunc(mean * (1 / stride)));
+            codes[x][p] = mean - stride * std::max(0.f, std::min(most, offset));
         }
     return codes;
 }

@@ -30,20 +30,24 @@ struct Plane {
         length[places - 1] = NAN;
         codes.assign(targets.size() * places + SourceCode::BLOCK, 0);
         middles.assign(codes.size(), 0);
-        for (size_t r = 0; r < targets.size(); ++r)
-            for (size_t k = 0; k < places; ++k) {
-                const uint16_t first = codes[r * places + k] = code_of(distance(targets[r], border[k]));
-                if (k + 1 < places)
-                    middles[r * places + k] = static_cast<int8_t>(std::lround(
-                        (code_of(distance(targets[r], middle(k))) - first) / static_cast<double>(stride(k))));
+        for (size_t r = 0; r < targets.size(); ++r) {
+            for (size_t k = 0; k < places; ++k)
+                codes[r * places + k] = code_of(distance(targets[r], border[k]));
+            for (size_t k = 0; k + 1 < places; ++k) {
+                const int mean = MiddleOffset::mean(codes[r * places + k], codes[r * places + k + 1]);
+                const double beyond = mean - code_of(distance(targets[r], middle(k)));
+                middles[r * places + k] =
+                    static_cast<uint8_t>(std::lround(std::max(beyond, 0.0) / stride(k)));
             }
+        }
     }
 
     int16_t stride(size_t k) const { return MiddleOffset::stride(length[k], quantum); }
     // How far the middle of a segment is, by the table.
     double from_middle(size_t k, size_t target) const {
         const size_t entry = target * border.size() + k;
-        return double{quantum} * MiddleOffset::code(codes[entry], middles[entry], stride(k));
+        return double{quantum} *
+               MiddleOffset::code(codes[entry], codes[entry + 1], middles[entry], stride(k));
     }
 
     Point middle(size_t k) const {
@@ -77,7 +81,7 @@ struct Plane {
     float quantum;
     std::vector<float> length;
     std::vector<uint16_t> codes;
-    std::vector<int8_t> middles;
+    std::vector<uint8_t> middles;
     std::vector<std::vector<float>> from; // per source and place
 };
 
@@ -88,9 +92,10 @@ std::vector<uint16_t> bounds_of(const Plane& plane) {
     for (size_t r = 0; r < plane.targets.size(); ++r)
         for (size_t k = 0; k < places; ++k) {
             uint16_t& bound = bounds[r * blocks + k / InnerBounds::PLACES];
-            const uint16_t code = plane.codes[r * places + k];
-            bound = std::min(
-                {bound, code, MiddleOffset::code(code, plane.middles[r * places + k], plane.stride(k))});
+            const size_t entry = r * places + k;
+            bound = std::min({bound, plane.codes[entry],
+                              MiddleOffset::code(plane.codes[entry], plane.codes[entry + 1],
+                                                 plane.middles[entry], plane.stride(k))});
         }
     return bounds;
 }
@@ -164,7 +169,6 @@ uint64_t count_wrong(const Plane& plane, const std::vector<float>& distances) {
         }
     return wrong;
 }
-
 }
 
 TEST_CASE("sweep: the least way over places and middles, by every instruction set") {

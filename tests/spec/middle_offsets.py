@@ -3,8 +3,8 @@
 import numpy
 
 f = numpy.float32
-LARGEST, NO_PATH = 32766, 32767
-MOST_OFFSET, LONGEST_STRIDE = 127, 255
+NO_PATH = 32767
+MOST_OFFSET, LONGEST_STRIDE = 255, 127
 
 
 def strides(length, quantum):
@@ -15,11 +15,14 @@ def strides(length, quantum):
     return numpy.where(length > 0, numpy.trunc(steps), f(0)).astype(f)
 
 
-def offsets(middle, first, stride):
-    """Of codes of middles, from those of the first ends of their segments; NO_PATH where there is none."""
-    middle, first = middle.astype(f), first.astype(f)
+def means(first, second):
+    """Of the codes of both ends of segments, rounded up."""
+    return numpy.trunc(f(0.5) * (first + second) + f(0.5)).astype(f)
+
+
+def offsets(middle, mean, stride):
+    """Of codes of middles, NO_PATH where there is none."""
+    middle, mean = middle.astype(f), mean.astype(f)
     inverse = numpy.where(stride > 0, f(1) / numpy.maximum(stride, f(1)), f(0)).astype(f)
-    least = numpy.maximum(-numpy.trunc(first * inverse), f(-MOST_OFFSET))
-    most = numpy.minimum(numpy.trunc((f(LARGEST) - first) * inverse), f(MOST_OFFSET))
-    steps = numpy.maximum(numpy.minimum((middle - first) * inverse, most), least)
-    return numpy.where(first < NO_PATH, numpy.floor(steps + f(0.5)), f(0))
+    most = numpy.minimum(numpy.trunc(mean * inverse), f(MOST_OFFSET))
+    return numpy.maximum(numpy.minimum(numpy.trunc((mean - middle) * inverse + f(0.5)), most), f(0))

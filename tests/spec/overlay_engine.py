@@ -5,7 +5,7 @@ All is single precision, as the document has it: f below.
 
 import numpy
 
-from middle_offsets import offsets, strides
+from middle_offsets import means, offsets, strides
 from raised_middles import raised_middles
 from several_sources import SeveralSources
 
@@ -169,7 +169,8 @@ class OverlayEngine:
             longest = border.longest / self.quantum[patch]
             codes = raised_middles(codes, self.internal[patch], longest, NO_PATH)
         stride = strides(border.length, self.quantum[patch])
-        return rows + offsets(codes, rows, stride) * stride
+        mean = means(rows, second)
+        return numpy.where(stride > 0, mean - offsets(codes, mean, stride) * stride, f(NO_PATH))
 
     def cross_near(self, border, source, target, ways):
         """Those that are near take the least way over any position or segment."""

@@ -11,7 +11,7 @@ import numpy
 import xxhash
 import zstandard
 
-from middle_offsets import NO_PATH, offsets, strides
+from middle_offsets import NO_PATH, means, offsets, strides
 from packed import PackedTables
 from raised_middles import raised_middles
 
@@ -471,7 +471,7 @@ class Index:
     @staticmethod
     def _middle_offsets(codes, shapes):
         count = sum(rows * columns for rows, columns in shapes)
-        bytes_ = codes.take("<i1", 2 * (((count + 1) // 2 + 32 + 31) // 32 * 32))
+        bytes_ = codes.take("u1", 2 * (((count + 1) // 2 + 32 + 31) // 32 * 32))
         require(not bytes_[count:].any(), "bytes behind the offsets of middles")
         ends = numpy.cumsum([rows * columns for rows, columns in shapes])
         return [bytes_[end - shape[0] * shape[1] : end].reshape(shape) for end, shape in zip(ends, shapes)]
@@ -507,9 +507,10 @@ class Index:
         derived = numpy.where(numpy.isinf(derived), NO_PATH, derived)
         lengths = [self.segment_length[patch][i] if self.segment_end[patch][i] == j else numpy.nan
                    for i, j in zip(on, on[1:])] + [numpy.nan]
-        expected = offsets(derived, codes, strides(numpy.array(lengths), self.quantum[patch]))
+        mean = means(codes, numpy.roll(codes, -1, axis=1))
+        expected = offsets(derived, mean, strides(numpy.array(lengths), self.quantum[patch]))
         # Where the sum is rounded otherwise, the root may be, too.
-        require(not (numpy.abs(middles - expected) > 1).any(), "a middle is elsewhere")
+        require(not (numpy.abs(middles.astype("f4") - expected) > 1).any(), "a middle is elsewhere")
 
     def _middles(self, patch, on, inner):
         middles = numpy.full(inner.shape, numpy.inf)

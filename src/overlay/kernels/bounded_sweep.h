@@ -21,7 +21,7 @@ struct SweepBounded {
     // Codes and middles of one row.
     struct Row {
         const uint16_t* codes;
-        const int8_t* middles;
+        const uint8_t* middles;
         const int16_t* strides;
         const uint16_t* bounds;
         size_t ahead; // in places
@@ -65,12 +65,11 @@ struct SweepBounded {
         prefetch_block(row.codes + block * PLACES, row.ahead);
         prefetch_block(row.middles + block * PLACES, row.ahead);
         for (size_t k = block * PLACES; k < (block + 1) * PLACES; k += LANES) {
+            load(row.strides + k, strides);
+            read_row(row.codes + k, row.middles + k, strides, entries, middles);
             load(codes.code + k, code);
-            load(row.codes + k, entries);
             lower<Vector>(least, code + entries);
             load(codes.middle + k, code);
-            load(row.strides + k, strides);
-            decode_middles(row.middles + k, entries, strides, middles);
             lower<Vector>(least, code + middles);
         }
         return least_lane(least);

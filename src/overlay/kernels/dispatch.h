@@ -106,7 +106,7 @@ struct BorderCodes {
 struct SweepRows {
     size_t count;
     const uint16_t* codes;
-    const int8_t* middles;
+    const uint8_t* middles;
     const uint16_t* bounds;
 };
 

@@ -131,22 +131,22 @@ template <class Part, class Wide>
     }
 }
 
-// As many bytes with a sign as there are lanes, in a vector of 16 or 32 bytes. As many bytes again are read.
-// (Compilers make twice the instructions of a conversion.)
+// As many bytes as there are lanes, in a vector of 16 or 32 bytes. As many bytes again are read. (Compilers
+// make twice the instructions of a conversion.)
 template <class Codes>
-[[gnu::always_inline]] inline void widen_bytes(const int8_t* first, Codes& codes) {
-    typename VectorOf<int8_t, sizeof codes>::Type bytes, twice;
+[[gnu::always_inline]] inline void widen_bytes(const uint8_t* first, Codes& codes) {
+    typename VectorOf<uint8_t, sizeof codes>::Type bytes, wide, none{};
     load(first, bytes);
     if constexpr (sizeof codes == 16) {
-        twice = __builtin_shufflevector(bytes, bytes, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7);
+        wide = __builtin_shufflevector(bytes, none, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
     } else {
         using Eighths = typename VectorOf<int64_t, sizeof codes>::Type;
         const auto eighths = reinterpret_cast<Eighths>(bytes);
         bytes = reinterpret_cast<decltype(bytes)>(__builtin_shufflevector(eighths, eighths, 0, 0, 1, 1));
-        twice = __builtin_shufflevector(bytes, bytes, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, //
-                                        16, 16, 17, 17, 18, 18, 19, 19, 20, 20, 21, 21, 22, 22, 23, 23);
+        wide = __builtin_shufflevector(bytes, none, 0, 32, 1, 33, 2, 34, 3, 35, 4, 36, 5, 37, 6, 38, 7, 39,
+                                       16, 48, 17, 49, 18, 50, 19, 51, 20, 52, 21, 53, 22, 54, 23, 55);
     }
-    codes = reinterpret_cast<Codes>(twice) >> 8;
+    codes = reinterpret_cast<Codes>(wide);
 }
 
 // Of each 16 bytes of codes four, from the STEP-th on.

@@ -114,13 +114,16 @@ inline float way_over_places(const BorderDistances& border, size_t stride, const
 template <size_t BYTES>
 constexpr size_t ROW_PART = std::min(BYTES, size_t{32});
 
-// Codes of middles, of as many places as there are lanes, from MiddleOffset and the codes of the places.
+// Reads the codes of as many places as there are lanes, and the codes of the middles behind them.
 template <class Codes>
-[[gnu::always_inline]] inline void decode_middles(const int8_t* offsets, const Codes& of_places,
-                                                  const Codes& strides, Codes& middles) {
-    Codes wide;
+[[gnu::always_inline]] inline void read_row(const uint16_t* row, const uint8_t* offsets, const Codes& strides,
+                                            Codes& codes, Codes& middles) {
+    using Unsigned = typename VectorOf<uint16_t, sizeof(Codes)>::Type; // holds the sum of two codes, and 1
+    Codes next, wide;
+    load(row, codes);
+    load(row + 1, next);
     widen_bytes(offsets, wide);
-    middles = of_places + wide * strides;
+    middles = reinterpret_cast<Codes>(reinterpret_cast<Unsigned>(codes + next + 1) >> 1) - wide * strides;
 }
 
 // least[i]: the least lane of eight[i].
@@ -166,11 +169,10 @@ template <class Entry>
 
 template <size_t BYTES>
 struct Sweep {
-    static constexpr size_t ROWS = 8, TOGETHER = 4, WIDTH = ROW_PART<BYTES>;
+    static constexpr size_t ROWS = 8, WIDTH = ROW_PART<BYTES>;
     using Vector = Sums<WIDTH>;
     using Eight = Sums<ROWS * sizeof(int16_t)>;
 
-    // Of TOGETHER rows.
     [[gnu::always_inline]] static void lower_all(const BorderDistances& border, const BorderCodes& codes,
                                                  const SweepRows& rows, const size_t* row_begin,
                                                  Vector* least) {
@@ -179,14 +181,12 @@ struct Sweep {
             load(codes.code + k, code);
             load(codes.middle + k, middle);
             load(border.stride + k, strides);
-            const Vector beyond = middle - code;
-            for (size_t r = 0; r < TOGETHER; ++r) {
-                Vector entries, offsets;
-                load(rows.codes + row_begin[r] + k, entries);
-                widen_bytes(rows.middles + row_begin[r] + k, offsets);
-                const Vector sums = code + entries;
-                lower<Vector>(least[r], sums);
-                lower<Vector>(least[r], sums + (offsets * strides + beyond));
+            for (size_t r = 0; r < ROWS; ++r) {
+                const uint16_t* const row = rows.codes + row_begin[r] + k;
+                Vector entries, middles;
+                read_row(row, rows.middles + row_begin[r] + k, strides, entries, middles);
+                lower<Vector>(least[r], code + entries);
+                lower<Vector>(least[r], middle + middles);
             }
         }
     }
@@ -197,7 +197,7 @@ struct Sweep {
                                                    float* distances) {
         Vector least[ROWS];
         for (auto& lanes : least) lanes = Vector{} + std::numeric_limits<int16_t>::max();
-        for (size_t r = 0; r < ROWS; r += TOGETHER) lower_all(border, codes, rows, row_begin + r, least + r);
+        lower_all(border, codes, rows, row_begin, least);
         Eight folded[ROWS], sums;
         for (size_t r = 0; r < ROWS; ++r) fold(least[r], folded[r]);
         least_lanes_of_eight(folded, sums);
@@ -281,8 +281,7 @@ struct SweepEach {
                 load(border.stride + first + k, strides);
                 for (size_t r = 0; r < ROWS; ++r) {
                     const size_t place = row + r * border.places + first + k;
-                    load(rows.codes + place, entries);
-                    decode_middles(rows.middles + place, entries, strides, decoded);
+                    read_row(rows.codes + place, rows.middles + place, strides, entries, decoded);
                     store(decoded, middles + r * BLOCK + k);
                 }
             }

@@ -8,13 +8,14 @@ namespace geodesic {
 namespace {
 
 // The bounds of one row.
-void bound_row(const uint16_t* codes, const int8_t* middles, std::span<const int16_t> strides,
+void bound_row(const uint16_t* codes, const uint8_t* middles, std::span<const int16_t> strides,
                uint16_t* bounds) {
     const size_t places = strides.size();
     for (size_t first = 0; first < places; first += InnerBounds::PLACES) {
         uint16_t least = TableCode::UNREACHED;
         for (size_t k = first; k < std::min(first + InnerBounds::PLACES, places); ++k)
-            least = std::min({least, codes[k], MiddleOffset::code(codes[k], middles[k], strides[k])});
+            least = std::min(
+                {least, codes[k], MiddleOffset::code(codes[k], codes[k + 1], middles[k], strides[k])});
         *bounds++ = least;
     }
 }

@@ -50,30 +50,21 @@ Steps truncated(const Steps& steps) {
     return __builtin_convertvector(__builtin_convertvector(steps, FourKeys), Steps);
 }
 
-Steps floor_of(const Steps& steps) {
-    const Steps whole = truncated(steps);
-    return whole > steps ? whole - 1 : whole;
-}
-
 // The offsets of middles with these codes beside one row of an inner table. inverse_stride is 0 where there
-// is a gap, and as long as whole vectors. A middle is nowhere at less than 0 or at more than the largest
-// code; one that could not be derived is as far as it can be. Whole vectors are written.
+// is a gap, and as long as whole vectors. A middle is nowhere at less than 0, nor at more than the mean,
+// where one is that could not be derived. Whole vectors are written.
 void measure_offsets(const uint16_t* row, const uint16_t* middles, std::span<const float> inverse_stride,
                      int32_t* offsets) {
     constexpr float MOST = MiddleOffset::LARGEST;
     for (size_t k = 0; k < inverse_stride.size(); k += LANES) {
-        const Steps of_first = steps_of(row + k);
+        const Steps mean = truncated(0.5f * (steps_of(row + k) + steps_of(row + k + 1)) + 0.5f);
         Steps inverse;
         load(inverse_stride.data() + k, inverse);
-        Steps least = -truncated(of_first * inverse),
-              most = truncated((TableCode::LARGEST - of_first) * inverse);
-        least = least > -MOST ? least : Steps{} - MOST;
+        Steps most = truncated(mean * inverse);
         most = most < MOST ? most : Steps{} + MOST;
-        Steps offset = (steps_of(middles + k) - of_first) * inverse;
+        Steps offset = truncated((mean - steps_of(middles + k)) * inverse + 0.5f);
         offset = offset < most ? offset : most;
-        offset = offset > least ? offset : least;
-        offset = floor_of(offset + 0.5f);
-        offset = of_first < TableCode::UNREACHED ? offset : Steps{};
+        offset = offset > 0 ? offset : Steps{};
         store(__builtin_convertvector(offset, FourKeys), offsets + k);
     }
 }
@@ -83,7 +74,7 @@ public:
     explicit MiddleTables(const OverlayIndex& index) : index_(index), raiser_(index) {}
 
     // Those of one patch.
-    void write(uint32_t patch, int8_t* offsets) {
+    void write(uint32_t patch, uint8_t* offsets) {
         measure(patch);
         const uint32_t count = index_.numbering.inner_size(patch), places = index_.rings.size(patch);
         // The middles of a leaf are derived together, since they raise each other.
@@ -97,7 +88,7 @@ public:
             for (uint32_t i = 0; i < together; ++i, offsets += places) {
                 measure_offsets(row(patch, first + i), codes_.data() + size_t{i} * places, inverse_stride_,
                                 offsets_.data());
-                for (uint32_t k = 0; k < places; ++k) offsets[k] = static_cast<int8_t>(offsets_[k]);
+                for (uint32_t k = 0; k < places; ++k) offsets[k] = static_cast<uint8_t>(offsets_[k]);
             }
         }
     }
@@ -142,8 +133,8 @@ void measure_middle_strides(OverlayIndex& index) {
     }
 }
 
-void make_middle_tables(const OverlayIndex& index, std::span<int8_t> middles) {
-    std::ranges::fill(middles.subspan(index.hops.inner_begin.back()), int8_t{0});
+void make_middle_tables(const OverlayIndex& index, std::span<uint8_t> middles) {
+    std::ranges::fill(middles.subspan(index.hops.inner_begin.back()), uint8_t{0});
     MiddleTables tables(index);
     for (uint32_t p = 1; p < index.numbering.patch_count(); ++p)
         tables.write(p, middles.data() + index.inner_row(p, 0));

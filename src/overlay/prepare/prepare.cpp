@@ -47,11 +47,11 @@ uint64_t hop_code_count(const OverlayIndex& index) {
            size_of_part(index.numbering.internal_table_begin.back()) + size_of_middles(index);
 }
 
-std::span<const int8_t> bytes_of(std::span<const uint16_t> offsets) {
-    return {reinterpret_cast<const int8_t*>(offsets.data()), offsets.size_bytes()};
+std::span<const uint8_t> bytes_of(std::span<const uint16_t> offsets) {
+    return {reinterpret_cast<const uint8_t*>(offsets.data()), offsets.size_bytes()};
 }
-std::span<int8_t> bytes_of(std::span<uint16_t> offsets) {
-    return {reinterpret_cast<int8_t*>(offsets.data()), offsets.size_bytes()};
+std::span<uint8_t> bytes_of(std::span<uint16_t> offsets) {
+    return {reinterpret_cast<uint8_t*>(offsets.data()), offsets.size_bytes()};
 }
 
 template <class Code>

@@ -89,7 +89,7 @@ void SampledAscent::hop_back(size_t border) {
     const BorderCodes codes{codes_.data(), middle_codes_.data(), &nearest, nullptr};
     kernels.prepare_sweep(distances, codes, middles_.data());
     // Beside gaps, offsets of middles say nothing; these are any bytes that can be read.
-    const auto* const offsets = reinterpret_cast<const int8_t*>(from.table);
+    const auto* const offsets = reinterpret_cast<const uint8_t*>(from.table);
     kernels.sweep(distances, codes, {samples_of(borders_[border - 1]).size(), from.table, offsets, nullptr},
                   rest - stride_);
 }

@@ -83,14 +83,14 @@ inline float steps_per_distance(float quantum) {
     return quantum > 0 ? std::min(1 / quantum, std::numeric_limits<float>::max()) : 0;
 }
 
-// The distance of a vertex from the middle of a segment is kept as one byte beside the code of its distance
-// from the segment's first end: how much longer it is, as a whole number of *strides* of so many steps each.
-// The two distances differ by at most half the length of the segment, which is no more than LARGEST strides.
-// Where there is a gap instead of a segment, a stride has 0 steps.
+// The distance of a vertex from the middle of a segment is kept as one byte beside the codes of its distances
+// from the two ends: how much shorter it is than their mean, as a whole number of *strides* of so many steps
+// each. That is at most half the length of the segment, which is no more than LARGEST strides. Where there is
+// a gap instead of a segment, a stride has 0 steps.
 struct MiddleOffset {
-    static constexpr int LARGEST = 127;
+    static constexpr int LARGEST = 255;
     // Only tables of which a segment is longer than all distances would need longer ones.
-    static constexpr int LONGEST_STRIDE = 255;
+    static constexpr int LONGEST_STRIDE = 127;
 
     // Of a segment of this length, or of a gap, which has NaN as its length.
     static int16_t stride(float length, float quantum) {
@@ -99,8 +99,12 @@ struct MiddleOffset {
         return static_cast<int16_t>(std::min(steps, float{LONGEST_STRIDE}));
     }
 
-    static uint16_t code(uint16_t first, int8_t offset, int stride) {
-        return static_cast<uint16_t>(first + offset * stride);
+    // Of two codes, rounded up.
+    static uint16_t mean(uint16_t first, uint16_t second) {
+        return static_cast<uint16_t>((first + second + 1) / 2);
+    }
+    static uint16_t code(uint16_t first, uint16_t second, uint8_t offset, int stride) {
+        return static_cast<uint16_t>(mean(first, second) - offset * stride);
     }
 };
 

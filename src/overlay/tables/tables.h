@@ -53,7 +53,7 @@ struct HopTables {
     std::span<const uint16_t> codes; // those of the following five, in this order; two offsets are a code
     std::span<const uint16_t> border, owned, inner;
     std::span<const uint16_t> internal; // of leaves, below the diagonal, at Numbering::internal_entry()
-    std::span<const int8_t> inner_middles;
+    std::span<const uint8_t> inner_middles;
     Array<uint16_t> made; // `codes`, unless they lie in a file
 };
 
@@ -219,7 +219,7 @@ struct OverlayIndex {
     // The bytes of a patch in all hop tables but the internal one.
     uint64_t hop_table_bytes(uint32_t patch) const {
         const uint64_t inner = uint64_t{numbering.inner_size(patch)} * rings.size(patch);
-        const uint64_t inner_and_middles = (sizeof(uint16_t) + sizeof(int8_t)) * inner;
+        const uint64_t inner_and_middles = (sizeof(uint16_t) + sizeof(uint8_t)) * inner;
         if (patch >= numbering.first_leaf()) return inner_and_middles;
         return inner_and_middles + sizeof(uint16_t) * (border_table_size(patch) + owned_table_size(patch));
     }
