@@ -67,7 +67,7 @@ struct StoredIndex {
                                                  // owned below the diagonal
     std::vector<uint16_t> border_internal_codes; // BVIV: of every leaf, a row for each border vertex
     std::vector<uint16_t> internal_codes;        // IVIV: of every leaf, below the diagonal
-    // HOPS: in a mapped file, in place of the three above: the codes of HopTables, which is what queries
+    // HOPS: in a mapped file, in place of the three above: the tables of HopTables, which is what queries
     // read. They lie in the file, or in the index that is going to be saved.
     std::span<const uint16_t> hop_codes;
 

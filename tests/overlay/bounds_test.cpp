@@ -23,9 +23,10 @@ uint64_t wrong_bounds(const OverlayIndex& index, uint32_t patch) {
             const uint64_t entry = index.inner_row(patch, i) + k;
             const uint16_t code = index.hops.inner[entry], next = index.hops.inner[entry + 1];
             uint16_t& of_block = least[k / InnerBounds::PLACES];
-            of_block =
-                std::min({of_block, code,
-                          MiddleOffset::code(code, next, index.hops.inner_middles[entry], strides[k])});
+            of_block = std::min(of_block, code);
+            if (strides[k] > 0)
+                of_block = std::min(
+                    of_block, MiddleOffset::code(code, next, index.hops.inner_middles[entry], strides[k]));
         }
         const uint16_t* bounds = index.bounds.codes.data() + index.bounds.begin[patch] + i * blocks;
         wrong += !std::equal(least.begin(), least.end(), bounds);

@@ -28,8 +28,8 @@ struct Plane {
         for (size_t k = 0; k + 1 < places; ++k)
             length[k] = static_cast<float>(distance(border[k], border[k + 1]));
         length[places - 1] = NAN;
-        codes.assign(targets.size() * places + SourceCode::BLOCK, 0);
-        middles.assign(codes.size(), 0);
+        codes.assign(targets.size() * places + TableCode::PADDING, 0);
+        middles.assign(targets.size() * places + MiddleOffset::PADDING, 0);
         for (size_t r = 0; r < targets.size(); ++r) {
             for (size_t k = 0; k < places; ++k)
                 codes[r * places + k] = code_of(distance(targets[r], border[k]));
@@ -93,9 +93,10 @@ std::vector<uint16_t> bounds_of(const Plane& plane) {
         for (size_t k = 0; k < places; ++k) {
             uint16_t& bound = bounds[r * blocks + k / InnerBounds::PLACES];
             const size_t entry = r * places + k;
-            bound = std::min({bound, plane.codes[entry],
-                              MiddleOffset::code(plane.codes[entry], plane.codes[entry + 1],
-                                                 plane.middles[entry], plane.stride(k))});
+            bound = std::min(bound, plane.codes[entry]);
+            if (plane.stride(k) > 0)
+                bound = std::min(bound, MiddleOffset::code(plane.codes[entry], plane.codes[entry + 1],
+                                                           plane.middles[entry], plane.stride(k)));
         }
     return bounds;
 }

@@ -9,7 +9,7 @@ MOST_OFFSET, LONGEST_STRIDE = 255, 127
 
 def strides(length, quantum):
     """In steps, of segments with these lengths; NaN: there is none."""
-    scale = f(1) / f(quantum) if quantum > 0 else f(0)
+    scale = numpy.minimum(f(1) / f(quantum), numpy.finfo(f).max) if quantum > 0 else f(0)
     steps = length.astype(f) * scale * f(0.5 / MOST_OFFSET) + f(1)
     steps = numpy.where(steps < LONGEST_STRIDE, steps, f(LONGEST_STRIDE))
     return numpy.where(length > 0, numpy.trunc(steps), f(0)).astype(f)

@@ -114,16 +114,19 @@ inline float way_over_places(const BorderDistances& border, size_t stride, const
 template <size_t BYTES>
 constexpr size_t ROW_PART = std::min(BYTES, size_t{32});
 
-// Reads the codes of as many places as there are lanes, and the codes of the middles behind them.
+// Reads the codes of as many places as there are lanes, and of the middles of the segments that begin there.
 template <class Codes>
 [[gnu::always_inline]] inline void read_row(const uint16_t* row, const uint8_t* offsets, const Codes& strides,
                                             Codes& codes, Codes& middles) {
-    using Unsigned = typename VectorOf<uint16_t, sizeof(Codes)>::Type; // holds the sum of two codes, and 1
-    Codes next, wide;
-    load(row, codes);
-    load(row + 1, next);
+    // Holds the sum of two codes, and 1.
+    using Unsigned = typename VectorOf<uint16_t, sizeof(Codes)>::Type;
+    Unsigned first, second;
+    Codes wide;
+    load(row, first);
+    load(row + 1, second);
     widen_bytes(offsets, wide);
-    middles = reinterpret_cast<Codes>(reinterpret_cast<Unsigned>(codes + next + 1) >> 1) - wide * strides;
+    codes = reinterpret_cast<Codes>(first);
+    middles = reinterpret_cast<Codes>((first + second + 1) >> 1) - wide * strides;
 }
 
 // least[i]: the least lane of eight[i].

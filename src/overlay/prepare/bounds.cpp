@@ -13,9 +13,11 @@ void bound_row(const uint16_t* codes, const uint8_t* middles, std::span<const in
     const size_t places = strides.size();
     for (size_t first = 0; first < places; first += InnerBounds::PLACES) {
         uint16_t least = TableCode::UNREACHED;
-        for (size_t k = first; k < std::min(first + InnerBounds::PLACES, places); ++k)
-            least = std::min(
-                {least, codes[k], MiddleOffset::code(codes[k], codes[k + 1], middles[k], strides[k])});
+        for (size_t k = first; k < std::min(first + InnerBounds::PLACES, places); ++k) {
+            least = std::min(least, codes[k]);
+            if (strides[k] > 0) // not a gap
+                least = std::min(least, MiddleOffset::code(codes[k], codes[k + 1], middles[k], strides[k]));
+        }
         *bounds++ = least;
     }
 }

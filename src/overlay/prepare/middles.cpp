@@ -51,8 +51,8 @@ Steps truncated(const Steps& steps) {
 }
 
 // The offsets of middles with these codes beside one row of an inner table. inverse_stride is 0 where there
-// is a gap, and as long as whole vectors. A middle is nowhere at less than 0, nor at more than the mean,
-// where one is that could not be derived. Whole vectors are written.
+// is a gap, and as long as whole vectors. No middle comes out below 0 or above the mean; one that could not
+// be derived is at the mean. Whole vectors are written.
 void measure_offsets(const uint16_t* row, const uint16_t* middles, std::span<const float> inverse_stride,
                      int32_t* offsets) {
     constexpr float MOST = MiddleOffset::LARGEST;
@@ -77,14 +77,15 @@ public:
     void write(uint32_t patch, uint8_t* offsets) {
         measure(patch);
         const uint32_t count = index_.numbering.inner_size(patch), places = index_.rings.size(patch);
-        // The middles of a leaf are derived together, since they raise each other.
-        const bool is_leaf = patch >= index_.numbering.first_leaf();
-        const uint32_t together = is_leaf ? count : 1;
+        // Middles that raise each other are derived together.
+        const bool are_raised =
+            patch >= index_.numbering.first_leaf() && count <= MiddleRaiser::MOST_VERTICES;
+        const uint32_t together = are_raised ? count : 1;
         codes_.resize(std::max(codes_.size(), size_t{together} * places + LANES));
         for (uint32_t first = 0; first < count; first += together) {
             for (uint32_t i = 0; i < together; ++i)
                 derive_middles(row(patch, first + i), length_, codes_.data() + size_t{i} * places);
-            if (is_leaf) raiser_.raise(patch, codes_.data());
+            if (are_raised) raiser_.raise(patch, codes_.data());
             for (uint32_t i = 0; i < together; ++i, offsets += places) {
                 measure_offsets(row(patch, first + i), codes_.data() + size_t{i} * places, inverse_stride_,
                                 offsets_.data());

@@ -27,8 +27,8 @@ void measure_segments(OverlayIndex& index) {
             index.longest_segment[p] = std::fmax(index.longest_segment[p], rings.segment_length[k]);
 }
 
-// The codes of all hop tables, by their kinds. Kernels read past the end of a table, so that there are more
-// codes behind each kind, up to a whole block.
+// All hop tables, by their kinds. Kernels read past the end of a table, so that there are more codes behind
+// each kind, up to a whole block.
 template <class Code>
 struct HopParts {
     std::span<Code> border, owned, inner, internal;
@@ -38,6 +38,7 @@ struct HopParts {
 uint64_t size_of_part(uint64_t codes) { return SourceCode::whole_blocks(codes + TableCode::PADDING); }
 
 uint64_t size_of_middles(const OverlayIndex& index) {
+    static_assert(MiddleOffset::PADDING <= sizeof(uint16_t) * TableCode::PADDING);
     return size_of_part((index.hops.inner_begin.back() + 1) / 2);
 }
 

@@ -30,7 +30,6 @@ uint16_t allowed_difference(uint16_t code) {
 void MiddleRaiser::raise(uint32_t leaf, uint16_t* middles) {
     middles_ = middles;
     count_ = index_.numbering.internal_size(leaf);
-    if (count_ > MOST_VERTICES) return;
     places_ = index_.rings.size(leaf);
     whole_places_ = (places_ + CODES_AT_ONCE - 1) / CODES_AT_ONCE * CODES_AT_ONCE;
     copy_derived();

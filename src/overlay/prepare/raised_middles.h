@@ -18,9 +18,8 @@ public:
     explicit MiddleRaiser(const OverlayIndex& index) : index_(index) {}
 
     // Raises the middles of one leaf, which have been derived, in rows as those of the leaf's inner table,
-    // end to end. The internal table of the leaf must be filled. Leaves of more vertices than MOST_VERTICES
-    // are left as they are: each pair of vertices takes a pass over two rows, of which a file could ask for
-    // any number.
+    // end to end. The internal table of the leaf must be filled. The leaf has at most MOST_VERTICES: each
+    // pair of vertices takes a pass over two rows, of which a file could ask for any number.
     void raise(uint32_t leaf, uint16_t* middles);
     static constexpr size_t MOST_VERTICES = 256;
 

@@ -23,7 +23,7 @@ SampledAscent::SampledAscent(const OverlayIndex& index, std::pmr::memory_resourc
     : index_(index), stride_(SourceCode::whole_blocks(largest_sample_count(index) + 1)), borders_(memory),
       distances_(memory), winners_(memory), ways_(memory), rows_across_(memory), across_(memory),
       codes_(stride_, memory), gaps_(stride_, Rings::GAP, memory), middles_(stride_, memory),
-      middle_codes_(stride_, memory), strides_(stride_, memory) {
+      middle_codes_(stride_, memory), no_strides_(stride_, memory) {
     const size_t borders = index.numbering.level_count() + 1;
     borders_.reserve(borders);
     distances_.resize(borders * stride_);
@@ -84,7 +84,7 @@ void SampledAscent::hop_back(size_t border) {
     const Border& from = borders_[border];
     float* const rest = ways_.data() + border * stride_;
     float nearest;
-    const BorderDistances distances{samples_of(from).size(), rest, gaps_.data(), strides_.data(),
+    const BorderDistances distances{samples_of(from).size(), rest, gaps_.data(), no_strides_.data(),
                                     from.quantum};
     const BorderCodes codes{codes_.data(), middle_codes_.data(), &nearest, nullptr};
     kernels.prepare_sweep(distances, codes, middles_.data());

@@ -74,9 +74,9 @@ private:
     RowsAcross rows_across_; // where there is no table across:
     Array<uint16_t> across_; // the rows that are made in its place
     Array<int16_t> codes_;   // scratch of a hop
-    // Of hops back, which sweep, over samples and over no middles:
+    // Of hops back, which sweep, over samples and over no middles; gaps_ and no_strides_ stay as they are:
     Array<float> gaps_, middles_;
-    Array<int16_t> middle_codes_, strides_;
+    Array<int16_t> middle_codes_, no_strides_;
 };
 
 }

@@ -18,7 +18,8 @@ namespace geodesic {
 struct TableCode {
     static constexpr uint16_t LARGEST = 0x7ffe;
     static constexpr uint16_t UNREACHED = 0x7fff; // there is no path
-    // Kernels read rows in blocks of up to this many entries, so that so many follow the last table.
+    // Kernels read rows in blocks of up to this many entries, and one entry more, so that so many follow the
+    // last table.
     static constexpr size_t PADDING = 32;
 
     // The codes of a table are multiples of 2^shift, at most so large a shift.
@@ -85,10 +86,14 @@ inline float steps_per_distance(float quantum) {
 
 // The distance of a vertex from the middle of a segment is kept as one byte beside the codes of its distances
 // from the two ends: how much shorter it is than their mean, as a whole number of *strides* of so many steps
-// each. That is at most half the length of the segment, which is no more than LARGEST strides. Where there is
-// a gap instead of a segment, a stride has 0 steps.
+// each. In a plane that is at most half the length of the segment, which is no more than LARGEST strides;
+// what is longer than the mean counts as long as it. Where there is a gap instead of a segment, a stride has
+// 0 steps.
 struct MiddleOffset {
     static constexpr int LARGEST = 255;
+    // Kernels read the offsets of a block of places and up to 16 more, so that so many follow the last table.
+    static constexpr size_t PADDING = 2 * TableCode::PADDING;
+    static_assert(PADDING >= SourceCode::BLOCK + 16);
     // Only tables of which a segment is longer than all distances would need longer ones.
     static constexpr int LONGEST_STRIDE = 127;
 
