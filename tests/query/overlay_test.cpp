@@ -461,6 +461,50 @@ TEST_CASE("overlay: SSSD on a stretched plane") {
     CHECK(errors.largest < 0.05);
 }
 
+// Rings are 64 times as far apart as their vertices. So the border of one patch zigzags between two rings and
+// has samples that are far apart, while that of the patch around it follows a ring and has near ones.
+TEST_CASE("overlay: SSSD on a tube of long and narrow triangles" * doctest::skip(SANITIZED)) {
+    constexpr uint32_t RINGS = 21, AROUND = 200;
+    constexpr double RADIUS = 10, APART = 20;
+    const double side = 2 * RADIUS * std::sin(std::numbers::pi / AROUND);
+    TestMesh mesh;
+    for (uint32_t v = 0; v < RINGS * AROUND; ++v) {
+        const double angle = 2 * std::numbers::pi * (v % AROUND) / AROUND;
+        mesh.positions.insert(mesh.positions.end(),
+                              {RADIUS * std::cos(angle), RADIUS * std::sin(angle), APART * (v / AROUND)});
+    }
+    for (uint32_t v = 0; v < (RINGS - 1) * AROUND; ++v) {
+        const uint32_t next = v / AROUND * AROUND + (v + 1) % AROUND;
+        const std::array<uint32_t, 6> corners{v, next, v + AROUND, next, next + AROUND, v + AROUND};
+        mesh.triangles.insert(mesh.triangles.end(), corners.begin(), corners.end());
+    }
+    std::vector<double> lengths; // so that no edge is flipped, and nothing measured beside the tables
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3)
+        for (size_t k = 0; k < 3; ++k)
+            lengths.push_back(
+                mesh.straight(mesh.triangles[t + (k + 1) % 3], mesh.triangles[t + (k + 2) % 3]));
+    auto options = overlay_options(GEOIDX_METRIC_EXACT, 0, 400);
+    options.edge_lengths = lengths.data();
+    options.edge_length_count = lengths.size();
+    const auto index = build(mesh, options);
+    Differences errors;
+    uint64_t longer_than_in_field = 0;
+    for (uint32_t source = 0; source < mesh.vertex_count(); source += 41) {
+        const auto field = msad(index.get(), source, mesh.vertex_count());
+        for (uint32_t target = 0; target < mesh.vertex_count(); ++target) {
+            const double distance = double{sssd(index.get(), source, target)};
+            const int turn = std::abs(static_cast<int>(source % AROUND) - static_cast<int>(target % AROUND));
+            const int rise = static_cast<int>(source / AROUND) - static_cast<int>(target / AROUND);
+            errors.add(distance,
+                       std::hypot(side * std::min(turn, static_cast<int>(AROUND) - turn), APART * rise));
+            longer_than_in_field += distance > 1.01 * double{field[target]};
+        }
+    }
+    CHECK(errors.reached_wrongly == 0);
+    CHECK(errors.mean() < 1e-4);
+    CHECK(longer_than_in_field == 0);
+}
+
 // Segments here are longer than samples are apart, and borders have several hundred places, so that ways over
 // samples do not tell which one is the shortest.
 TEST_CASE("overlay: near pairs on an uneven stretched plane are as far apart as in a field" *

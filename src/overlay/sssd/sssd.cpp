@@ -13,11 +13,12 @@ namespace geodesic {
 
 namespace {
 
-// A pair is near if its shortest way over samples is shorter than so many units. A unit is the spacing of the
-// meeting border's samples or its longest segment, whichever is longer, but a segment counts as so many
-// spacings at most: a few segments that are much longer than all others do not make more pairs near. Samples
-// make ways longer by a share of a spacing, so that the shortest way of a near pair need not be the shortest
-// one over samples. Everything that it can cross is measured.
+// A pair is near if its shortest way over samples is shorter than so many units of the meeting border, or
+// half as many of any border that it crosses. A unit is the spacing of the border's samples or its longest
+// segment, whichever is longer, but a segment counts as so many spacings at most: a few segments that are
+// much longer than all others do not make more pairs near. Samples make ways longer by a share of a spacing,
+// so that the shortest way of a near pair need not be the shortest one over samples. Everything that it can
+// cross is measured.
 constexpr float NEAR_SPACINGS = 14, MOST_SPACINGS_OF_SEGMENT = 4;
 
 // Ways over samples are longer than the true ones by up to so many spacings, since these are averages, or by
@@ -206,17 +207,15 @@ float OverlaySssd::meet() {
         uint32_t place;
         return from_.take_whole_borders(index_) && to_.take_whole_borders(index_) ? measure(place) : INFINITE;
     }
-    const uint32_t patch = meeting_patch();
     to_.sampled.climb(to_.ascent);
     const std::span<const float> from = sample_from(), to = to_.sampled.last_distances();
     measure_ways(from, to);
     const WaysOverSamples ways{from, to, lengths_};
-    const float least = ways.least(), spacing = index_.pairs.samples.spacing[patch];
+    const float least = ways.least();
     const bool crosses_segments = to_.crosses_segments(index_) || from_.crosses_segments(index_);
     if (!crosses_segments || !(least < INFINITE)) return least;
-    const float unit =
-        std::max(spacing, std::min(index_.longest_segment[patch], MOST_SPACINGS_OF_SEGMENT * spacing));
-    const bool is_near = least < NEAR_SPACINGS * unit;
+    const float near_up_to = NEAR_SPACINGS * std::max(unit(meeting_patch()), 0.5f * largest_unit());
+    const bool is_near = least < near_up_to;
     const float shortest = is_near || whole.are_some() ? measure_all_within(least, ways)
                                                        : measure_candidates(ways, least + largest_spacing());
     return shortest <= least * (1 + SAMPLES_ROUNDING) ? shortest : least;
@@ -253,6 +252,13 @@ float OverlaySssd::measure_candidates(const WaysOverSamples& ways, float longest
 // Of the borders that the ways cross.
 float OverlaySssd::largest_spacing() const {
     return largest_of_borders([&](uint32_t patch) { return index_.pairs.samples.spacing[patch]; });
+}
+float OverlaySssd::unit(uint32_t patch) const {
+    const float spacing = index_.pairs.samples.spacing[patch];
+    return std::max(spacing, std::min(index_.longest_segment[patch], MOST_SPACINGS_OF_SEGMENT * spacing));
+}
+float OverlaySssd::largest_unit() const {
+    return largest_of_borders([&](uint32_t patch) { return unit(patch); });
 }
 float OverlaySssd::longest_of_long_segments() const {
     return largest_of_borders([&](uint32_t patch) {

@@ -76,6 +76,8 @@ private:
         return largest;
     }
     float largest_spacing() const;
+    float unit(uint32_t patch) const; // see NEAR_SPACINGS
+    float largest_unit() const;
     float longest_of_long_segments() const;
     float follow(float other_way);
     bool move_parts(uint32_t place);
