@@ -5,6 +5,7 @@
 
 #include "tests/capi/calls.h"
 #include "tests/capi/refusals.h"
+#include "tests/support/edge_lengths.h"
 #include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
@@ -127,11 +128,7 @@ TEST_CASE("target error: what is exact enough stays as it is") {
 
 TEST_CASE("target error: is not used by other engines and metrics, nor with pruning or lengths") {
     const TestMesh mesh = rough();
-    std::vector<double> lengths;
-    for (size_t t = 0; t < mesh.triangles.size(); t += 3)
-        for (size_t k = 0; k < 3; ++k)
-            lengths.push_back(
-                mesh.straight(mesh.triangles[t + (k + 1) % 3], mesh.triangles[t + (k + 2) % 3]));
+    const std::vector<double> lengths = edge_lengths_of(mesh);
     std::vector<geoidx_build_options> others(4, options_with(0));
     others[0].engine = GEOIDX_ENGINE_GRAPH;
     others[1].metric = GEOIDX_METRIC_EDGES;

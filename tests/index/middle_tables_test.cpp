@@ -42,12 +42,12 @@ TEST_CASE("middle tables: in the plane, straight lines to the middles of segment
                     square += std::pow(target[axis] - 0.5 * (first[axis] + second[axis]), 2);
                 const double quantum = double{index.quantum[p]},
                              distance = double{numbering.position_step} * std::sqrt(square);
-                // Entries are rounded by half a step, the middle's once more, and to half a stride; near a
-                // segment that counts more. What is no leaf's is calibrated.
+                // Entries are rounded by half a step, the middle's once more; near a segment that counts
+                // more. What is no leaf's is calibrated.
                 const double length = double{index.rings.segment_length[place]};
                 const double step = std::ldexp(quantum, index.shift[p]);
                 const double rounding = step * (1 + 2 * (distance + length) / distance) +
-                                        quantum * strides[k] / 2 + 2 * double{numbering.position_step} +
+                                        2 * double{numbering.position_step} +
                                         (p < numbering.first_leaf() ? 1e-3 * distance : 0);
                 wrong += std::abs(code * quantum - distance) > rounding;
                 wrong += quantum * strides[k] > length / 510 + quantum;

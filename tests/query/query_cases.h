@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "tests/capi/calls.h"
@@ -67,6 +69,43 @@ inline const geoidx* index_of(const QueryCase& test) {
     IndexHandle& index = built[test.name];
     if (!index) index = build(test.mesh, test.options);
     return index.get();
+}
+
+struct Differences {
+    double sum = 0, signed_sum = 0, largest = 0;
+    uint64_t count = 0, reached_wrongly = 0;
+
+    // Relative to the right answer; at 0 both must be.
+    void add(double answer, double expected) {
+        if (std::isfinite(answer) != std::isfinite(expected) || (expected == 0 && answer != 0))
+            ++reached_wrongly;
+        else if (std::isfinite(expected) && expected > 0) {
+            const double difference = (answer - expected) / expected;
+            sum += std::abs(difference);
+            signed_sum += difference;
+            largest = std::max(largest, std::abs(difference));
+            ++count;
+        }
+    }
+    double mean() const { return count ? sum / static_cast<double>(count) : 0; }
+};
+
+inline geoidx_build_options overlay_options(uint32_t metric, uint32_t levels, uint32_t exact_vertices) {
+    geoidx_build_options options = build_options(metric, levels);
+    options.engine = GEOIDX_ENGINE_OVERLAY;
+    options.exact_vertices = exact_vertices;
+    return options;
+}
+
+// The same index, saved and opened without labels.
+inline IndexHandle without_labels(const geoidx* index) {
+    geoidx_open_options options;
+    geoidx_open_options_init(&options);
+    options.flags = GEOIDX_OPEN_NO_LABELS;
+    const Bytes bytes = save(index);
+    geoidx* opened = nullptr;
+    require_success(geoidx_open_memory(bytes.data(), bytes.size(), &options, &opened));
+    return IndexHandle(opened);
 }
 
 // Relative rounding of the float sums of a query.

@@ -170,6 +170,7 @@ uint64_t count_wrong(const Plane& plane, const std::vector<float>& distances) {
         }
     return wrong;
 }
+
 }
 
 TEST_CASE("sweep: the least way over places and middles, by every instruction set") {
