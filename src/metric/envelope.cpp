@@ -36,6 +36,11 @@ bool divide(Window& first, Window& second) {
     return true;
 }
 
+// Divides two windows where both stay as they are but for that.
+bool stay_beside(Window& first, Window& second) {
+    return divide(first, second) && !is_continued(first, second);
+}
+
 }
 
 std::span<const Window> Envelope::merge(std::span<const Window> holders, std::span<Window> windows) {
@@ -43,7 +48,7 @@ std::span<const Window> Envelope::merge(std::span<const Window> holders, std::sp
     size_t divided = 0; // windows that are an envelope where they are
     if (holders.empty())
         for (; divided < windows.size(); ++divided) {
-            if (divided > 0 && !divide(windows[divided - 1], windows[divided])) break;
+            if (divided > 0 && !stay_beside(windows[divided - 1], windows[divided])) break;
             lowest_ = std::min(lowest_, windows[divided].smallest_distance());
         }
     if (divided == windows.size() && holders.empty()) return windows;
@@ -92,32 +97,31 @@ void Envelope::insert(Window& window) {
     if (window.end > covered) emit_new(window, covered, window.end);
 }
 
-// Puts down a window unless one beside it beats it, and takes away those that it beats. Returns whether it is
-// down. Where the ends of two windows should be one point, rounding leaves gaps, which any window fills that
-// comes later, however long its paths are. Carried on over thin faces, such gaps and what fills them would
-// multiply.
+// Puts down a window unless one beside it beats it, and takes away those that it beats; one that goes on
+// where the one before it ends is joined to that. Returns whether it is down. Where the ends of two windows
+// should be one point, rounding leaves gaps, which any window fills that comes later, however long its paths
+// are. Carried on over thin faces, such gaps and what fills them would multiply.
 bool Envelope::put_down(const Window& window) {
     while (!done_.empty() && is_beaten_by_one_behind(done_.back(), window)) done_.pop_back();
     if (!done_.empty() && is_beaten_by_one_before(done_.back(), window)) return false;
     if (!at_end() && is_beaten_by_one_behind(window, *next())) return false;
-    done_.push_back(window);
+    if (done_.empty() || !is_continued(done_.back(), window)) {
+        done_.push_back(window);
+    } else {
+        done_.back().end = window.end;
+        done_.back().end_distance = window.end_distance;
+    }
     return true;
 }
 
-// Puts down a part of a window, joined to the part before it where it goes on. Returns whether it is down.
+// Puts down a part of a window. Returns whether it is down.
 bool Envelope::emit(const Window& window, double begin, double end) {
     if (!(end > begin)) return false;
-    const double end_distance = end == window.end ? window.end_distance : window.distance_at(end);
-    if (!done_.empty() && done_.back().end == begin && is_continued(done_.back(), window)) {
-        done_.back().end = end;
-        done_.back().end_distance = end_distance;
-        return true;
-    }
     Window part = window;
     if (begin != window.begin) part.begin_distance = window.distance_at(begin);
+    if (end != window.end) part.end_distance = window.distance_at(end);
     part.begin = begin;
     part.end = end;
-    part.end_distance = end_distance;
     return put_down(part);
 }
 

@@ -27,10 +27,14 @@ struct Window {
     }
 };
 
-// Whether b is the same as a but for its interval.
+// Whether b goes on where a ends: both see the same source, but for rounding. Light that passes a vertex of a
+// flat part of the surface on both sides comes together again behind it.
 inline bool is_continued(const Window& a, const Window& b) {
-    return a.x == b.x && a.y == b.y && a.sigma == b.sigma && a.from_face == b.from_face &&
-           a.pending == b.pending;
+    constexpr double ROUNDING = 1e-12; // of where the source is, or of a place on the edge
+    const double apart = ROUNDING * (std::abs(a.x) + a.y);
+    return std::abs(b.begin - a.end) <= ROUNDING * b.end && std::abs(a.x - b.x) <= apart &&
+           std::abs(a.y - b.y) <= apart && a.sigma == b.sigma && a.nearest == b.nearest &&
+           a.from_face == b.from_face && a.pending == b.pending;
 }
 
 // Where a window is lower than another on an interval: on [begin, end], empty if begin >= end.

@@ -112,6 +112,35 @@ TEST_CASE("envelope: what is beaten by a way along the edge does not stay in gap
     CHECK(count_far(envelope.merge(near, {&beyond, 1})) == 2);
 }
 
+TEST_CASE("envelope: windows that see one source and lie end to end are joined, whatever was rounded") {
+    const auto window = [](double begin, double end, double x, double sigma, uint32_t nearest) {
+        Window w{begin, end, x, 1, sigma, 0, 0, 0, nearest & MAX_NEAREST, 1};
+        w.begin_distance = w.distance_at(begin);
+        w.end_distance = w.distance_at(end);
+        return w;
+    };
+    constexpr double ULP = 1e-16;
+    Envelope envelope;
+    std::vector<Window> run{window(0.1, 0.4, 0.3, 0, 0), window(0.4 + ULP, 0.7, 0.3 + ULP, 0, 0),
+                            window(0.7, 0.9, 0.3 - ULP, 0, 0)};
+    const std::vector<Window> holders{window(0, 0.1, 0.3, 0, 0), window(0.9, 1, 0.3, 0, 0)};
+    for (const std::span<const Window> list : {std::span<const Window>(), std::span<const Window>(holders)}) {
+        auto scratch = run;
+        const auto joined = envelope.merge(list, scratch);
+        REQUIRE(joined.size() == (list.empty() ? 1 : 2)); // the last holder is not looked at
+        CHECK(joined[0].begin == (list.empty() ? 0.1 : 0));
+        CHECK(joined[0].end == 0.9);
+        CHECK(std::abs(joined[0].end_distance - joined[0].distance_at(0.9)) < 1e-15);
+        CHECK(std::abs(envelope.lowest() - 1) < 1e-15); // below the source
+    }
+    // Another source, one that is farther from where it starts, light from another place, and a shadow.
+    for (const Window& other : {window(0.4, 0.7, 0.3, 0, 1), window(0.4, 0.7, 0.3, 1e-9, 0),
+                                window(0.4, 0.7, 0.3 + 1e-9, 0, 0), window(0.4 + 1e-9, 0.7, 0.3, 0, 0)}) {
+        std::vector<Window> apart{run.front(), other};
+        CHECK(envelope.merge({}, apart).size() == 2);
+    }
+}
+
 TEST_CASE("envelope: tells the smallest distance that a window has won") {
     std::mt19937_64 random(4);
     Envelope envelope;

@@ -116,7 +116,9 @@ TEST_CASE("exact: a solver used again gives what a fresh one gives, bit for bit"
     }
 }
 
-TEST_CASE("exact: stopping at targets or at a radius changes no final distance, bit for bit") {
+// Windows that a stopped solve leaves out may be joined to others in a full one.
+TEST_CASE("exact: stopping at targets or at a radius changes no final distance, but for rounding") {
+    constexpr double ROUNDING = 1e-14;
     for (const auto& [name, soup] : surfaces()) {
         const auto& surface_name = name; // clang 14 captures no structured binding
         CAPTURE(surface_name);
@@ -128,16 +130,24 @@ TEST_CASE("exact: stopping at targets or at a radius changes no final distance, 
                 auto targets = random_vertices(mesh, count, s + count);
                 targets.push_back(targets.front()); // given twice
                 const auto stopped = field(mesh, *solver, {&s, 1}, targets);
-                for (uint32_t t : targets) CHECK(stopped[t] == full[t]);
-                for (uint32_t v = 0; v < mesh.vertex_count(); ++v) REQUIRE(stopped[v] >= full[v]);
+                for (uint32_t t : targets) {
+                    if (full[t] == UNREACHABLE)
+                        CHECK(stopped[t] == UNREACHABLE);
+                    else
+                        CHECK(std::abs(stopped[t] - full[t]) <= ROUNDING * full[t]);
+                }
+                for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
+                    REQUIRE(stopped[v] >= full[v] * (1 - ROUNDING));
             }
             const uint32_t self = s;
             CHECK(field(mesh, *solver, {&s, 1}, {&self, 1})[s] == 0);
             for (double radius : {0.0, 0.3, 0.9, full[(s * 7 + 5) % mesh.vertex_count()]}) {
                 const auto within = field(mesh, *solver, {&s, 1}, {}, radius);
                 size_t wrong = 0;
-                for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
-                    wrong += full[v] <= radius ? within[v] != full[v] : within[v] < full[v];
+                for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+                    wrong += within[v] < full[v] * (1 - ROUNDING);
+                    wrong += full[v] <= radius && within[v] > full[v] * (1 + ROUNDING);
+                }
                 CHECK(wrong == 0);
             }
         }
