@@ -28,13 +28,15 @@ bool place(double length, double from_first, double from_second, Placed& placed)
     return true;
 }
 
-// The straight way over an edge, or infinity where it does not cross the part that is seen.
+// The straight way over an edge, or infinity where it does not cross the part that is seen. Where both the
+// point and the vertex lie in line with the edge, as the point of an edge and a vertex that cuts it do, it
+// runs along it.
 double way_over(const FacePoint::Edge& edge, double from_first, double from_second) {
     Placed placed;
     if (!place(edge.length, from_first, from_second, placed)) return NO_WAY;
     const double off = edge.height + placed.height;
     const double crossing = edge.foot * placed.height + placed.foot * edge.height;
-    if (!(crossing > edge.seen_from * off && crossing < edge.seen_to * off)) return NO_WAY;
+    if (!(crossing >= edge.seen_from * off && crossing <= edge.seen_to * off)) return NO_WAY;
     return hypotenuse(edge.foot - placed.foot, off);
 }
 

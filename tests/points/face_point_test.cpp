@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "src/index/face_point.h"
+#include "src/overlay/kernels/dispatch.h"
 
 using namespace geodesic;
 
@@ -58,6 +60,45 @@ TEST_CASE("face point: in the plane the distance is the straight line") {
         const FacePoint point = face_point({0, 1, 2}, face.edge_lengths(), weights, {true, true, true});
         const double straight = (face.at(weights) - vertex).norm();
         CHECK(distance_over(point, face.distances_from(vertex)) == doctest::Approx(straight).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("face point: of an edge, to vertices that cut the edge the distance is that along it") {
+    Numbers numbers;
+    for (int i = 0; i < 200; ++i) {
+        const Flat face{{Vector2d(0, 0), Vector2d(numbers.next(0.5, 2), 0),
+                         Vector2d(numbers.next(-1, 2), numbers.next(0.3, 2))}};
+        const size_t k = static_cast<size_t>(i) % 3;
+        const auto on_edge = [&](double share) {
+            std::array<double, 3> weights{};
+            weights[(k + 1) % 3] = 1 - share;
+            weights[(k + 2) % 3] = share;
+            return weights;
+        };
+        const auto weights = on_edge(numbers.next(0.02, 0.98));
+        const FacePoint point = face_point({0, 1, 2}, face.edge_lengths(), weights, {true, true, true});
+        const double side = face.edge_lengths()[k];
+        std::array<std::vector<float>, 3> rows;
+        std::vector<float> along;
+        for (size_t v = 0; v < NearRange::PART; ++v) {
+            // In halves, quarters and so on, as edges are cut, and anywhere.
+            const double share = v < 7 ? double(v + 1) / 8 : numbers.next(0, 1);
+            const Vector2d vertex = face.at(on_edge(share));
+            const double straight = (face.at(weights) - vertex).norm();
+            const auto distances = face.distances_from(vertex);
+            CHECK(std::abs(distance_over(point, distances) - straight) < 1e-6 * side);
+            for (size_t corner = 0; corner < 3; ++corner)
+                rows[corner].push_back(static_cast<float>(distances[corner]));
+            along.push_back(static_cast<float>(straight));
+        }
+        rows[0].insert(rows[0].end(), rows[1].begin(), rows[1].end());
+        rows[0].insert(rows[0].end(), rows[2].begin(), rows[2].end());
+        for (const Kernels& kernels : runnable_kernels()) {
+            std::vector<float> found(along.size());
+            kernels.look_out(point, rows[0].data(), along.size(), found.data());
+            for (size_t v = 0; v < along.size(); ++v)
+                CHECK(std::abs(double{found[v]} - double{along[v]}) < 1e-3 * side);
+        }
     }
 }
 

@@ -151,6 +151,36 @@ TEST_CASE("points: on rough surfaces of few triangles they are at most twice as 
         }
 }
 
+// Added vertices cut some of the edges, and lie in line with the points of these.
+TEST_CASE("points: on edges they are as accurate as beside them") {
+    for (Soup soup : {bumpy_sphere(3, 3), grid(20, 20, 20, 20), cube(6)}) {
+        std::mt19937_64 random(11);
+        if (soup.positions[0].z() == 0 && soup.positions.back().z() == 0)
+            for (Eigen::Vector3d& at : soup.positions) at.z() = uniform(random, 0, 2);
+        const PathCase on(soup, default_options());
+        CAPTURE(on.soup.vertex_count());
+        double farthest_apart = 0;
+        MeanError on_edges, beside_them;
+        for (size_t i = 0; i < 300; i += sparse(1)) {
+            const auto edge_point =
+                random_edge_point(random, static_cast<uint32_t>(random() % on.soup.triangles.size()));
+            geoidx_surface_point beside = edge_point;
+            for (double& weight : beside.weights) weight = (weight + 1e-4 / 3) / (1 + 1e-4);
+            const auto from_edge = field(on, {&edge_point, 1}), from_beside = field(on, {&beside, 1});
+            const double edge = longest_edge(on, edge_point);
+            for (size_t v = 0; v < from_edge.size(); ++v)
+                farthest_apart =
+                    std::max(farthest_apart, double{std::abs(from_edge[v] - from_beside[v])} / edge);
+            const auto to = random_point(on.soup, random, 0);
+            const double exact = on.exact(edge_point, to);
+            on_edges.add(on.sssd(edge_point, to), exact);
+            beside_them.add(on.sssd(beside, to), exact);
+        }
+        CHECK(farthest_apart < 0.05);
+        CHECK(on_edges.mean() <= 1.05 * beside_them.mean() + 1e-4);
+    }
+}
+
 // What lies behind a cap is seen over all of its rim, or else unfolded over chords far too near.
 TEST_CASE("points: on cylinders whose caps have no vertex inside") {
     for (const double height : {0.2, 2.0}) {

@@ -26,7 +26,7 @@ struct PolygonEdge {
         const V crossing = foot * to_height + to_foot * height;
         const V past_begin = crossing - seen_from * off, before_end = seen_to * off - crossing;
         const V inside = past_begin < before_end ? past_begin : before_end;
-        square = inside > 0 ? along * along + off * off : none;
+        square = inside >= 0 ? along * along + off * off : none;
     }
 
     Segments<V> segments;
