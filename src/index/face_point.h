@@ -13,7 +13,8 @@ namespace geodesic {
 // own face. The point sees all of the polygon's edges, or the parts of them that are given, from inside. In
 // the least case the polygon is the face itself.
 struct FacePoint {
-    static constexpr size_t MOST_VERTICES = 64, MOST_EDGES = 64;
+    // Where edges have several faces behind them, there is an edge for each of these, up to MOST_BEHIND.
+    static constexpr size_t MOST_VERTICES = 64, MOST_BEHIND = 4, MOST_EDGES = MOST_VERTICES + 2 * MOST_BEHIND;
 
     // An edge that ways may cross, in a plane of its own: the first end is at 0, the second one at (length,
     // 0), and the point at (foot, height). Ways may cross it from `seen_from` to `seen_to`.

@@ -5,9 +5,20 @@
 
 #include "format/error.h"
 #include "geoidx.h"
+#include "src/surface/indexed_faces.h"
 #include "src/surface/nearby.h"
 
 namespace geodesic {
+
+namespace {
+
+double longest_edge(const Surface& surface, uint32_t face) {
+    const auto& [a, b, c] = surface.faces[face];
+    const auto& at = surface.positions;
+    return std::max({(at[a] - at[b]).norm(), (at[b] - at[c]).norm(), (at[c] - at[a]).norm()});
+}
+
+}
 
 PointQueries::PointQueries(const Index& index, Query& query, const Surface& surface)
     : index_(index), query_(query), surface_(surface) {
@@ -40,6 +51,7 @@ float PointQueries::with_straight_way(const SurfacePoint& source, const SurfaceP
                                       : UNREACHABLE;
     if (straight < UNREACHABLE && source.face == target.face) return static_cast<float>(straight);
     distance = std::min(distance, static_cast<float>(way_around_corner(source, target)));
+    distance = std::min(distance, static_cast<float>(straight_way_of_near(source, target, distance)));
     const double chord = (position_of(surface_, source) - position_of(surface_, target)).norm();
     distance = std::max(distance, static_cast<float>(chord));
     return double{distance} < MUCH_SHORTER * straight ? distance : static_cast<float>(straight);
@@ -67,6 +79,23 @@ double PointQueries::way_around_corner(const SurfacePoint& source, const Surface
     return unfolds() ? std::min(over_any_corner(surface_, source, target),
                                 straight_around_any_corner(surface_, source, target))
                      : over_corner(surface_, source, target);
+}
+
+// The length of the straight line between two points that are a few edges apart, so far as one sees the other
+// through faces of whatever leaf; infinite if there is none, or if they are farther apart. Near ends of long
+// edges, and where three faces meet at one, tables say little.
+double PointQueries::straight_way_of_near(const SurfacePoint& source, const SurfacePoint& target,
+                                          float distance) const {
+    constexpr double NEAR_EDGES = 3;
+    constexpr size_t NEAR_VERTICES = 32;
+    const double edge = std::min(longest_edge(surface_, source.face), longest_edge(surface_, target.face));
+    if (!unfolds() || !(double{distance} <= NEAR_EDGES * edge)) return UNREACHABLE;
+    const auto seen_from = [&](const SurfacePoint& at, const SurfacePoint& other) {
+        const auto indexed = indexed_point(surface_, at);
+        return indexed ? see_around(surface_, *indexed, NEAR_VERTICES).straight_to(surface_, other)
+                       : UNREACHABLE;
+    };
+    return std::min(seen_from(source, target), seen_from(target, source));
 }
 
 float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target) {

@@ -52,6 +52,7 @@ private:
     float with_known_ways(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
                           const PointView& to, float distance) const;
     double way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const;
+    double straight_way_of_near(const SurfacePoint& source, const SurfacePoint& target, float distance) const;
 
     const Index& index_;
     Query& query_;

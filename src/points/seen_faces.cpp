@@ -42,7 +42,7 @@ struct Side {
 // An edge of the polygon. The point, which is the origin, sees `first` to the right of `second`, and of the
 // edge what lies between two directions.
 struct Edge {
-    uint32_t behind; // the face on the other side of the edge; NONE if there are several
+    uint32_t behind; // a face on the other side of the edge; NONE if there are more than MOST_BEHIND
     End first, second;
     Side right, left;
 
@@ -61,6 +61,22 @@ struct Edge {
 // A vertex that is seen in such a distance as a side of edges.
 Side side_at(const Vector2d& place, double distance) {
     return {distance > 0 ? Vector2d(place / distance) : place, true};
+}
+
+// Vertices are their own numbers.
+class AllFaces final : public KnownFaces {
+public:
+    uint32_t number_of(uint32_t vertex) const override { return vertex; }
+    bool go_on(uint32_t, uint32_t, double) const override { return true; }
+};
+
+// That of edge k is opposite to corner k.
+std::array<double, 3> edge_lengths(const Surface& surface, const std::array<uint32_t, 3>& corners) {
+    std::array<double, 3> lengths;
+    for (size_t k = 0; k < 3; ++k)
+        lengths[k] =
+            (surface.positions[corners[(k + 1) % 3]] - surface.positions[corners[(k + 2) % 3]]).norm();
+    return lengths;
 }
 
 class Polygon {
@@ -90,7 +106,7 @@ public:
         return true;
     }
 
-    // An edge gives way to two at most.
+    // An edge gives way to two at most, and each of these comes MOST_BEHIND times at most.
     void grow() {
         while (point_.vertex_count < most_ && count_ < most_) {
             const uint64_t key = widest_key();
@@ -130,17 +146,23 @@ private:
         return key;
     }
 
-    // Adds an edge of a face, unless the surface ends there.
+    // Adds an edge of a face, once for each face behind it, so not where the surface ends.
     void add(uint32_t face, const End& first, const End& second, const Side& right, const Side& left) {
-        uint32_t behind = NONE, count = 0;
+        std::array<uint32_t, FacePoint::MOST_BEHIND> behind;
+        size_t count = 0;
         for_each_indexed_face_beyond(surface_, face, first.vertex, second.vertex, [&](uint32_t other) {
-            behind = other;
+            if (count < behind.size()) behind[count] = other;
             ++count;
         });
-        if (count == 0) return;
-        edges_[count_] = {count == 1 ? behind : NONE, first, second, right, left};
-        keys_[count_] = key_of(edges_[count_].width(), count_);
-        ++count_;
+        if (count > behind.size()) {
+            count = 1;
+            behind[0] = NONE;
+        }
+        for (const uint32_t other : std::span(behind).first(count)) {
+            edges_[count_] = {other, first, second, right, left};
+            keys_[count_] = key_of(edges_[count_].width(), count_);
+            ++count_;
+        }
     }
 
     // Replaces an edge by what is seen of the two other edges of the face behind it. Returns false if that is
@@ -231,6 +253,14 @@ void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFace
     if (!polygon.begin(at)) return;
     polygon.grow();
     polygon.finish();
+}
+
+SeenFaces see_around(const Surface& surface, const SurfacePoint& at, size_t most) {
+    const auto& corners = indexed_corners(surface, at.face);
+    FacePoint polygon = face_point(corners, edge_lengths(surface, corners), at.weights, {true, true, true});
+    SeenFaces seen;
+    see_farther(surface, at, AllFaces(), most, polygon, seen);
+    return seen;
 }
 
 size_t vertices_of_polygon(const Surface& surface) {

@@ -45,6 +45,9 @@ protected:
 void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, size_t most,
                  FacePoint& point, SeenFaces& seen);
 
+// The faces around a point as far as a polygon of `most` vertices goes, whatever an index knows of them.
+SeenFaces see_around(const Surface& surface, const SurfacePoint& at, size_t most);
+
 // How many vertices a polygon has on a surface, at most FacePoint::MOST_VERTICES. What it does not tell is a
 // share of an edge's length, so that it has more where edges are long for the whole surface.
 size_t vertices_of_polygon(const Surface& surface);

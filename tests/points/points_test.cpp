@@ -181,6 +181,44 @@ TEST_CASE("points: on edges they are as accurate as beside them") {
     }
 }
 
+// A wall with two shelves through it, all cut into squares of one unit: where they meet, edges have four
+// triangles.
+Soup wall_with_shelves() {
+    constexpr uint32_t SIDE = 12;
+    const Soup wall = grid(SIDE, SIDE, SIDE, SIDE);
+    Soup all = wall;
+    for (const double height : {4.0, 8.0}) {
+        Soup shelf = wall;
+        for (Eigen::Vector3d& at : shelf.positions) at = {at.x(), height, at.y() - 6};
+        const auto first = static_cast<uint32_t>(all.positions.size());
+        all.positions.insert(all.positions.end(), shelf.positions.begin(), shelf.positions.end());
+        for (const auto& [a, b, c] : shelf.triangles)
+            all.triangles.push_back({first + a, first + b, first + c});
+    }
+    return all;
+}
+
+// Borders of leaves run along such edges, where a leaf has only some of the faces.
+TEST_CASE("points: near ones beside edges of several triangles") {
+    const PathCase on(wall_with_shelves(), default_options());
+    std::mt19937_64 random(13);
+    const auto around = triangles_around_vertices(on.soup);
+    double worst = 0;
+    for (size_t i = 0; i < 3000; i += sparse(1)) {
+        const auto a = random_point(on.soup, random, 0);
+        uint32_t triangle = a.triangle;
+        for (size_t step = 0; step < 2; ++step) {
+            const auto& there = around[on.soup.triangles[triangle][random() % 3]];
+            triangle = there[random() % there.size()];
+        }
+        auto b = random_point(on.soup, random, 0);
+        b.triangle = triangle;
+        const double exact = on.exact(a, b);
+        if (exact > 0.1) worst = std::max(worst, std::abs(on.sssd(a, b) / exact - 1));
+    }
+    CHECK(worst < 0.1);
+}
+
 // What lies behind a cap is seen over all of its rim, or else unfolded over chords far too near.
 TEST_CASE("points: on cylinders whose caps have no vertex inside") {
     for (const double height : {0.2, 2.0}) {

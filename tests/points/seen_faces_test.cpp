@@ -81,6 +81,26 @@ Soup rough_terrain() {
     return soup;
 }
 
+// Panels side by side on the x axis, in the given directions.
+Soup panels(std::initializer_list<double> turns) {
+    constexpr uint32_t LONG = 6, WIDE = 3;
+    Soup soup;
+    for (uint32_t i = 0; i <= LONG; ++i) soup.positions.push_back({double(i), 0, 0});
+    for (const double turn : turns) {
+        const auto first = static_cast<uint32_t>(soup.positions.size());
+        for (uint32_t j = 1; j <= WIDE; ++j)
+            for (uint32_t i = 0; i <= LONG; ++i)
+                soup.positions.push_back({double(i), j * std::cos(turn), j * std::sin(turn)});
+        const auto at = [&](uint32_t i, uint32_t j) { return j == 0 ? i : first + (j - 1) * (LONG + 1) + i; };
+        for (uint32_t j = 0; j < WIDE; ++j)
+            for (uint32_t i = 0; i < LONG; ++i) {
+                soup.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+                soup.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+            }
+    }
+    return soup;
+}
+
 double angle_seen(const FacePoint& point) {
     double sum = 0;
     for (const FacePoint::Edge& edge : std::span(point.edges).first(point.edge_count))
@@ -148,6 +168,39 @@ TEST_CASE("seen faces: the polygon goes all around, has room for more, and ends 
         least = std::min(least, on_sheet);
     }
     CHECK(least < std::numbers::pi);
+}
+
+TEST_CASE("seen faces: over edges of several faces all of these are seen, as if each were the only one") {
+    const Soup soup = panels({0, 1, 2.5, 4});
+    const Surface surface = surface_of(soup);
+    std::mt19937_64 random(4);
+    const uint32_t of_panel = static_cast<uint32_t>(soup.triangles.size() / 4);
+    const auto flat = [&](uint32_t panel, const SurfacePoint& point) { // unfolded onto the side of that panel
+        const Eigen::Vector3d at = position_of(surface, point);
+        return Eigen::Vector2d(at.x(), std::hypot(at.y(), at.z()) * (panel == 0 ? -1 : 1));
+    };
+    std::array<uint32_t, 4> seen_in{};
+    for (size_t i = 0; i < 200; ++i) {
+        CAPTURE(i);
+        SurfacePoint at = random_point(surface, random, 0);
+        at.face = static_cast<uint32_t>(random() % (2 * 6)); // of the first panel, beside the edge
+        const SeenFaces seen = see_around(surface, at, FacePoint::MOST_VERTICES);
+        for (size_t j = 0; j < 40; ++j) {
+            const SurfacePoint other = random_point(surface, random, j);
+            const double straight = seen.straight_to(surface, other);
+            if (straight == UNREACHABLE) continue;
+            const uint32_t panel = other.face / of_panel;
+            CHECK(straight == doctest::Approx((flat(panel, other) - flat(0, at)).norm()));
+            ++seen_in[panel];
+        }
+        // The polygon has vertices of all panels.
+        const Seen polygon = look(surface, at, All(), 32);
+        std::array<uint32_t, 4> vertices{};
+        for (uint32_t k = 0; k < polygon.point.vertex_count; ++k)
+            if (polygon.point.numbers[k] > 6) ++vertices[(polygon.point.numbers[k] - 7) / (3 * 7)];
+        for (const uint32_t count : vertices) CHECK(count > 0);
+    }
+    for (const uint32_t count : seen_in) CHECK(count > 200);
 }
 
 TEST_CASE("seen faces: nothing is seen that is not known") {
