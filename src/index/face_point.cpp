@@ -29,14 +29,15 @@ bool place(double length, double from_first, double from_second, Placed& placed)
 }
 
 // The straight way over an edge, or infinity where it does not cross the part that is seen. Where both the
-// point and the vertex lie in line with the edge, as the point of an edge and a vertex that cuts it do, it
-// runs along it.
+// point and the vertex lie in line with the edge, as a point of the edge and a vertex that cuts it do, it
+// runs along the edge from the point.
 double way_over(const FacePoint::Edge& edge, double from_first, double from_second) {
     Placed placed;
     if (!place(edge.length, from_first, from_second, placed)) return NO_WAY;
     const double off = edge.height + placed.height;
-    const double crossing = edge.foot * placed.height + placed.foot * edge.height;
-    if (!(crossing >= edge.seen_from * off && crossing <= edge.seen_to * off)) return NO_WAY;
+    const double crossing = off > 0 ? edge.foot * placed.height + placed.foot * edge.height : edge.foot,
+                 weight = off > 0 ? off : 1;
+    if (!(crossing >= edge.seen_from * weight && crossing <= edge.seen_to * weight)) return NO_WAY;
     return hypotenuse(edge.foot - placed.foot, off);
 }
 

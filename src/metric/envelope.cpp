@@ -36,7 +36,7 @@ bool divide(Window& first, Window& second) {
     return true;
 }
 
-// Divides two windows where both stay as they are but for that.
+// Divides two windows. Returns false also where they are one that goes on.
 bool stay_beside(Window& first, Window& second) {
     return divide(first, second) && !is_continued(first, second);
 }

@@ -12,10 +12,15 @@ namespace geodesic {
 
 namespace {
 
-double longest_edge(const Surface& surface, uint32_t face) {
-    const auto& [a, b, c] = surface.faces[face];
+// Of the faces that a point lies in.
+double longest_edge(const Surface& surface, const SurfacePoint& point) {
     const auto& at = surface.positions;
-    return std::max({(at[a] - at[b]).norm(), (at[b] - at[c]).norm(), (at[c] - at[a]).norm()});
+    double longest = 0;
+    for_each_alias(surface, point, [&](const SurfacePoint& alias) {
+        const auto& [a, b, c] = surface.faces[alias.face];
+        longest = std::max({longest, (at[a] - at[b]).norm(), (at[b] - at[c]).norm(), (at[c] - at[a]).norm()});
+    });
+    return longest;
 }
 
 }
@@ -42,8 +47,8 @@ PointView PointQueries::view_of(const SurfacePoint& at, const FacePoint& point) 
 // The distance of two points, by what the index says of it. No way is shorter than the straight line in
 // space. The straight line over the faces counts even where the index, to its accuracy, says that there is a
 // shorter way. Much shorter ways are there: around a needle that stands between two faces.
-float PointQueries::with_straight_way(const SurfacePoint& source, const SurfacePoint& target,
-                                      float distance) const {
+float PointQueries::with_straight_way(const SurfacePoint& source, const SurfacePoint& target, float distance,
+                                      bool is_seen) const {
     constexpr double MUCH_SHORTER = 0.95;
     if (is_same_point(surface_, source, target)) return 0;
     const double straight = unfolds() ? std::min(straight_nearby(surface_, source, target),
@@ -51,26 +56,22 @@ float PointQueries::with_straight_way(const SurfacePoint& source, const SurfaceP
                                       : UNREACHABLE;
     if (straight < UNREACHABLE && source.face == target.face) return static_cast<float>(straight);
     distance = std::min(distance, static_cast<float>(way_around_corner(source, target)));
-    distance = std::min(distance, static_cast<float>(straight_way_of_near(source, target, distance)));
+    if (unfolds() && !is_seen && straight == UNREACHABLE)
+        distance = std::min(distance, static_cast<float>(straight_way_of_near(source, target, distance)));
     const double chord = (position_of(surface_, source) - position_of(surface_, target)).norm();
     distance = std::max(distance, static_cast<float>(chord));
     return double{distance} < MUCH_SHORTER * straight ? distance : static_cast<float>(straight);
 }
 
-// The distance of two points of which one sees the other: that by tables is rounded, and does not hold where
-// a polygon has both points in it. Only a much shorter way can be another one.
-float PointQueries::with_seen_way(const SurfacePoint& source, const SeenFaces& seen_from_source,
-                                  const SurfacePoint& target, const SeenFaces& seen_from_target,
-                                  float distance) const {
-    constexpr float SHORTER = 0.99f;
-    const auto straight = static_cast<float>(std::min(seen_from_source.straight_to(surface_, target),
-                                                      seen_from_target.straight_to(surface_, source)));
-    return distance < SHORTER * straight ? distance : straight;
-}
-
+// The distance of two points of which one may see the other: that by tables is rounded, and does not hold
+// where a polygon has both points in it. Only a much shorter way can be another one.
 float PointQueries::with_known_ways(const SurfacePoint& source, const PointView& from,
                                     const SurfacePoint& target, const PointView& to, float distance) const {
-    return with_straight_way(source, target, with_seen_way(source, from.seen, target, to.seen, distance));
+    constexpr float SHORTER = 0.99f;
+    const auto straight = static_cast<float>(
+        std::min(from.seen.straight_to(surface_, target), to.seen.straight_to(surface_, source)));
+    return with_straight_way(source, target, distance < SHORTER * straight ? distance : straight,
+                             straight < INFINITE);
 }
 
 // The length of a way around a corner that the faces of two points share, or over it. Tables of an index
@@ -81,17 +82,17 @@ double PointQueries::way_around_corner(const SurfacePoint& source, const Surface
                      : over_corner(surface_, source, target);
 }
 
-// The length of the straight line between two points that are a few edges apart, so far as one sees the other
-// through faces of whatever leaf; infinite if there is none, or if they are farther apart. Near ends of long
-// edges, and where three faces meet at one, tables say little.
+// The length of the straight line between two points that are a few edges apart, so far as one of them, which
+// is at no vertex, sees the other through faces of any leaf; infinite if there is none, or if they are
+// farther apart. Near the ends of long edges, and at edges that three or more faces share, tables say little.
 double PointQueries::straight_way_of_near(const SurfacePoint& source, const SurfacePoint& target,
                                           float distance) const {
     constexpr double NEAR_EDGES = 3;
     constexpr size_t NEAR_VERTICES = 32;
-    const double edge = std::min(longest_edge(surface_, source.face), longest_edge(surface_, target.face));
-    if (!unfolds() || !(double{distance} <= NEAR_EDGES * edge)) return UNREACHABLE;
+    const double edge = std::min(longest_edge(surface_, source), longest_edge(surface_, target));
+    if (!(double{distance} <= NEAR_EDGES * edge)) return UNREACHABLE;
     const auto seen_from = [&](const SurfacePoint& at, const SurfacePoint& other) {
-        const auto indexed = indexed_point(surface_, at);
+        const auto indexed = vertex_at(surface_, at) == NONE ? indexed_point(surface_, at) : std::nullopt;
         return indexed ? see_around(surface_, *indexed, NEAR_VERTICES).straight_to(surface_, other)
                        : UNREACHABLE;
     };

@@ -46,9 +46,8 @@ private:
     Sources sources_of(std::span<const SurfacePoint> points, std::span<const float> offsets) const;
     void add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
                         std::vector<Query::KnownWay>& known) const;
-    float with_straight_way(const SurfacePoint& source, const SurfacePoint& target, float distance) const;
-    float with_seen_way(const SurfacePoint& source, const SeenFaces& seen_from_source,
-                        const SurfacePoint& target, const SeenFaces& seen_from_target, float distance) const;
+    float with_straight_way(const SurfacePoint& source, const SurfacePoint& target, float distance,
+                            bool is_seen = false) const;
     float with_known_ways(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
                           const PointView& to, float distance) const;
     double way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const;

@@ -63,14 +63,14 @@ Side side_at(const Vector2d& place, double distance) {
     return {distance > 0 ? Vector2d(place / distance) : place, true};
 }
 
-// Vertices are their own numbers.
+// Knows all faces; the number of a vertex is the vertex itself.
 class AllFaces final : public KnownFaces {
 public:
     uint32_t number_of(uint32_t vertex) const override { return vertex; }
     bool go_on(uint32_t, uint32_t, double) const override { return true; }
 };
 
-// That of edge k is opposite to corner k.
+// Edge k is opposite to corner k.
 std::array<double, 3> edge_lengths(const Surface& surface, const std::array<uint32_t, 3>& corners) {
     std::array<double, 3> lengths;
     for (size_t k = 0; k < 3; ++k)
@@ -108,7 +108,7 @@ public:
 
     // An edge gives way to two at most, and each of these comes MOST_BEHIND times at most.
     void grow() {
-        while (point_.vertex_count < most_ && count_ < most_) {
+        while (point_.vertex_count < most_ && count_ + 2 * FacePoint::MOST_BEHIND <= edges_.size()) {
             const uint64_t key = widest_key();
             const auto index = static_cast<uint32_t>(key);
             if (key == key_of(0, index)) return;
@@ -222,7 +222,7 @@ private:
 
     const Surface& surface_;
     const KnownFaces& known_;
-    const size_t most_; // of vertices, and of edges
+    const size_t most_; // of vertices
     FacePoint& point_;
     SeenFaces& seen_;
     size_t count_ = 0;

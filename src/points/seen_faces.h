@@ -45,7 +45,8 @@ protected:
 void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, size_t most,
                  FacePoint& point, SeenFaces& seen);
 
-// The faces around a point as far as a polygon of `most` vertices goes, whatever an index knows of them.
+// The faces around a point that is at no vertex, as far as a polygon of `most` vertices goes, whatever an
+// index knows of them. `at` is a point of the faces of an index.
 SeenFaces see_around(const Surface& surface, const SurfacePoint& at, size_t most);
 
 // How many vertices a polygon has on a surface, at most FacePoint::MOST_VERTICES. What it does not tell is a

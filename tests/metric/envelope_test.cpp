@@ -133,9 +133,14 @@ TEST_CASE("envelope: windows that see one source and lie end to end are joined, 
         CHECK(std::abs(joined[0].end_distance - joined[0].distance_at(0.9)) < 1e-15);
         CHECK(std::abs(envelope.lowest() - 1) < 1e-15); // below the source
     }
-    // Another source, one that is farther from where it starts, light from another place, and a shadow.
-    for (const Window& other : {window(0.4, 0.7, 0.3, 0, 1), window(0.4, 0.7, 0.3, 1e-9, 0),
-                                window(0.4, 0.7, 0.3 + 1e-9, 0, 0), window(0.4 + 1e-9, 0.7, 0.3, 0, 0)}) {
+    // Another source, one that is farther from where it starts, light from another place, and a shadow; one
+    // that was propagated, and one that comes through another face.
+    Window propagated = window(0.4, 0.7, 0.3, 0, 0), of_other_face = propagated;
+    propagated.pending = 0;
+    of_other_face.from_face = 1;
+    for (const Window& other :
+         {window(0.4, 0.7, 0.3, 0, 1), window(0.4, 0.7, 0.3, 1e-9, 0), window(0.4, 0.7, 0.3 + 1e-9, 0, 0),
+          window(0.4 + 1e-9, 0.7, 0.3, 0, 0), propagated, of_other_face}) {
         std::vector<Window> apart{run.front(), other};
         CHECK(envelope.merge({}, apart).size() == 2);
     }

@@ -102,6 +102,26 @@ TEST_CASE("face point: of an edge, to vertices that cut the edge the distance is
     }
 }
 
+// The point lies on one side of the edge and the vertex on the other, in line with it, but the way bends.
+TEST_CASE("face point: no way runs along an edge that the point is beside") {
+    const FacePoint::Edge edge{0, 1, 1.0, -0.5, 0, 0, 1.0};
+    FacePoint point;
+    point.vertex_count = 2;
+    point.edge_count = 1;
+    point.edges[0] = edge;
+    point.straight[0] = 0.5;
+    point.straight[1] = INFINITE;
+    // By rounding, these put the vertex on the line, 0.5 beyond the first end.
+    const std::array<double, 2> from{0.5, 1.5};
+    CHECK(distance_over(point, from) == doctest::Approx(1));
+    std::vector<float> rows(2 * NearRange::PART, 0.5f), found(NearRange::PART);
+    std::fill(rows.begin() + NearRange::PART, rows.end(), 1.5f);
+    for (const Kernels& kernels : runnable_kernels()) {
+        kernels.look_out(point, rows.data(), found.size(), found.data());
+        for (const float distance : found) CHECK(double{distance} == doctest::Approx(1));
+    }
+}
+
 TEST_CASE("face point: whatever the distances from the corners, no side of a triangle is longer than the "
           "other two") {
     Numbers numbers;

@@ -219,6 +219,20 @@ TEST_CASE("points: near ones beside edges of several triangles") {
     CHECK(worst < 0.1);
 }
 
+// Three faces around a vertex on the boundary, which turns away from the straight line behind the next one.
+TEST_CASE("points: from a vertex nothing is seen past a corner of the boundary") {
+    const PathCase on(Soup{{{0, 0, 0}, {0.5, 1, 0.1}, {-1, 1, 0}, {1, 0, 0}, {2, -1, 0.1}},
+                           {{0, 1, 2}, {0, 3, 1}, {3, 4, 1}}},
+                      default_options());
+    for (const geoidx_surface_point& vertex :
+         {geoidx_surface_point{0, 0, {1, 0, 0}}, geoidx_surface_point{1, 0, {1, 0, 0}}})
+        for (const double share : {0.7, 0.9, 0.99}) {
+            const geoidx_surface_point beyond{2, 0, {0.9 * (1 - share), share, 0.1 * (1 - share)}};
+            CHECK(on.sssd(vertex, beyond) == doctest::Approx(on.exact(vertex, beyond)).epsilon(1e-3));
+            CHECK(on.sssd(beyond, vertex) == on.sssd(vertex, beyond));
+        }
+}
+
 // What lies behind a cap is seen over all of its rim, or else unfolded over chords far too near.
 TEST_CASE("points: on cylinders whose caps have no vertex inside") {
     for (const double height : {0.2, 2.0}) {

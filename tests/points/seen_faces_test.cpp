@@ -203,6 +203,51 @@ TEST_CASE("seen faces: over edges of several faces all of these are seen, as if 
     for (const uint32_t count : seen_in) CHECK(count > 200);
 }
 
+// And not more of them than there is room for.
+TEST_CASE("seen faces: edges of many faces end what is seen, and may be all that there are") {
+    for (const size_t count : {5u, 6u}) {
+        const Soup soup = count == 5 ? panels({0, 1, 2, 3, 4}) : panels({0, 1, 2, 3, 4, 5});
+        const Surface surface = surface_of(soup);
+        std::mt19937_64 random(5);
+        const uint32_t of_panel = static_cast<uint32_t>(soup.triangles.size() / count);
+        std::vector<uint32_t> seen_in(count);
+        for (size_t i = 0; i < 50; ++i) {
+            SurfacePoint at = random_point(surface, random, 0);
+            at.face = static_cast<uint32_t>(random() % (2 * 6));
+            const SeenFaces seen = see_around(surface, at, FacePoint::MOST_VERTICES);
+            for (const SeenFaces::Face& face : std::span(seen.faces).first(seen.count))
+                ++seen_in[face.face / of_panel];
+        }
+        for (size_t panel = 1; panel < count; ++panel) CHECK((seen_in[panel] > 0) == (count == 5));
+    }
+    // Three planes through each vertex, so that all edges have four faces.
+    Soup cells;
+    constexpr uint32_t SIDE = 4;
+    const auto id = [](uint32_t x, uint32_t y, uint32_t z) { return (x * (SIDE + 1) + y) * (SIDE + 1) + z; };
+    for (uint32_t i = 0; i < (SIDE + 1) * (SIDE + 1) * (SIDE + 1); ++i)
+        cells.positions.push_back({double(i / (SIDE + 1) / (SIDE + 1)), double(i / (SIDE + 1) % (SIDE + 1)),
+                                   double(i % (SIDE + 1))});
+    for (uint32_t w = 0; w <= SIDE; ++w)
+        for (uint32_t a = 0; a < SIDE; ++a)
+            for (uint32_t b = 0; b < SIDE; ++b)
+                for (const uint32_t axis : {0u, 1u, 2u}) {
+                    const auto at = [&](uint32_t i, uint32_t j) {
+                        return axis == 0 ? id(w, i, j) : axis == 1 ? id(i, w, j) : id(i, j, w);
+                    };
+                    cells.triangles.push_back({at(a, b), at(a + 1, b), at(a + 1, b + 1)});
+                    cells.triangles.push_back({at(a, b), at(a + 1, b + 1), at(a, b + 1)});
+                }
+    const Surface surface = surface_of(cells);
+    std::mt19937_64 random(6);
+    for (size_t i = 0; i < 100; ++i)
+        for (const size_t most : {size_t{16}, size_t{32}, FacePoint::MOST_VERTICES}) {
+            const Seen seen = look(surface, random_point(surface, random, i), All(), most);
+            CHECK(seen.point.vertex_count > 8);
+            CHECK(seen.point.vertex_count <= most);
+            CHECK(seen.point.edge_count <= FacePoint::MOST_EDGES);
+        }
+}
+
 TEST_CASE("seen faces: nothing is seen that is not known") {
     const Surface surface = surface_of(bumpy_sphere(3, 4));
     std::mt19937_64 random(3);

@@ -23,8 +23,9 @@ struct PolygonEdge {
         V to_foot, to_height;
         segments.place_point(from_first, from_second, to_foot, to_height);
         const V off = height + to_height, along = foot - to_foot, none = V{} + INFINITE;
-        const V crossing = foot * to_height + to_foot * height;
-        const V past_begin = crossing - seen_from * off, before_end = seen_to * off - crossing;
+        const V none_off{}, crossing = off > none_off ? foot * to_height + to_foot * height : foot,
+                            weight = off > none_off ? off : none_off + 1;
+        const V past_begin = crossing - seen_from * weight, before_end = seen_to * weight - crossing;
         const V inside = past_begin < before_end ? past_begin : before_end;
         square = inside >= 0 ? along * along + off * off : none;
     }
