@@ -186,10 +186,13 @@ void paths(const PathsArguments& arguments) {
     Report report("paths", {{"pairs", "pairs", uint64_t{arguments.count}}}, arguments.report);
     Table table{"paths", "Paths and points", {}}, fields{"fields", "Fields", {}};
     const Subject on = subject_of(arguments);
-    for (const bool is_near : {false, true}) {
-        const char* name = is_near ? "within 30 edges" : "random";
-        const double longest = is_near ? 30 * average_edge(on.mesh) : INFINITY;
+    const struct {
+        const char* name;
+        double edges; // the longest pair, in average edges
+    } kinds[] = {{"random", INFINITY}, {"within 30 edges", 30}, {"within 3 edges", 3}};
+    for (const auto& [name, edges] : kinds) {
         progress(name);
+        const double longest = edges * average_edge(on.mesh);
         const auto vertices = random_pairs(on, arguments.count, true, longest),
                    points = random_pairs(on, arguments.count, false, longest);
         table.rows.push_back(measure(name, "SSSD of vertices", vertices,
