@@ -107,13 +107,12 @@ FacePoint face_point_on(const Index& index, const Surface& surface, const Surfac
     std::array<bool, 3> crosses;
     std::array<uint32_t, 3> beside;
     std::array<uint32_t, 3> numbers;
-    std::array<double, 3> lengths;
+    std::array<double, 3> lengths = edge_lengths(surface, corners);
     for (size_t k = 0; k < 3; ++k) {
-        const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
         numbers[k] = number_of(index, surface, corners[k]);
         crosses[k] = unfolds && beyond[k] != NONE;
         beside[k] = beyond[k] == NONE ? NONE : number_of(index, surface, beyond[k]);
-        lengths[k] = cost * (surface.positions[a] - surface.positions[b]).norm();
+        lengths[k] *= cost;
     }
     if (std::ranges::find(numbers, NONE) != numbers.end())
         refuse_argument("the surface has a triangle that the index does not: they differ in weld_tolerance");

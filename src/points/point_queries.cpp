@@ -14,11 +14,9 @@ namespace {
 
 // Of the faces that a point lies in.
 double longest_edge(const Surface& surface, const SurfacePoint& point) {
-    const auto& at = surface.positions;
     double longest = 0;
     for_each_alias(surface, point, [&](const SurfacePoint& alias) {
-        const auto& [a, b, c] = surface.faces[alias.face];
-        longest = std::max({longest, (at[a] - at[b]).norm(), (at[b] - at[c]).norm(), (at[c] - at[a]).norm()});
+        longest = std::max(longest, std::ranges::max(edge_lengths(surface, surface.faces[alias.face])));
     });
     return longest;
 }

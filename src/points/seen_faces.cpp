@@ -70,15 +70,6 @@ public:
     bool go_on(uint32_t, uint32_t, double) const override { return true; }
 };
 
-// Edge k is opposite to corner k.
-std::array<double, 3> edge_lengths(const Surface& surface, const std::array<uint32_t, 3>& corners) {
-    std::array<double, 3> lengths;
-    for (size_t k = 0; k < 3; ++k)
-        lengths[k] =
-            (surface.positions[corners[(k + 1) % 3]] - surface.positions[corners[(k + 2) % 3]]).norm();
-    return lengths;
-}
-
 class Polygon {
 public:
     Polygon(const Surface& surface, const KnownFaces& known, size_t most, FacePoint& point, SeenFaces& seen)

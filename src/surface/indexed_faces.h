@@ -14,6 +14,14 @@ inline const std::array<uint32_t, 3>& indexed_corners(const Surface& surface, ui
     return surface.flat_faces.has(face) ? surface.flat_faces.corners(face) : surface.faces[face];
 }
 
+// The lengths of the edges between three corners. Edge k is opposite to corner k.
+inline std::array<double, 3> edge_lengths(const Surface& surface, const std::array<uint32_t, 3>& corners) {
+    const auto length = [&](size_t a, size_t b) {
+        return (surface.positions[corners[a]] - surface.positions[corners[b]]).norm();
+    };
+    return {length(1, 2), length(2, 0), length(0, 1)};
+}
+
 // Calls use(face) for every other one of these faces at the edge between two vertices of a face.
 template <class Use>
 void for_each_indexed_face_beyond(const Surface& surface, uint32_t face, uint32_t a, uint32_t b,

@@ -60,14 +60,12 @@ struct Seen {
 Seen look(const Surface& surface, const SurfacePoint& at, const KnownFaces& known = All(),
           size_t most = FacePoint::MOST_VERTICES) {
     const auto& corners = indexed_corners(surface, at.face);
-    std::array<double, 3> lengths;
     std::array<bool, 3> crosses{};
     for (size_t k = 0; k < 3; ++k) {
         const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
-        lengths[k] = (surface.positions[a] - surface.positions[b]).norm();
         for_each_indexed_face_beyond(surface, at.face, a, b, [&](uint32_t) { crosses[k] = true; });
     }
-    Seen seen{face_point(corners, lengths, at.weights, crosses), {}, {}};
+    Seen seen{face_point(corners, edge_lengths(surface, corners), at.weights, crosses), {}, {}};
     seen.point = seen.alone;
     see_farther(surface, at, known, most, seen.point, seen.faces);
     return seen;

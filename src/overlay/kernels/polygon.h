@@ -23,8 +23,8 @@ struct PolygonEdge {
         V to_foot, to_height;
         segments.place_point(from_first, from_second, to_foot, to_height);
         const V off = height + to_height, along = foot - to_foot, none = V{} + INFINITE;
-        const V none_off{}, crossing = off > none_off ? foot * to_height + to_foot * height : foot,
-                            weight = off > none_off ? off : none_off + 1;
+        const V crossing = off > 0 ? foot * to_height + to_foot * height : foot,
+                weight = off > 0 ? off : V{} + 1;
         const V past_begin = crossing - seen_from * weight, before_end = seen_to * weight - crossing;
         const V inside = past_begin < before_end ? past_begin : before_end;
         square = inside >= 0 ? along * along + off * off : none;
