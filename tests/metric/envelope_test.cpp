@@ -37,6 +37,14 @@ std::vector<Window> random_windows(std::mt19937_64& random, uint32_t count) {
     return windows;
 }
 
+// Lit from a source that is 1 off the edge, beside its point x.
+Window window_below(double x, double begin, double end, double sigma, uint32_t nearest) {
+    Window window{begin, end, x, 1, sigma, 0, 0, 0, nearest & MAX_NEAREST, 1};
+    window.begin_distance = window.distance_at(begin);
+    window.end_distance = window.distance_at(end);
+    return window;
+}
+
 void check_is_envelope(std::span<const Window> list, std::span<const Window> inserted,
                        std::mt19937_64& random) {
     size_t disordered = 0, wrong = 0;
@@ -86,10 +94,7 @@ TEST_CASE("envelope: a run of windows put into a list that is there") {
 
 TEST_CASE("envelope: what is beaten by a way along the edge does not stay in gaps") {
     const auto window = [](double begin, double end, double sigma, uint32_t nearest) {
-        Window w{begin, end, 0.5, 1, sigma, 0, 0, 0, nearest & MAX_NEAREST, 1};
-        w.begin_distance = w.distance_at(begin);
-        w.end_distance = w.distance_at(end);
-        return w;
+        return window_below(0.5, begin, end, sigma, nearest);
     };
     const std::vector<Window> near{window(0.1, 0.4, 0, 0), window(0.4 + 1e-9, 0.8, 0, 0)};
     const auto count_far = [](std::span<const Window> list) {
@@ -113,17 +118,11 @@ TEST_CASE("envelope: what is beaten by a way along the edge does not stay in gap
 }
 
 TEST_CASE("envelope: windows that see one source and lie end to end are joined, whatever was rounded") {
-    const auto window = [](double begin, double end, double x, double sigma, uint32_t nearest) {
-        Window w{begin, end, x, 1, sigma, 0, 0, 0, nearest & MAX_NEAREST, 1};
-        w.begin_distance = w.distance_at(begin);
-        w.end_distance = w.distance_at(end);
-        return w;
-    };
     constexpr double ULP = 1e-16;
     Envelope envelope;
-    std::vector<Window> run{window(0.1, 0.4, 0.3, 0, 0), window(0.4 + ULP, 0.7, 0.3 + ULP, 0, 0),
-                            window(0.7, 0.9, 0.3 - ULP, 0, 0)};
-    const std::vector<Window> holders{window(0, 0.1, 0.3, 0, 0), window(0.9, 1, 0.3, 0, 0)};
+    std::vector<Window> run{window_below(0.3, 0.1, 0.4, 0, 0), window_below(0.3 + ULP, 0.4 + ULP, 0.7, 0, 0),
+                            window_below(0.3 - ULP, 0.7, 0.9, 0, 0)};
+    const std::vector<Window> holders{window_below(0.3, 0, 0.1, 0, 0), window_below(0.3, 0.9, 1, 0, 0)};
     for (const std::span<const Window> list : {std::span<const Window>(), std::span<const Window>(holders)}) {
         auto scratch = run;
         const auto joined = envelope.merge(list, scratch);
@@ -135,12 +134,12 @@ TEST_CASE("envelope: windows that see one source and lie end to end are joined, 
     }
     // Another source, one that is farther from where it starts, light from another place, and a shadow; one
     // that was propagated, and one that comes through another face.
-    Window propagated = window(0.4, 0.7, 0.3, 0, 0), of_other_face = propagated;
+    Window propagated = window_below(0.3, 0.4, 0.7, 0, 0), of_other_face = propagated;
     propagated.pending = 0;
     of_other_face.from_face = 1;
-    for (const Window& other :
-         {window(0.4, 0.7, 0.3, 0, 1), window(0.4, 0.7, 0.3, 1e-9, 0), window(0.4, 0.7, 0.3 + 1e-9, 0, 0),
-          window(0.4 + 1e-9, 0.7, 0.3, 0, 0), propagated, of_other_face}) {
+    for (const Window& other : {window_below(0.3, 0.4, 0.7, 0, 1), window_below(0.3, 0.4, 0.7, 1e-9, 0),
+                                window_below(0.3 + 1e-9, 0.4, 0.7, 0, 0),
+                                window_below(0.3, 0.4 + 1e-9, 0.7, 0, 0), propagated, of_other_face}) {
         std::vector<Window> apart{run.front(), other};
         CHECK(envelope.merge({}, apart).size() == 2);
     }
