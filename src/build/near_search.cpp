@@ -1,5 +1,6 @@
 #include "src/build/near_search.h"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -9,7 +10,10 @@ namespace geodesic {
 
 namespace {
 
-constexpr double SEARCHED_EDGES = 11;  // how far from each source, in average edges
+// How far from each source, in average edges, but not much farther than so many of its nearest vertices:
+// where triangles are long and narrow, far more lie within a few average edges.
+constexpr double SEARCHED_EDGES = 11;
+constexpr size_t MOST_SEARCHED = 1024;
 constexpr size_t SOURCES_AT_ONCE = 16; // which share a query
 
 }
@@ -18,20 +22,22 @@ constexpr size_t SOURCES_AT_ONCE = 16; // which share a query
 class NearSearch::Answers {
 public:
     explicit Answers(const NearSearch& search)
-        : index_(search.index_), intake_(search.intake_), radius_(SEARCHED_EDGES * search.average_edge_),
-          too_short_(search.too_short_), query_(index_, std::pmr::get_default_resource()),
-          field_(index_.description.id_count) {}
+        : index_(search.index_), intake_(search.intake_),
+          largest_radius_(SEARCHED_EDGES * search.average_edge_), too_short_(search.too_short_),
+          query_(index_, std::pmr::get_default_resource()), field_(index_.description.id_count) {}
+
+    // Answers MSAD, which may leave out what is farther than twice the radius.
+    void set_source(uint32_t vertex) {
+        source_ = vertex;
+        const double reach = std::min(2 * largest_radius_, double{std::numeric_limits<float>::max()});
+        fill_field(static_cast<float>(reach));
+        radius_ = radius_of_field();
+    }
+    // Answers MSAD of that source without leaving out anything.
+    void complete() { fill_field(INFINITE); }
 
     // How far from the source answers are compared.
     double radius() const { return radius_; }
-
-    // Answers MSAD, which may leave out what is farther than twice the radius.
-    void set_source(uint32_t vertex, bool is_whole = false) {
-        source_ = vertex;
-        const uint32_t id = id_of(vertex);
-        const double reach = std::min(2 * radius_, double{std::numeric_limits<float>::max()});
-        query_.msad({&id, 1}, is_whole ? INFINITE : static_cast<float>(reach), field_);
-    }
     float msad(uint32_t vertex) const { return field_[id_of(vertex)]; }
     float sssd(uint32_t vertex) { return query_.sssd(id_of(source_), id_of(vertex)); }
 
@@ -51,6 +57,19 @@ public:
     }
 
 private:
+    void fill_field(float reach) {
+        const uint32_t id = id_of(source_);
+        query_.msad({&id, 1}, reach, field_);
+    }
+    double radius_of_field() {
+        nearest_.clear();
+        for (uint32_t v = 0; v < intake_.mesh.vertex_count(); ++v)
+            if (const float d = msad(v); d <= largest_radius_) nearest_.push_back(d);
+        if (nearest_.size() <= MOST_SEARCHED) return largest_radius_;
+        const auto last = nearest_.begin() + MOST_SEARCHED - 1;
+        std::ranges::nth_element(nearest_, last);
+        return double{*last};
+    }
     bool is_across(uint32_t vertex) const {
         const Numbering& numbering = index_.numbering();
         const uint32_t first = index_.number_of_id[id_of(source_)],
@@ -62,10 +81,12 @@ private:
 
     const Index& index_;
     const Intake& intake_;
-    const double radius_, too_short_;
+    const double largest_radius_, too_short_;
     Query query_;
     uint32_t source_ = NONE;
-    std::vector<float> field_; // by id
+    double radius_ = 0;
+    std::vector<float> field_;   // by id
+    std::vector<float> nearest_; // scratch: those within the largest radius
 };
 
 // One thread's comparison of answers with the metric.
@@ -76,11 +97,11 @@ public:
           answers_(search), errors_(search.average_edge_) {}
 
     void compare(Source& source) {
-        find_near(source.vertex);
-        // Some answer may be so wrong that it is beyond the radius.
         answers_.set_source(source.vertex);
+        find_near(source.vertex);
+        // Some answer may be so wrong that it is beyond the reach.
         if (std::ranges::any_of(near_, [&](uint32_t v) { return answers_.msad(v) == INFINITE; }))
-            answers_.set_source(source.vertex, true);
+            answers_.complete();
         for (const uint32_t vertex : near_) {
             note(source, vertex, answers_.msad(vertex), true);
             if (answers_.may_be_worse(vertex)) note(source, vertex, answers_.sssd(vertex), false);
