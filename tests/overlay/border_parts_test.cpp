@@ -156,8 +156,9 @@ TEST_CASE("border parts: along each chain, from the sample before those within a
             if (places.empty()) continue;
             const BorderPart whole(whole_border(rings, p));
             std::vector<float> values(places.size());
-            for (float& value : values) value = static_cast<float>(random() % 100);
-            for (const float limit : {-1.f, 1.f, 2.f, 30.f, 99.f}) {
+            // So far apart that no way between two samples beyond a limit may be within it.
+            for (float& value : values) value = 1e6f * static_cast<float>(random() % 100);
+            for (const float limit : {-1e6f, 1e6f, 2e6f, 30e6f, 99e6f}) {
                 const BorderPart part = part_within(overlay, p, values, limit);
                 REQUIRE(whole.covers(part));
                 std::set<uint32_t> needed;
@@ -178,6 +179,51 @@ TEST_CASE("border parts: along each chain, from the sample before those within a
     }
     CHECK(smaller > 20);
     CHECK(in_more > 20);
+}
+
+// The ways that get longer on both sides of one place as fast as they can, which is twice the way along the
+// border: the samples beside the place may be far from it.
+TEST_CASE("border parts: no place is left out that a way within the limit may cross") {
+    constexpr float SHORTEST = 10, FAR = 1e9f;
+    TestMesh stretched = grid(100, 20);
+    for (size_t i = 0; i < stretched.positions.size(); i += 3) stretched.positions[i] *= 40;
+    const OverlayOf of_stretched(stretched, options_of_plane(stretched, {3, 12}));
+    uint32_t far_from_samples = 0;
+    const auto check = [&](const OverlayIndex& overlay, uint32_t p, const Rings::Chain& chain,
+                           uint32_t valley) {
+        const Rings& rings = overlay.rings;
+        const auto along = [&](uint32_t from, uint32_t to) {
+            float length = 0;
+            for (uint32_t k = from; k < to; ++k) length += rings.segment_length[k];
+            return length;
+        };
+        const float around = along(chain.first, chain.last + chain.is_closed);
+        const float spacing = overlay.pairs.samples.spacing[p];
+        float nearest_sample = FAR;
+        std::vector<float> lengths;
+        for (const uint16_t place : overlay.pairs.samples.of(p)) {
+            const uint32_t at = rings.begin[p] + place;
+            lengths.push_back(FAR);
+            if (at < chain.first || at > chain.last) continue;
+            float off = along(std::min(at, valley), std::max(at, valley));
+            if (chain.is_closed) off = std::min(off, around - off);
+            lengths.back() = SHORTEST + 2 * off;
+            nearest_sample = std::min(nearest_sample, off);
+        }
+        far_from_samples += 2 * nearest_sample > MOST_LONGER * spacing;
+        *std::ranges::max_element(lengths) = SHORTEST; // so that some sample is within the limit in any case
+        const float limit = SHORTEST + MOST_LONGER * spacing;
+        const BorderPart part = part_within(overlay, p, lengths, 1.0001f * limit);
+        CHECK(vertices_of(overlay, part).contains(rings.vertex[valley]));
+    };
+    const auto check_all = [&](const OverlayIndex& overlay) {
+        for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p)
+            for (const auto& chain : overlay.rings.chains_of(p))
+                for (uint32_t k = chain.first; k <= chain.last; ++k) check(overlay, p, chain, k);
+    };
+    for (const OverlayOf& of : built()) check_all(of.overlay());
+    check_all(of_stretched.overlay());
+    CHECK(far_from_samples > 0);
 }
 
 // A hop from a part with several ranges leads over the same places as one from the whole border, where the

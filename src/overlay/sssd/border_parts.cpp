@@ -32,24 +32,37 @@ BorderPart part_about(const OverlayIndex& index, uint32_t patch, uint32_t own, u
 
 }
 
-BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<const float> values,
+// Along a border, the way over a place gets shorter by no more than twice the way along the border. So
+// between two samples, none is shorter than the mean of both ways less the piece of the border between them.
+// The limit leaves room for a piece of MOST_LONGER spacings.
+BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<const float> lengths,
                        float limit) {
-    const auto places = index.pairs.samples.of(patch);
+    const Samples& samples = index.pairs.samples;
+    const auto places = samples.of(patch);
+    const float* const wider_by = samples.wider_by.data() + samples.begin[patch];
     const uint32_t ring = index.rings.begin[patch];
     BorderPart part;
     const auto add = [&](uint32_t first, uint32_t last) { part.add({first, last}); };
-    const auto is_within = [&](uint32_t sample) { return values[sample] <= limit; };
-    for_each_chain_of_samples(index, patch, [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
-        const BorderRange all = with_repeated(chain);
-        if (chain.is_closed && is_within(last)) add(all.first, ring + places[first]);
-        for (uint32_t i = first; i <= last; ++i) {
-            if (!is_within(i)) continue;
-            const uint32_t begin = i > first ? ring + places[i - 1] : all.first;
-            while (i < last && is_within(i + 1)) ++i;
-            add(begin, i < last ? ring + places[i + 1] : all.last);
-        }
-        if (chain.is_closed && is_within(first)) add(ring + places[last], all.last);
-    });
+    const auto is_piece_within = [&](uint32_t sample, uint32_t next) {
+        const float a = lengths[sample], b = lengths[next];
+        return int{a <= limit} | int{b <= limit} | int{0.5f * (a + b) <= limit + wider_by[sample]};
+    };
+    for_each_chain_of_samples(
+        index.rings, samples, patch, [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
+            const BorderRange all = with_repeated(chain);
+            const auto is_end_within = [&](uint32_t end) {
+                return chain.is_closed ? is_piece_within(last, first) != 0 : lengths[end] <= limit;
+            };
+            uint32_t begin = is_end_within(first) ? all.first : NONE;
+            for (uint32_t i = first; i < last; ++i) {
+                const bool is_within = is_piece_within(i, i + 1) != 0;
+                if (is_within == (begin != NONE)) continue;
+                if (!is_within) add(begin, ring + places[i]);
+                begin = is_within ? ring + places[i] : NONE;
+            }
+            if (is_end_within(last) && begin == NONE) begin = ring + places[last];
+            if (begin != NONE) add(begin, is_end_within(last) ? all.last : ring + places[last]);
+        });
     return part.size() > 0 ? part : BorderPart(whole_border(index.rings, patch));
 }
 

@@ -9,9 +9,12 @@
 
 namespace geodesic {
 
-// The part of a border between the samples whose value is at most `limit`: along each chain, from the sample
-// before such samples to the one after them. The whole border, which must not be empty, if there is none.
-BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<const float> values, float limit);
+// The part of a border that ways up to `limit` may cross; lengths[i] is that of the way over sample i. These
+// are the places beside each sample within the limit, as far as the next samples of its chain, and those
+// between two samples that are so far apart that the way over a place between them may be within the limit.
+// The whole border, which must not be empty, if there is none.
+BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<const float> lengths,
+                       float limit);
 
 // A sample, those beside it (see neighbouring_samples), and the lengths of the ways over these: infinite
 // where there is none.

@@ -183,6 +183,7 @@ public:
             samples_.place.insert(samples_.place.end(), places.begin(), places.end());
             samples_.begin.push_back(static_cast<uint32_t>(samples_.place.size()));
             samples_.spacing.push_back(spacing_of(index_, patch));
+            add_pieces(patch);
             add_long_segments(patch);
         });
         samples_.codes.reserve(count_codes(index_, samples_.begin) + TableCode::PADDING);
@@ -193,6 +194,27 @@ public:
     }
 
 private:
+    // The last piece of a chain leads back to its first sample, if the chain is closed.
+    void add_pieces(uint32_t patch) {
+        const auto places = samples_.of(patch);
+        const uint32_t ring = index_.rings.begin[patch];
+        const auto length = [&](uint32_t begin, uint32_t end) {
+            float sum = 0;
+            for (uint32_t k = begin; k < end; ++k) sum += index_.rings.segment_length[k];
+            return sum;
+        };
+        const auto add = [&](float piece) {
+            samples_.wider_by.push_back(std::max(0.f, piece - MOST_LONGER * samples_.spacing[patch]));
+        };
+        for_each_chain_of_samples(
+            index_.rings, samples_, patch, [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
+                for (uint32_t i = first; i < last; ++i) add(length(ring + places[i], ring + places[i + 1]));
+                const float rest =
+                    length(chain.first, ring + places[first]) + length(ring + places[last], chain.last);
+                add(chain.is_closed ? rest + index_.rings.segment_length[chain.last] : 0);
+            });
+    }
+
     // A segment that closes a chain ends at a place that repeats the chain's first vertex.
     void add_long_segments(uint32_t patch) {
         const auto sample_at = [&](uint32_t place) {
@@ -296,15 +318,17 @@ void RowsAcross::fill(uint32_t sibling, uint16_t from, uint16_t* row) const {
 }
 
 NeighbouringSamples neighbouring_samples(const OverlayIndex& index, uint32_t patch, uint32_t sample) {
-    const auto places = index.pairs.samples.of(patch);
+    const Samples& samples = index.pairs.samples;
+    const auto places = samples.of(patch);
     const uint32_t ring = index.rings.begin[patch];
     const Rings::Chain& chain = index.rings.chain_at(patch, ring + places[sample]);
     NeighbouringSamples beside{NONE, NONE};
     if (sample > 0 && ring + places[sample - 1] >= chain.first) beside.previous = sample - 1;
     if (sample + 1 < places.size() && ring + places[sample + 1] <= chain.last) beside.next = sample + 1;
     if (!chain.is_closed) return beside;
-    if (beside.next == NONE) beside.next = first_sample_from(index, patch, chain.first);
-    if (beside.previous == NONE) beside.previous = first_sample_from(index, patch, chain.last + 1) - 1;
+    if (beside.next == NONE) beside.next = first_sample_from(index.rings, samples, patch, chain.first);
+    if (beside.previous == NONE)
+        beside.previous = first_sample_from(index.rings, samples, patch, chain.last + 1) - 1;
     return beside;
 }
 

@@ -8,6 +8,10 @@
 
 namespace geodesic {
 
+// Ways over samples are longer than the true ones by up to so many spacings, since these are averages, unless
+// Samples::wider_by says more.
+constexpr float MOST_LONGER = 1.5f;
+
 // The number of codes in the tables of all samples. Needs the rings of the index.
 uint64_t count_sample_codes(const OverlayIndex& index);
 
@@ -37,19 +41,20 @@ private:
 
 // The first sample of a border, counted from the first of all, that comes at a place or behind it; the number
 // of samples if there is none. Places are counted over all rings.
-inline uint32_t first_sample_from(const OverlayIndex& index, uint32_t patch, uint32_t place) {
-    const auto places = index.pairs.samples.of(patch);
-    const auto found = std::ranges::lower_bound(places, place - index.rings.begin[patch]);
+inline uint32_t first_sample_from(const Rings& rings, const Samples& samples, uint32_t patch,
+                                  uint32_t place) {
+    const auto places = samples.of(patch);
+    const auto found = std::ranges::lower_bound(places, place - rings.begin[patch]);
     return static_cast<uint32_t>(found - places.begin());
 }
 
 // Calls use(chain, first, last) for each chain of a border, with its first and its last sample, counted from
 // the first sample of the border. Each chain has a sample.
 template <class Use>
-void for_each_chain_of_samples(const OverlayIndex& index, uint32_t patch, const Use& use) {
+void for_each_chain_of_samples(const Rings& rings, const Samples& samples, uint32_t patch, const Use& use) {
     uint32_t first = 0;
-    for (const Rings::Chain& chain : index.rings.chains_of(patch)) {
-        const uint32_t end = first_sample_from(index, patch, chain.last + 1);
+    for (const Rings::Chain& chain : rings.chains_of(patch)) {
+        const uint32_t end = first_sample_from(rings, samples, patch, chain.last + 1);
         use(chain, first, end - 1);
         first = end;
     }

@@ -21,9 +21,9 @@ namespace {
 // cross is measured.
 constexpr float NEAR_SPACINGS = 14, MOST_SPACINGS_OF_SEGMENT = 4;
 
-// Ways over samples are longer than the true ones by up to so many spacings, since these are averages, or by
-// half of a long segment, where the way back is not straightened.
-constexpr float MOST_LONGER = 1.5f, LONGER_BY_SEGMENT = 0.5f;
+// Ways over samples may also be longer than the true ones by half of a long segment, where the way back is
+// not straightened.
+constexpr float LONGER_BY_SEGMENT = 0.5f;
 
 // Distances over samples come from rounded codes: they may be too short by less than this share.
 constexpr float SAMPLES_ROUNDING = 1e-3f;
