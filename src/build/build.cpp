@@ -1,5 +1,6 @@
 #include "src/build/build.h"
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,6 +50,12 @@ void check_options(const geoidx_build_options& options) {
     check_metric_options(options);
 }
 
+// Halfway between the metric and one that counts edges.
+std::shared_ptr<const Metric> even_metric(const Mesh& surface, std::vector<double> lengths) {
+    for (double& length : lengths) length = std::sqrt(length);
+    return std::make_shared<FastMarchingMetric>(surface, lengths);
+}
+
 // `surface` has the edges of the intake's mesh wherever the caller gives lengths for these.
 HierarchyOptions hierarchy_options(const geoidx_mesh& mesh, const Intake& intake, const Mesh& surface,
                                    const geoidx_build_options& options) {
@@ -62,8 +69,10 @@ HierarchyOptions hierarchy_options(const geoidx_mesh& mesh, const Intake& intake
     result.seed = options.seed;
     result.edge_lengths = given_lengths(mesh, intake, options);
     if (result.edge_lengths.empty()) result.edge_lengths = edge_lengths(surface);
-    if (options.metric == GEOIDX_METRIC_EXACT)
+    if (options.metric == GEOIDX_METRIC_EXACT) {
         result.rough_metric = std::make_shared<FastMarchingMetric>(surface, result.edge_lengths);
+        result.even_metric = even_metric(surface, result.edge_lengths);
+    }
     return result;
 }
 

@@ -38,13 +38,14 @@ class OtherSolvers {
 public:
     OtherSolvers(const Metric* metric, const Workers& workers) : metric_(metric), workers_(workers) {}
 
-    // Calls task(solver) with one that no other thread uses meanwhile.
+    // Returns task(solver) of one that no other thread uses meanwhile.
     template <class Task>
-    void use(const Task& task) {
+    auto use(const Task& task) {
         auto solver = take();
-        task(*solver);
+        auto result = task(*solver);
         const std::lock_guard lock(mutex_);
         idle_.push_back(std::move(solver));
+        return result;
     }
 
 private:
@@ -109,22 +110,25 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
     std::vector<std::vector<uint32_t>> patches(1); // faces of the patches of the latest level
     for (uint32_t f = 0; f < mesh.face_count(); ++f) patches[0].push_back(f);
     OtherSolvers rough(options.rough_metric.get(), workers);
+    OtherSolvers even(options.even_metric.get(), workers);
 
     for (uint32_t level = 0; level < options.split.size(); ++level) {
         const uint32_t first = hierarchy.level_begin[hierarchy.level_begin.size() - 2];
         std::vector<std::vector<std::vector<uint32_t>>> children(patches.size());
         workers.run(patches.size(), [&](FieldSolver& solver, size_t i) {
-            Random random(seed_of_patch(options.seed, first + static_cast<uint32_t>(i)));
             const double share = static_cast<double>(patches[i].size()) / mesh.face_count();
             const uint32_t count = child_count(options, level, share);
             const auto split = [&](FieldSolver& by) {
-                children[i] =
-                    split_patch(mesh, lengths, patches[i], count, options.lloyd_iterations, by, random);
+                Random random(seed_of_patch(options.seed, first + static_cast<uint32_t>(i)));
+                return split_patch(mesh, lengths, patches[i], count, options.lloyd_iterations, by, random);
             };
-            if (options.rough_metric && patches[i].size() > HierarchyOptions::LARGE_PATCH)
-                rough.use(split);
-            else
-                split(solver);
+            const bool is_large = patches[i].size() > HierarchyOptions::LARGE_PATCH;
+            Split best = options.rough_metric && is_large ? rough.use(split) : split(solver);
+            if (options.even_metric && best.border_cost > 0)
+                if (Split other = even.use(split);
+                    other.border_cost <= best.border_cost / HierarchyOptions::FEWER)
+                    best = std::move(other);
+            children[i] = std::move(best.patches);
         });
         std::vector<std::vector<uint32_t>> next;
         for (uint32_t i = 0; i < children.size(); ++i) {

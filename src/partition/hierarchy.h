@@ -46,6 +46,12 @@ struct HierarchyOptions {
     // takes longest where it has least to tell: on large and smooth surfaces.
     std::shared_ptr<const Metric> rough_metric = {};
     static constexpr size_t LARGE_PATCH = 4000;
+    // By these distances, if there are any, patches are split, too, and that split is taken where its borders
+    // cost at most a FEWER-th. Where triangles are long and narrow, patches that are round by the metric have
+    // borders of many short edges, while those of other patches have few long ones; but paths that cross long
+    // edges are less exact.
+    std::shared_ptr<const Metric> even_metric = {};
+    static constexpr uint64_t FEWER = 2;
 };
 
 // The sizes that a hierarchy is given where the caller does not choose them.

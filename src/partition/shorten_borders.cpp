@@ -91,6 +91,14 @@ public:
         return found;
     }
 
+    uint64_t cost() const {
+        uint64_t sum = 0;
+        for (uint32_t i = 0; i < cell_.size(); ++i)
+            for (const auto& [j, cost] : neighbours_.of(i))
+                if (cell_[i] < cell_[j]) sum += cost;
+        return sum;
+    }
+
     void shorten(const Cells& cells) {
         std::vector<uint32_t> faces;
         std::ranges::merge(members_[cells.first], members_[cells.second], std::back_inserter(faces));
@@ -176,11 +184,12 @@ private:
 
 }
 
-void shorten_borders(const Mesh& mesh, std::span<const double> edge_lengths, std::span<const uint32_t> faces,
-                     std::span<uint32_t> cell) {
+uint64_t shorten_borders(const Mesh& mesh, std::span<const double> edge_lengths,
+                         std::span<const uint32_t> faces, std::span<uint32_t> cell) {
     const Neighbours neighbours(mesh, edge_lengths, faces);
     Borders borders(neighbours, cell);
     for (const Cells& cells : borders.touching()) borders.shorten(cells);
+    return borders.cost();
 }
 
 }

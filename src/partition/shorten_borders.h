@@ -16,8 +16,8 @@ namespace geodesic {
 // as it is. So no cell loses its last face; but its faces need not be connected as they were.
 //
 // edge_lengths are those of all edges of the mesh. cell[i] is the cell of faces[i], or NONE: such faces stay
-// as they are.
-void shorten_borders(const Mesh& mesh, std::span<const double> edge_lengths, std::span<const uint32_t> faces,
-                     std::span<uint32_t> cell);
+// as they are. Returns what all borders cost now, in units that are the same for all cells of these faces.
+uint64_t shorten_borders(const Mesh& mesh, std::span<const double> edge_lengths,
+                         std::span<const uint32_t> faces, std::span<uint32_t> cell);
 
 }

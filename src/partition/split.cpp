@@ -16,8 +16,8 @@ namespace {
 
 using Faces = std::vector<uint32_t>;
 
-std::vector<uint32_t> relaxed_cells(const Mesh& mesh, std::span<const double> edge_lengths,
-                                    std::span<const uint32_t> faces, uint32_t count,
+// Voronoi cells, one for each face.
+std::vector<uint32_t> relaxed_cells(const Mesh& mesh, std::span<const uint32_t> faces, uint32_t count,
                                     uint32_t lloyd_iterations, FieldSolver& solver, Random& random) {
     if (count == 1) return std::vector<uint32_t>(faces.size(), 0);
     const auto vertices = vertices_of(mesh, faces);
@@ -27,7 +27,6 @@ std::vector<uint32_t> relaxed_cells(const Mesh& mesh, std::span<const double> ed
         relax_seeds(solver, mesh, faces, cell, seeds);
         cell = voronoi_cells(solver, mesh, faces, seeds);
     }
-    shorten_borders(mesh, edge_lengths, faces, cell);
     return cell;
 }
 
@@ -92,12 +91,11 @@ std::vector<Faces> connected_patches(const Mesh& mesh, std::span<const uint32_t>
 
 }
 
-std::vector<std::vector<uint32_t>> split_patch(const Mesh& mesh, std::span<const double> edge_lengths,
-                                               std::span<const uint32_t> faces, uint32_t count,
-                                               uint32_t lloyd_iterations, FieldSolver& solver,
-                                               Random& random) {
-    return connected_patches(
-        mesh, faces, relaxed_cells(mesh, edge_lengths, faces, count, lloyd_iterations, solver, random));
+Split split_patch(const Mesh& mesh, std::span<const double> edge_lengths, std::span<const uint32_t> faces,
+                  uint32_t count, uint32_t lloyd_iterations, FieldSolver& solver, Random& random) {
+    auto cell = relaxed_cells(mesh, faces, count, lloyd_iterations, solver, random);
+    const uint64_t border_cost = count == 1 ? 0 : shorten_borders(mesh, edge_lengths, faces, cell);
+    return {connected_patches(mesh, faces, cell), border_cost};
 }
 
 }

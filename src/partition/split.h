@@ -10,15 +10,21 @@
 
 namespace geodesic {
 
-// Splits a patch, given by its faces, into about `count` patches of faces, each connected. There are more of
-// them where the faces themselves are not connected. edge_lengths are those of all edges of the mesh.
+// The patches that a patch is split into, each by its faces, and what the borders between them cost: they
+// have few and short edges where it is little (see shorten_borders).
+struct Split {
+    std::vector<std::vector<uint32_t>> patches;
+    uint64_t border_cost;
+};
+
+// Splits a patch, given by its faces, into about `count` patches of faces, each connected, which are round by
+// the distances of the solver. There are more of them where the faces themselves are not connected.
+// edge_lengths are those of all edges of the mesh.
 //
 // A patch may have several border rings, as a section of a tube has. (The paper splits such a patch until
 // each part has one. That cuts tubes lengthwise, again and again, and makes the borders of lattices and of
 // meshes with handles many times longer.)
-std::vector<std::vector<uint32_t>> split_patch(const Mesh& mesh, std::span<const double> edge_lengths,
-                                               std::span<const uint32_t> faces, uint32_t count,
-                                               uint32_t lloyd_iterations, FieldSolver& solver,
-                                               Random& random);
+Split split_patch(const Mesh& mesh, std::span<const double> edge_lengths, std::span<const uint32_t> faces,
+                  uint32_t count, uint32_t lloyd_iterations, FieldSolver& solver, Random& random);
 
 }

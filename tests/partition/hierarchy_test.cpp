@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -295,6 +296,37 @@ TEST_CASE("hierarchy: rough distances split large patches, and no others") {
     }
 }
 
+TEST_CASE("hierarchy: even distances split long and narrow triangles, where borders get much shorter") {
+    const auto build_with = [](const Mesh& mesh, bool even, uint32_t threads) {
+        const ExactMetric metric(mesh);
+        Workers workers(metric, threads, {});
+        HierarchyOptions options{{5, 5}};
+        std::vector<double> roots = edge_lengths(mesh);
+        for (double& length : roots) length = std::sqrt(length);
+        if (even) options.even_metric = std::make_shared<FastMarchingMetric>(mesh, roots);
+        return build_hierarchy(mesh, options, workers);
+    };
+    const auto border_vertices = [](const Mesh& mesh, const Hierarchy& h) {
+        std::vector<std::set<uint32_t>> leaves(mesh.vertex_count());
+        for (uint32_t f = 0; f < mesh.face_count(); ++f)
+            for (const uint32_t v : mesh.faces[f]) leaves[v].insert(h.leaf_of_face[f]);
+        return std::ranges::count_if(leaves, [](const auto& of_vertex) { return of_vertex.size() > 1; });
+    };
+    for (const Soup& soup : {grid(200, 10, 200, 400), grid(12, 150, 12 * 60, 150)}) {
+        const Mesh narrow = mesh_of(soup);
+        const Hierarchy h = build_with(narrow, true, 1);
+        check_numbering(h, 2);
+        CHECK(same(h, build_with(narrow, true, 2)));
+        const auto faces = faces_of_patches(h);
+        for (uint32_t p = 1; p < h.patch_count(); ++p) CHECK(edge_connected(narrow, faces[p]));
+        CHECK(10 * border_vertices(narrow, h) < 9 * border_vertices(narrow, build_with(narrow, false, 1)));
+    }
+    for (const Soup& soup : {bumpy_sphere(4, 1), torus(60, 30, 2, 0.8), grid(40, 30, 1, 1)}) {
+        const Mesh round = mesh_of(soup);
+        CHECK(same(build_with(round, true, 1), build_with(round, false, 1)));
+    }
+}
+
 TEST_CASE("split_patch: a part of the mesh, into a partition of just its faces") {
     for (const auto& [name, soup] : surfaces()) {
         const auto& surface_name = name; // clang 14 captures no structured binding
@@ -309,7 +341,7 @@ TEST_CASE("split_patch: a part of the mesh, into a partition of just its faces")
             Random random(count);
             Faces together;
             for (const Faces& patch :
-                 split_patch(mesh, edge_lengths(mesh), faces, count, 2, *solver, random)) {
+                 split_patch(mesh, edge_lengths(mesh), faces, count, 2, *solver, random).patches) {
                 CHECK(edge_connected(mesh, patch));
                 together.insert(together.end(), patch.begin(), patch.end());
             }
