@@ -50,8 +50,8 @@ void check_options(const geoidx_build_options& options) {
     check_metric_options(options);
 }
 
-// Halfway between the metric and one that counts edges.
-std::shared_ptr<const Metric> even_metric(const Mesh& surface, std::vector<double> lengths) {
+// Of which lengths of edges are the square roots: halfway between the metric and one that counts edges.
+std::shared_ptr<const Metric> root_metric(const Mesh& surface, std::vector<double> lengths) {
     for (double& length : lengths) length = std::sqrt(length);
     return std::make_shared<FastMarchingMetric>(surface, lengths);
 }
@@ -71,7 +71,9 @@ HierarchyOptions hierarchy_options(const geoidx_mesh& mesh, const Intake& intake
     if (result.edge_lengths.empty()) result.edge_lengths = edge_lengths(surface);
     if (options.metric == GEOIDX_METRIC_EXACT) {
         result.rough_metric = std::make_shared<FastMarchingMetric>(surface, result.edge_lengths);
-        result.even_metric = even_metric(surface, result.edge_lengths);
+        // Paths of the graph engine cross borders at vertices, which are far apart on long edges.
+        if (options.engine == GEOIDX_ENGINE_OVERLAY)
+            result.root_metric = root_metric(surface, result.edge_lengths);
     }
     return result;
 }

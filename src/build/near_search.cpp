@@ -13,7 +13,7 @@ namespace {
 // How far from each source, in average edges, but not much farther than so many of its nearest vertices:
 // where triangles are long and narrow, far more lie within a few average edges.
 constexpr double SEARCHED_EDGES = 11;
-constexpr size_t MOST_SEARCHED = 1024;
+constexpr size_t MOST_SEARCHED = 1024; // vertices
 constexpr size_t SOURCES_AT_ONCE = 16; // which share a query
 
 }
@@ -26,7 +26,7 @@ public:
           largest_radius_(SEARCHED_EDGES * search.average_edge_), too_short_(search.too_short_),
           query_(index_, std::pmr::get_default_resource()), field_(index_.description.id_count) {}
 
-    // Answers MSAD, which may leave out what is farther than twice the radius.
+    // Answers MSAD, which may leave out what is farther than twice the largest radius.
     void set_source(uint32_t vertex) {
         source_ = vertex;
         const double reach = std::min(2 * largest_radius_, double{std::numeric_limits<float>::max()});
@@ -64,7 +64,7 @@ private:
     double radius_of_field() {
         nearest_.clear();
         for (uint32_t v = 0; v < intake_.mesh.vertex_count(); ++v)
-            if (const float d = msad(v); d <= largest_radius_) nearest_.push_back(d);
+            if (const float d = msad(v); d > too_short_ && d <= largest_radius_) nearest_.push_back(d);
         if (nearest_.size() <= MOST_SEARCHED) return largest_radius_;
         const auto last = nearest_.begin() + MOST_SEARCHED - 1;
         std::ranges::nth_element(nearest_, last);

@@ -33,12 +33,18 @@ uint32_t levels_named(std::span<const uint32_t> given) {
     return count;
 }
 
+// Fewer patches have shorter borders, too: where faces are not connected, splits can differ in their number.
+bool is_worth_it(const Split& by_roots, const Split& by_metric) {
+    return by_roots.patches.size() >= by_metric.patches.size() &&
+           by_roots.border_cost <= by_metric.border_cost / HierarchyOptions::LEAST_GAIN;
+}
+
 // Solvers of another metric than that of the workers, no more of them than threads ask for at once.
 class OtherSolvers {
 public:
     OtherSolvers(const Metric* metric, const Workers& workers) : metric_(metric), workers_(workers) {}
 
-    // Returns task(solver) of one that no other thread uses meanwhile.
+    // Returns what task(solver) returns. No other thread uses that solver meanwhile.
     template <class Task>
     auto use(const Task& task) {
         auto solver = take();
@@ -110,7 +116,7 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
     std::vector<std::vector<uint32_t>> patches(1); // faces of the patches of the latest level
     for (uint32_t f = 0; f < mesh.face_count(); ++f) patches[0].push_back(f);
     OtherSolvers rough(options.rough_metric.get(), workers);
-    OtherSolvers even(options.even_metric.get(), workers);
+    OtherSolvers by_roots(options.root_metric.get(), workers);
 
     for (uint32_t level = 0; level < options.split.size(); ++level) {
         const uint32_t first = hierarchy.level_begin[hierarchy.level_begin.size() - 2];
@@ -124,10 +130,8 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
             };
             const bool is_large = patches[i].size() > HierarchyOptions::LARGE_PATCH;
             Split best = options.rough_metric && is_large ? rough.use(split) : split(solver);
-            if (options.even_metric && best.border_cost > 0)
-                if (Split other = even.use(split);
-                    other.border_cost <= best.border_cost / HierarchyOptions::FEWER)
-                    best = std::move(other);
+            if (options.root_metric && best.border_cost > 0)
+                if (Split other = by_roots.use(split); is_worth_it(other, best)) best = std::move(other);
             children[i] = std::move(best.patches);
         });
         std::vector<std::vector<uint32_t>> next;

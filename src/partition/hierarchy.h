@@ -46,12 +46,12 @@ struct HierarchyOptions {
     // takes longest where it has least to tell: on large and smooth surfaces.
     std::shared_ptr<const Metric> rough_metric = {};
     static constexpr size_t LARGE_PATCH = 4000;
-    // By these distances, if there are any, patches are split, too, and that split is taken where its borders
-    // cost at most a FEWER-th. Where triangles are long and narrow, patches that are round by the metric have
-    // borders of many short edges, while those of other patches have few long ones; but paths that cross long
-    // edges are less exact.
-    std::shared_ptr<const Metric> even_metric = {};
-    static constexpr uint64_t FEWER = 2;
+    // By these distances, if there are any, patches are split, too. That split is taken if it has no fewer
+    // patches and its borders cost at most 1 / LEAST_GAIN as much. Where triangles are long and narrow,
+    // patches that are round by the metric have borders of many short edges, and those that are round by the
+    // roots of lengths have few long ones; but paths over long edges are less exact.
+    std::shared_ptr<const Metric> root_metric = {};
+    static constexpr uint64_t LEAST_GAIN = 2;
 };
 
 // The sizes that a hierarchy is given where the caller does not choose them.

@@ -94,8 +94,8 @@ public:
     uint64_t cost() const {
         uint64_t sum = 0;
         for (uint32_t i = 0; i < cell_.size(); ++i)
-            for (const auto& [j, cost] : neighbours_.of(i))
-                if (cell_[i] < cell_[j]) sum += cost;
+            for (const auto& neighbour : neighbours_.of(i))
+                if (cell_[i] < cell_[neighbour.face]) sum += neighbour.cost;
         return sum;
     }
 

@@ -16,7 +16,7 @@ namespace geodesic {
 // as it is. So no cell loses its last face; but its faces need not be connected as they were.
 //
 // edge_lengths are those of all edges of the mesh. cell[i] is the cell of faces[i], or NONE: such faces stay
-// as they are. Returns what all borders cost now, in units that are the same for all cells of these faces.
+// as they are. Returns what all borders cost now: to be compared with other cells of the same faces only.
 uint64_t shorten_borders(const Mesh& mesh, std::span<const double> edge_lengths,
                          std::span<const uint32_t> faces, std::span<uint32_t> cell);
 

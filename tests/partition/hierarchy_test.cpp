@@ -296,14 +296,14 @@ TEST_CASE("hierarchy: rough distances split large patches, and no others") {
     }
 }
 
-TEST_CASE("hierarchy: even distances split long and narrow triangles, where borders get much shorter") {
-    const auto build_with = [](const Mesh& mesh, bool even, uint32_t threads) {
+TEST_CASE("hierarchy: roots of lengths split long and narrow triangles, where borders get much shorter") {
+    const auto build_with = [](const Mesh& mesh, bool by_roots, uint32_t threads) {
         const ExactMetric metric(mesh);
         Workers workers(metric, threads, {});
         HierarchyOptions options{{5, 5}};
         std::vector<double> roots = edge_lengths(mesh);
         for (double& length : roots) length = std::sqrt(length);
-        if (even) options.even_metric = std::make_shared<FastMarchingMetric>(mesh, roots);
+        if (by_roots) options.root_metric = std::make_shared<FastMarchingMetric>(mesh, roots);
         return build_hierarchy(mesh, options, workers);
     };
     const auto border_vertices = [](const Mesh& mesh, const Hierarchy& h) {

@@ -33,19 +33,20 @@ BorderPart part_about(const OverlayIndex& index, uint32_t patch, uint32_t own, u
 }
 
 // Along a border, the way over a place gets shorter by no more than twice the way along the border. So
-// between two samples, none is shorter than the mean of both ways less the piece of the border between them.
-// The limit leaves room for a piece of MOST_LONGER spacings.
+// between two samples, none is shorter than the mean of both ways less the piece of the border between them,
+// as far as this border goes. The limit leaves room for a piece of MOST_LONGER spacings, here or elsewhere.
 BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<const float> lengths,
                        float limit) {
     const Samples& samples = index.pairs.samples;
     const auto places = samples.of(patch);
-    const float* const wider_by = samples.wider_by.data() + samples.begin[patch];
+    const float* const excess = samples.excess.data() + samples.begin[patch];
     const uint32_t ring = index.rings.begin[patch];
     BorderPart part;
     const auto add = [&](uint32_t first, uint32_t last) { part.add({first, last}); };
+    // Without branches, which would be taken and not taken at random.
     const auto is_piece_within = [&](uint32_t sample, uint32_t next) {
         const float a = lengths[sample], b = lengths[next];
-        return int{a <= limit} | int{b <= limit} | int{0.5f * (a + b) <= limit + wider_by[sample]};
+        return int{a <= limit} | int{b <= limit} | int{0.5f * (a + b) <= limit + excess[sample]};
     };
     for_each_chain_of_samples(
         index.rings, samples, patch, [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {

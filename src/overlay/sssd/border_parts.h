@@ -11,8 +11,8 @@ namespace geodesic {
 
 // The part of a border that ways up to `limit` may cross; lengths[i] is that of the way over sample i. These
 // are the places beside each sample within the limit, as far as the next samples of its chain, and those
-// between two samples that are so far apart that the way over a place between them may be within the limit.
-// The whole border, which must not be empty, if there is none.
+// between two samples that are so far apart that, as far as this border goes, the way over a place between
+// them may be within the limit. The whole border, which must not be empty, if there is none.
 BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<const float> lengths,
                        float limit);
 

@@ -194,7 +194,7 @@ public:
     }
 
 private:
-    // The last piece of a chain leads back to its first sample, if the chain is closed.
+    // The last piece of a closed chain leads back to its first sample.
     void add_pieces(uint32_t patch) {
         const auto places = samples_.of(patch);
         const uint32_t ring = index_.rings.begin[patch];
@@ -203,15 +203,18 @@ private:
             for (uint32_t k = begin; k < end; ++k) sum += index_.rings.segment_length[k];
             return sum;
         };
-        const auto add = [&](float piece) {
-            samples_.wider_by.push_back(std::max(0.f, piece - MOST_LONGER * samples_.spacing[patch]));
+        const auto add = [&](uint32_t segments, float piece) {
+            const float excess = piece - MOST_LONGER * samples_.spacing[patch];
+            samples_.excess.push_back(segments > 1 && excess > 0 ? excess : 0);
         };
         for_each_chain_of_samples(
             index_.rings, samples_, patch, [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
-                for (uint32_t i = first; i < last; ++i) add(length(ring + places[i], ring + places[i + 1]));
-                const float rest =
-                    length(chain.first, ring + places[first]) + length(ring + places[last], chain.last);
-                add(chain.is_closed ? rest + index_.rings.segment_length[chain.last] : 0);
+                for (uint32_t i = first; i < last; ++i)
+                    add(places[i + 1] - places[i], length(ring + places[i], ring + places[i + 1]));
+                const uint32_t begin = ring + places[last], end = ring + places[first];
+                const uint32_t count = chain.last + 1 - begin + end - chain.first;
+                chain.is_closed ? add(count, length(begin, chain.last + 1) + length(chain.first, end))
+                                : add(0, 0);
             });
     }
 

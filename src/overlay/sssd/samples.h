@@ -8,8 +8,8 @@
 
 namespace geodesic {
 
-// Ways over samples are longer than the true ones by up to so many spacings, since these are averages, unless
-// Samples::wider_by says more.
+// Ways over samples are longer than the true ones by up to about so many spacings, which are averages. Where
+// samples lie farther apart than that, Samples::excess says by how much.
 constexpr float MOST_LONGER = 1.5f;
 
 // The number of codes in the tables of all samples. Needs the rings of the index.

@@ -107,7 +107,7 @@ struct InnerBounds {
 // lies on both borders of a hop across, there is no path to others.
 struct Samples {
     explicit Samples(std::pmr::memory_resource* memory)
-        : begin(memory), place(memory), spacing(memory), wider_by(memory), long_begin(memory),
+        : begin(memory), place(memory), spacing(memory), excess(memory), long_begin(memory),
           long_segments(memory), up_begin(memory), across_begin(memory), codes(memory) {}
 
     static constexpr uint64_t NO_TABLE = std::numeric_limits<uint64_t>::max();
@@ -120,8 +120,10 @@ struct Samples {
     Array<uint32_t> begin; // per patch
     Array<uint16_t> place; // per sample, counted from the first place of its ring
     Array<float> spacing;  // per patch: how far apart samples are to be, on average
-    Array<float> wider_by; // per sample: how much farther than MOST_LONGER times that it is to the next one
-                           // of its chain, along the border
+    // Per sample: the length of the border from there to the next sample of its chain, around a closed one,
+    // less MOST_LONGER spacings (sssd/samples.h). 0 if that is negative, if no place lies between, and where
+    // an open chain ends.
+    Array<float> excess;
     Array<uint32_t> long_begin; // per patch: where its long segments begin in `long_segments`
     Array<LongSegment> long_segments;
     Array<uint64_t> up_begin;     // per patch: where its table up begins in `codes`
