@@ -22,6 +22,7 @@
 #include "src/partition/split.h"
 #include "tests/support/meshes.h"
 #include "tests/support/oracles.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -324,6 +325,21 @@ TEST_CASE("hierarchy: roots of lengths split long and narrow triangles, where bo
     for (const Soup& soup : {bumpy_sphere(4, 1), torus(60, 30, 2, 0.8), grid(40, 30, 1, 1)}) {
         const Mesh round = mesh_of(soup);
         CHECK(same(build_with(round, true, 1), build_with(round, false, 1)));
+    }
+}
+
+// The part that gets all seeds of one split and the part that gets them of the other need not be the same.
+TEST_CASE("hierarchy: roots of lengths leave surfaces of several parts no fewer patches") {
+    const Mesh mesh = mesh_of(joined(joined(grid(120, 6, 120, 240), grid(6, 120, 5, 5)), grid(9, 9, 100, 1)));
+    const ExactMetric metric(mesh);
+    Workers workers(metric, 1, {});
+    std::vector<double> roots = edge_lengths(mesh);
+    for (double& length : roots) length = std::sqrt(length);
+    for (uint64_t seed = 0; seed < 40; seed += sparse(1)) {
+        HierarchyOptions options{{4}, 4, seed};
+        const Hierarchy by_metric = build_hierarchy(mesh, options, workers);
+        options.root_metric = std::make_shared<FastMarchingMetric>(mesh, roots);
+        CHECK(build_hierarchy(mesh, options, workers).patch_count() >= by_metric.patch_count());
     }
 }
 
