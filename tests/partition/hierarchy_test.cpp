@@ -58,6 +58,13 @@ std::vector<Surface> surfaces() {
             {"two triangles", triangles(2)}};
 }
 
+// Of which lengths of edges are the square roots, as the builder has it.
+std::shared_ptr<const Metric> root_metric(const Mesh& mesh) {
+    std::vector<double> lengths = edge_lengths(mesh);
+    for (double& length : lengths) length = std::sqrt(length);
+    return std::make_shared<FastMarchingMetric>(mesh, lengths);
+}
+
 // ---- What a patch is judged by, found anew from nothing but the corners of faces
 
 using Edge = std::array<uint32_t, 2>;
@@ -302,9 +309,7 @@ TEST_CASE("hierarchy: roots of lengths split long and narrow triangles, where bo
         const ExactMetric metric(mesh);
         Workers workers(metric, threads, {});
         HierarchyOptions options{{5, 5}};
-        std::vector<double> roots = edge_lengths(mesh);
-        for (double& length : roots) length = std::sqrt(length);
-        if (by_roots) options.root_metric = std::make_shared<FastMarchingMetric>(mesh, roots);
+        if (by_roots) options.root_metric = root_metric(mesh);
         return build_hierarchy(mesh, options, workers);
     };
     const auto border_vertices = [](const Mesh& mesh, const Hierarchy& h) {
@@ -333,12 +338,10 @@ TEST_CASE("hierarchy: roots of lengths leave surfaces of several parts no fewer 
     const Mesh mesh = mesh_of(joined(joined(grid(120, 6, 120, 240), grid(6, 120, 5, 5)), grid(9, 9, 100, 1)));
     const ExactMetric metric(mesh);
     Workers workers(metric, 1, {});
-    std::vector<double> roots = edge_lengths(mesh);
-    for (double& length : roots) length = std::sqrt(length);
     for (uint64_t seed = 0; seed < 40; seed += sparse(1)) {
         HierarchyOptions options{{4}, 4, seed};
         const Hierarchy by_metric = build_hierarchy(mesh, options, workers);
-        options.root_metric = std::make_shared<FastMarchingMetric>(mesh, roots);
+        options.root_metric = root_metric(mesh);
         CHECK(build_hierarchy(mesh, options, workers).patch_count() >= by_metric.patch_count());
     }
 }
