@@ -48,22 +48,22 @@ BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<cons
         const float a = lengths[sample], b = lengths[next];
         return int{a <= limit} | int{b <= limit} | int{0.5f * (a + b) <= limit + excess[sample]};
     };
-    for_each_chain_of_samples(
-        index.rings, samples, patch, [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
-            const BorderRange all = with_repeated(chain);
-            const auto is_end_within = [&](uint32_t end) {
-                return chain.is_closed ? is_piece_within(last, first) != 0 : lengths[end] <= limit;
-            };
-            uint32_t begin = is_end_within(first) ? all.first : NONE;
-            for (uint32_t i = first; i < last; ++i) {
-                const bool is_within = is_piece_within(i, i + 1) != 0;
-                if (is_within == (begin != NONE)) continue;
-                if (!is_within) add(begin, ring + places[i]);
-                begin = is_within ? ring + places[i] : NONE;
-            }
-            if (is_end_within(last) && begin == NONE) begin = ring + places[last];
-            if (begin != NONE) add(begin, is_end_within(last) ? all.last : ring + places[last]);
-        });
+    const auto add_of_chain = [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
+        const BorderRange all = with_repeated(chain);
+        const auto is_end_within = [&](uint32_t end) {
+            return chain.is_closed ? is_piece_within(last, first) != 0 : lengths[end] <= limit;
+        };
+        uint32_t begin = is_end_within(first) ? all.first : NONE;
+        for (uint32_t i = first; i < last; ++i) {
+            const bool is_within = is_piece_within(i, i + 1) != 0;
+            if (is_within == (begin != NONE)) continue;
+            if (!is_within) add(begin, ring + places[i]);
+            begin = is_within ? ring + places[i] : NONE;
+        }
+        if (is_end_within(last) && begin == NONE) begin = ring + places[last];
+        if (begin != NONE) add(begin, is_end_within(last) ? all.last : ring + places[last]);
+    };
+    for_each_chain_of_samples(index.rings, samples, patch, add_of_chain);
     return part.size() > 0 ? part : BorderPart(whole_border(index.rings, patch));
 }
 

@@ -41,20 +41,19 @@ std::array<Way, Candidates::MOST_BY_LENGTH> shortest_ways(const OverlayIndex& in
                                                           std::span<const float> lengths, float longest) {
     std::array<Way, Candidates::MOST_BY_LENGTH> shortest;
     if (!(longest < INFINITE)) return shortest;
-    for_each_chain_of_samples(index.rings, index.pairs.samples, patch,
-                              [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
-                                  const float before_first = chain.is_closed ? lengths[last] : INFINITE,
-                                              after_last = chain.is_closed ? lengths[first] : INFINITE;
-                                  for (uint32_t i = first; i <= last; ++i) {
-                                      if (lengths[i] > longest ||
-                                          lengths[i] > (i > first ? lengths[i - 1] : before_first) ||
-                                          lengths[i] > (i < last ? lengths[i + 1] : after_last))
-                                          continue;
-                                      Way way{lengths[i], i};
-                                      for (Way& kept : shortest)
-                                          if (way < kept) std::swap(way, kept);
-                                  }
-                              });
+    const auto look_along = [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
+        const float before_first = chain.is_closed ? lengths[last] : INFINITE,
+                    after_last = chain.is_closed ? lengths[first] : INFINITE;
+        for (uint32_t i = first; i <= last; ++i) {
+            if (lengths[i] > longest || lengths[i] > (i > first ? lengths[i - 1] : before_first) ||
+                lengths[i] > (i < last ? lengths[i + 1] : after_last))
+                continue;
+            Way way{lengths[i], i};
+            for (Way& kept : shortest)
+                if (way < kept) std::swap(way, kept);
+        }
+    };
+    for_each_chain_of_samples(index.rings, index.pairs.samples, patch, look_along);
     return shortest;
 }
 

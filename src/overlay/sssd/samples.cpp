@@ -207,15 +207,15 @@ private:
             const float excess = piece - MOST_LONGER * samples_.spacing[patch];
             samples_.excess.push_back(segments > 1 && excess > 0 ? excess : 0);
         };
-        for_each_chain_of_samples(
-            index_.rings, samples_, patch, [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
-                for (uint32_t i = first; i < last; ++i)
-                    add(places[i + 1] - places[i], length(ring + places[i], ring + places[i + 1]));
-                const uint32_t begin = ring + places[last], end = ring + places[first];
-                const uint32_t count = chain.last + 1 - begin + end - chain.first;
-                chain.is_closed ? add(count, length(begin, chain.last + 1) + length(chain.first, end))
-                                : add(0, 0);
-            });
+        const auto add_of_chain = [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
+            for (uint32_t i = first; i < last; ++i)
+                add(places[i + 1] - places[i], length(ring + places[i], ring + places[i + 1]));
+            if (!chain.is_closed) return add(0, 0);
+            const uint32_t begin = ring + places[last], end = ring + places[first];
+            add(chain.last + 1 - begin + end - chain.first,
+                length(begin, chain.last + 1) + length(chain.first, end));
+        };
+        for_each_chain_of_samples(index_.rings, samples_, patch, add_of_chain);
     }
 
     // A segment that closes a chain ends at a place that repeats the chain's first vertex.
