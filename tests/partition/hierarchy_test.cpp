@@ -20,6 +20,7 @@
 #include "src/metric/fast_marching.h"
 #include "src/metric/window_propagation.h"
 #include "src/partition/split.h"
+#include "src/tables/borders.h"
 #include "tests/support/meshes.h"
 #include "tests/support/oracles.h"
 #include "tests/support/sanitized.h"
@@ -313,10 +314,10 @@ TEST_CASE("hierarchy: roots of lengths split long and narrow triangles, where bo
         return build_hierarchy(mesh, options, workers);
     };
     const auto border_vertices = [](const Mesh& mesh, const Hierarchy& h) {
-        std::vector<std::set<uint32_t>> leaves(mesh.vertex_count());
-        for (uint32_t f = 0; f < mesh.face_count(); ++f)
-            for (const uint32_t v : mesh.faces[f]) leaves[v].insert(h.leaf_of_face[f]);
-        return std::ranges::count_if(leaves, [](const auto& of_vertex) { return of_vertex.size() > 1; });
+        const auto leaves = leaves_at_vertices(mesh, h);
+        uint32_t count = 0;
+        for (size_t v = 0; v < leaves.size(); ++v) count += leaves[v].size() > 1;
+        return count;
     };
     for (const Soup& soup : {grid(200, 10, 200, 400), grid(12, 150, 12 * 60, 150)}) {
         const Mesh narrow = mesh_of(soup);
