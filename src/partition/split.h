@@ -10,9 +10,8 @@
 
 namespace geodesic {
 
-// The patches that a patch is split into, each by its faces, and what the borders between them cost,
-// before small pieces join others: they
-// have few and short edges where it is little (see shorten_borders).
+// The patches that a patch is split into, each by its faces, and what the borders between them cost before
+// small pieces join others: they have few and short edges where it is little (see shorten_borders).
 struct Split {
     std::vector<std::vector<uint32_t>> patches;
     uint64_t border_cost;

@@ -46,16 +46,16 @@ BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<cons
     // Without branches, which would be taken and not taken at random.
     const auto is_piece_within = [&](uint32_t sample, uint32_t next) {
         const float a = lengths[sample], b = lengths[next];
-        return int{a <= limit} | int{b <= limit} | int{0.5f * (a + b) <= limit + excess[sample]};
+        return (int{a <= limit} | int{b <= limit} | int{0.5f * (a + b) <= limit + excess[sample]}) != 0;
     };
     const auto add_of_chain = [&](const Rings::Chain& chain, uint32_t first, uint32_t last) {
         const BorderRange all = with_repeated(chain);
         const auto is_end_within = [&](uint32_t end) {
-            return chain.is_closed ? is_piece_within(last, first) != 0 : lengths[end] <= limit;
+            return chain.is_closed ? is_piece_within(last, first) : lengths[end] <= limit;
         };
         uint32_t begin = is_end_within(first) ? all.first : NONE;
         for (uint32_t i = first; i < last; ++i) {
-            const bool is_within = is_piece_within(i, i + 1) != 0;
+            const bool is_within = is_piece_within(i, i + 1);
             if (is_within == (begin != NONE)) continue;
             if (!is_within) add(begin, ring + places[i]);
             begin = is_within ? ring + places[i] : NONE;
