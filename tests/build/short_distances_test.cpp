@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "src/file/sections.h"
-#include "tests/capi/calls.h"
+#include "tests/build/errors.h"
 #include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
@@ -13,7 +13,6 @@ namespace {
 
 constexpr uint32_t RINGS = 16, AROUND = 32;
 constexpr double SINE_OF_PI = 1.2246467991473532e-16;
-constexpr double ROUNDING = 2e-4; // of measured distances
 
 // Not the same from all sides, so that there are errors.
 TestMesh lumpy(double last_radius) {
@@ -26,35 +25,6 @@ TestMesh lumpy(double last_radius) {
     return mesh;
 }
 
-struct Errors {
-    double mean = 0, largest = 0; // of MSAD
-    double largest_of_pairs = 0;  // of SSSD
-};
-
-// Of all distances that are over `shortest` and up to `longest`.
-Errors errors_of(const geoidx* index, const TestMesh& mesh, const geoidx_build_options& options,
-                 double shortest, double longest = 1e9) {
-    const uint32_t count = mesh.vertex_count();
-    const auto metric = solver(mesh, options);
-    Errors errors;
-    double answers = 0;
-    for (uint32_t source = 0; source < count; source += sparse(1)) {
-        const auto exact = metric_distances(metric.get(), source, count);
-        const auto field = msad(index, source, count);
-        for (uint32_t v = 0; v < count; ++v) {
-            if (!(exact[v] > shortest && exact[v] <= longest)) continue;
-            const double error = std::abs(double{field[v]} / exact[v] - 1);
-            errors.mean += error;
-            ++answers;
-            errors.largest = std::max(errors.largest, error);
-            errors.largest_of_pairs =
-                std::max(errors.largest_of_pairs, std::abs(double{sssd(index, source, v)} / exact[v] - 1));
-        }
-    }
-    errors.mean /= answers;
-    return errors;
-}
-
 }
 
 TEST_CASE("short distances: a pole of twins decides nothing and is not stated") {
@@ -64,10 +34,11 @@ TEST_CASE("short distances: a pole of twins decides nothing and is not stated") 
     const auto index = build(mesh, default_options());
     const geoidx_info info = info_of(index.get()), welded = info_of(build(mesh, welding).get());
     REQUIRE(info.welded_vertex_count == welded.welded_vertex_count + AROUND - 1);
-    const Errors errors = errors_of(index.get(), mesh, build_options(), 1e-6);
-    CHECK(errors.largest < 0.011);
+    const Errors errors =
+        errors_of(index.get(), mesh, build_options(), {.step = sparse(1), .shortest = 1e-6});
+    CHECK(errors.max < 0.011);
     CHECK(info.error_mean == doctest::Approx(errors.mean).epsilon(0.3));
-    CHECK(info.error_max < 2 * std::max(errors.largest, errors.largest_of_pairs));
+    CHECK(info.error_max < 2 * std::max(errors.max, errors.pair_max));
     CHECK(info.error_several_max < 0.02);
     CHECK(info.error_mean <= default_options().target_error);
     CHECK(info.error_mean_at_vertices < 2 * welded.error_mean_at_vertices);
@@ -108,14 +79,15 @@ TEST_CASE("short distances: those of edges 1e-4 times as long as others are comp
     const double edge = average_edge(lumpy(SINE_OF_PI)), radius = 1e-4 * edge;
     const TestMesh mesh = lumpy(radius);
     const auto index = build(mesh, default_options());
-    const Errors errors = errors_of(index.get(), mesh, build_options(), 1e-7, 0.1 * edge);
-    CHECK(errors.largest < 0.01 + ROUNDING);
-    CHECK(errors.largest_of_pairs < 0.01 + ROUNDING);
+    const Asked short_ones{.step = sparse(1), .shortest = 1e-7, .longest = 0.1 * edge};
+    const Errors errors = errors_of(index.get(), mesh, build_options(), short_ones);
+    CHECK(errors.max < 0.01 + ROUNDING);
+    CHECK(errors.pair_max < 0.01 + ROUNDING);
 
     auto along_edges = default_options(); // which holds no pairs: tables round such distances to nothing
     along_edges.metric = GEOIDX_METRIC_EDGES;
     const auto rounded = build(mesh, along_edges);
-    const Errors of_rounded = errors_of(rounded.get(), mesh, along_edges, 1e-7, 0.1 * edge);
-    CHECK(of_rounded.largest > 0.5);
-    CHECK(info_of(rounded.get()).error_near_max > 0.5 * of_rounded.largest);
+    const Errors of_rounded = errors_of(rounded.get(), mesh, along_edges, short_ones);
+    CHECK(of_rounded.max > 0.5);
+    CHECK(info_of(rounded.get()).error_near_max > 0.5 * of_rounded.max);
 }

@@ -15,7 +15,7 @@ using namespace geodesic::test;
 namespace {
 
 constexpr uint32_t ENGINES[] = {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY};
-constexpr double ROUNDING = 1e-6; // of answers, which are floats
+constexpr double ANSWER_ROUNDING = 1e-6; // of answers, which are floats
 
 geoidx_build_options options_for(uint32_t engine, uint32_t metric = GEOIDX_METRIC_EXACT) {
     auto options = build_options(metric);
@@ -47,7 +47,7 @@ std::array<Class, 3> errors_of(const geoidx* index, const TestMesh& mesh, uint32
             classes[i].sum += of_field;
             ++classes[i].answers;
             const auto note = [&](double error) {
-                classes[i].worse_than_stated += error > stated[i] + ROUNDING;
+                classes[i].worse_than_stated += error > stated[i] + ANSWER_ROUNDING;
                 classes[i].max = std::max(classes[i].max, error);
             };
             note(of_field);
@@ -124,8 +124,8 @@ TEST_CASE("stated errors: of all fields, one distance in a million is worse, and
                 if (exact[v] == 0) continue;
                 const double error = std::abs(double{field[v]} - exact[v]) / exact[v];
                 const size_t i = exact[v] <= 10 * edge ? 0 : exact[v] <= 100 * edge ? 1 : 2;
-                worse += error > stated[i] + ROUNDING;
-                worse_than_several += error > info.error_several_max + ROUNDING;
+                worse += error > stated[i] + ANSWER_ROUNDING;
+                worse_than_several += error > info.error_several_max + ANSWER_ROUNDING;
                 ++answers;
             }
         }

@@ -9,10 +9,10 @@ using geodesic::TAG_STEEP_EDGES;
 
 namespace {
 
-constexpr double STEEPEST = 1.05;
+constexpr double STEEPEST_EDGE = 1.05;
 
 // Two parts, a vertex that nothing uses, a triangle without area and one that is there twice.
-TestMesh dirty() {
+TestMesh dirty_sheets() {
     TestMesh mesh = rough_sheet(smaller(26, 22), 16);
     append(mesh, rough_sheet(13, 5), 60);
     mesh.add_vertex(1, 2, 3);
@@ -28,7 +28,7 @@ uint64_t count_steep(const geoidx* index, const TestMesh& mesh, uint32_t step) {
     for (uint32_t source = 0; source < mesh.vertex_count(); source += step) {
         const auto field = msad(index, source, mesh.vertex_count());
         for (const auto& [a, b] : edges)
-            steep += std::abs(double{field[a]} - double{field[b]}) > STEEPEST * mesh.straight(a, b);
+            steep += std::abs(double{field[a]} - double{field[b]}) > STEEPEST_EDGE * mesh.straight(a, b);
     }
     return steep;
 }
@@ -37,7 +37,7 @@ uint64_t count_steep(const geoidx* index, const TestMesh& mesh, uint32_t step) {
 
 TEST_CASE("steep search: no field has a steep edge") {
     for (const TestMesh& mesh :
-         {hills(smaller(30, 23), 20), torus(smaller(36, 26), smaller(14, 12)), dirty()}) {
+         {hills(smaller(30, 23), 20), torus(smaller(36, 26), smaller(14, 12)), dirty_sheets()}) {
         const auto index = build(mesh, default_options());
         CHECK(count_steep(index.get(), mesh, sparse(1)) == 0);
     }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/capi/calls.h"
+#include "tests/build/errors.h"
 #include "tests/capi/refusals.h"
 #include "tests/support/edge_lengths.h"
 #include "tests/support/sanitized.h"
@@ -24,7 +24,7 @@ TestMesh rough() { return hills(smaller(26, 17), smaller(24, 16)); }
 
 // Several parts, vertices at the same place, triangles that are degenerate or there twice, unused vertices,
 // and a fin, where three triangles meet at an edge.
-TestMesh dirty() {
+TestMesh dirty_hills() {
     TestMesh mesh;
     mesh.add_vertex(-50, 0, 0);
     append(mesh, rough(), 0);
@@ -54,35 +54,15 @@ struct Told {
     }
 };
 
-// The mean error of MSAD from sources that the builder did not choose, and the largest.
-struct Errors {
-    double mean = 0, max = 0;
-};
-
-Errors errors_of(const geoidx* index, const TestMesh& mesh) {
-    const uint32_t count = mesh.vertex_count();
-    const auto metric = solver(mesh, build_options());
-    Errors errors;
-    uint64_t pairs = 0;
-    for (uint32_t source = 5; source < count; source += count / 30) {
-        const auto exact = metric_distances(metric.get(), source, count);
-        const auto field = msad(index, source, count);
-        for (uint32_t v = 0; v < count; ++v) {
-            if (exact[v] == 0 || std::isinf(exact[v])) continue;
-            const double error = std::abs(double{field[v]} - exact[v]) / exact[v];
-            errors.mean += error;
-            errors.max = std::max(errors.max, error);
-            ++pairs;
-        }
-    }
-    errors.mean /= static_cast<double>(pairs);
-    return errors;
+// From sources that the builder did not choose.
+Errors errors_of_others(const geoidx* index, const TestMesh& mesh) {
+    return errors_of(index, mesh, build_options(), {.first_source = 5, .step = mesh.vertex_count() / 30});
 }
 
 }
 
 TEST_CASE("target error: is reached, or the index is as large as it may be" * doctest::skip(SANITIZED)) {
-    for (const TestMesh& mesh : {rough(), torus(20, 10), sphere(12, 18), dirty()}) {
+    for (const TestMesh& mesh : {rough(), torus(20, 10), sphere(12, 18), dirty_hills()}) {
         const auto plain = build(mesh, options_with(0));
         const geoidx_info before = info_of(plain.get());
         CHECK(before.added_vertex_count == 0);
@@ -108,9 +88,9 @@ TEST_CASE("target error: is reached, or the index is as large as it may be" * do
 
 TEST_CASE("target error: errors become smaller from sources that the builder did not choose, too" *
           doctest::skip(SANITIZED)) {
-    for (const TestMesh& mesh : {rough(), dirty()}) {
-        const Errors before = errors_of(build(mesh, options_with(0)).get(), mesh);
-        const Errors after = errors_of(build(mesh, options_with(1e-6)).get(), mesh);
+    for (const TestMesh& mesh : {rough(), dirty_hills()}) {
+        const Errors before = errors_of_others(build(mesh, options_with(0)).get(), mesh);
+        const Errors after = errors_of_others(build(mesh, options_with(1e-6)).get(), mesh);
         CHECK(after.mean < 0.5 * before.mean);
         CHECK(after.max < before.max);
     }
@@ -143,7 +123,7 @@ TEST_CASE("target error: is not used by other engines and metrics, nor with prun
 }
 
 TEST_CASE("target error: added vertices are in no answer") {
-    const TestMesh mesh = dirty();
+    const TestMesh mesh = dirty_hills();
     const uint32_t count = mesh.vertex_count();
     const auto index = build(mesh, options_with(1e-6));
     REQUIRE(info_of(index.get()).added_vertex_count > 0);
@@ -168,7 +148,7 @@ TEST_CASE("target error: added vertices are in no answer") {
 }
 
 TEST_CASE("target error: every form of file has added vertices, and gives the same answers") {
-    const TestMesh mesh = dirty();
+    const TestMesh mesh = dirty_hills();
     const uint32_t count = mesh.vertex_count();
     const auto built = build(mesh, options_with(1e-6));
     const geoidx_info info = info_of(built.get());
@@ -192,7 +172,7 @@ TEST_CASE("target error: the same bytes whatever the threads") {
     for (const uint32_t threads : {1u, 2u, 5u}) {
         auto options = options_with(1e-6);
         options.threads = threads;
-        const Bytes bytes = save(build(dirty(), options).get());
+        const Bytes bytes = save(build(dirty_hills(), options).get());
         if (first.empty()) first = bytes;
         CHECK(bytes == first);
     }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/build/errors.h"
 #include "tests/build/large_rough_sheet.h"
 #include "tests/support/sanitized.h"
 
@@ -10,8 +11,7 @@ using namespace geodesic::test;
 namespace {
 
 constexpr double LARGEST_ERROR = 0.01, STEEPEST = 1.05;
-constexpr double ROUNDING = 2e-4; // of measured distances, and of what they are compared with
-constexpr size_t NEAREST = 480;   // vertices around each one, as geoidx.h has it
+constexpr size_t NEAREST = 480; // vertices around each one, as geoidx.h has it
 
 // The same index without its measured pairs, and with its steep edges left steep.
 IndexHandle tables_only(const geoidx* index) {

@@ -10,7 +10,7 @@
 namespace geodesic::file_campaign {
 
 constexpr uint32_t NOTHING = UINT32_MAX;
-constexpr float INFINITE = std::numeric_limits<float>::infinity();
+constexpr float NO_PATH = std::numeric_limits<float>::infinity();
 
 struct Matrix {
     std::vector<float> values;

@@ -241,7 +241,7 @@ private:
 
     float distance(uint32_t a, uint32_t b) const {
         constexpr std::array<float, 8> ANY{0, 1e-45f, 1e-38f, 1, 1e19f, 1e30f, 3.4e38f, 0.1f};
-        if (!is_reached(a, b)) return INFINITE;
+        if (!is_reached(a, b)) return NO_PATH;
         Random random = of_pair(a, b);
         switch (entries_) {
         case 0:
@@ -259,7 +259,7 @@ private:
 
     // A multiple of 2^shift.
     float code(uint32_t a, uint32_t b, float quantum) const {
-        if (!is_reached(a, b)) return INFINITE;
+        if (!is_reached(a, b)) return NO_PATH;
         const auto unit = static_cast<float>(1 << content_.shift);
         return std::floor(code_before_shift(a, b, quantum) / unit) * unit;
     }

@@ -90,7 +90,7 @@ private:
             source == target ||
             (a != NOTHING && b != NOTHING &&
              (content_.component.empty() || content_.component[a] == content_.component[b]));
-        if (!is_reachable) require(distance == INFINITE, at() + ", which no path leads to");
+        if (!is_reachable) require(distance == NO_PATH, at() + ", which no path leads to");
         if (a == b && a != NOTHING) require(distance == 0, at() + ", which is the same vertex");
     }
 
@@ -131,7 +131,7 @@ private:
         return ids;
     }
 
-    std::vector<float> field(const std::vector<uint32_t>& sources, float radius = INFINITE) {
+    std::vector<float> field(const std::vector<uint32_t>& sources, float radius = NO_PATH) {
         std::vector<float> distances(ids_);
         succeed(geoidx_query_msad_within(query_.get(), sources.data(), static_cast<uint32_t>(sources.size()),
                                          radius, distances.data(), ids_),
@@ -170,7 +170,7 @@ private:
             const auto sources = some_ids(1 + i / 2);
             const auto distances = field(sources, radius);
             for (float d : distances)
-                require((d >= 0 && d <= radius) || d == INFINITE, "within a radius is within it");
+                require((d >= 0 && d <= radius) || d == NO_PATH, "within a radius is within it");
             for (uint32_t source : sources) require(distances[source] == 0, "sources are within any radius");
         }
     }

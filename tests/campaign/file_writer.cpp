@@ -42,7 +42,7 @@ public:
         for (size_t m = 0; m < matrices.size(); ++m)
             for (const float value : is_folded(m) ? unfolded(matrices[m]) : matrices[m].values) {
                 near.u8(0x80);
-                far.u16(value == INFINITE
+                far.u16(value == NO_PATH
                             ? 0xffff
                             : static_cast<uint16_t>(static_cast<uint32_t>(value) >> content_.shift));
                 raw_size_ += sizeof(float);

@@ -92,7 +92,7 @@ TEST_CASE("face costs are validated") {
     const auto refused = [&](const geoidx_build_options& options, const char* detail) {
         check_build_refused(mesh, options, GEOIDX_ERROR_INVALID_ARGUMENT, detail);
     };
-    for (double cost : {NOT_A_NUMBER, 0.0, -1.0, INFINITE}) {
+    for (double cost : {double{NOT_A_NUMBER}, 0.0, -1.0, double{INFINITE}}) {
         costs[5] = cost;
         refused(weighted(costs), "triangle 5");
     }
@@ -183,7 +183,7 @@ TEST_CASE("lengths that no surface has are refused, and the triangle or the edge
         options.edge_length_count = sides.size();
         check_build_refused(mesh, options, GEOIDX_ERROR_BAD_MESH, detail);
     };
-    for (double length : {0.0, -1.0, NOT_A_NUMBER, INFINITE})
+    for (double length : {0.0, -1.0, double{NOT_A_NUMBER}, double{INFINITE}})
         refused([&](auto& sides) { sides[3 * 6 + 1] = length; }, "triangle 6 has a side of length");
     refused([&](auto& sides) { sides[3 * 4] = sides[3 * 4 + 1] + sides[3 * 4 + 2] + 1; },
             "triangle 4 has a side longer");

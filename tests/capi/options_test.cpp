@@ -178,12 +178,12 @@ TEST_CASE("build options are validated") {
     const auto refused = [&](const geoidx_build_options& options, const char* detail) {
         check_build_refused(mesh, options, GEOIDX_ERROR_INVALID_ARGUMENT, detail);
     };
-    for (double delta : {NOT_A_NUMBER, -1e-300, 100.5, INFINITE}) {
+    for (double delta : {double{NOT_A_NUMBER}, -1e-300, 100.5, double{INFINITE}}) {
         auto options = build_options();
         options.delta = delta;
         refused(options, "delta");
     }
-    for (double tolerance : {NOT_A_NUMBER, -1e-300, INFINITE}) {
+    for (double tolerance : {double{NOT_A_NUMBER}, -1e-300, double{INFINITE}}) {
         auto options = build_options();
         options.weld_tolerance = tolerance;
         refused(options, "weld_tolerance");
@@ -287,7 +287,7 @@ TEST_CASE("a metric callback that fails or answers nonsense stops the build") {
     script.status = 77;
     check_build_refused(mesh, options, GEOIDX_ERROR_CALLBACK, "77");
     script.status = GEOIDX_OK;
-    for (double distance : {NOT_A_NUMBER, -1.0, -INFINITE}) {
+    for (double distance : {double{NOT_A_NUMBER}, -1.0, -double{INFINITE}}) {
         script.distance = distance;
         check_build_refused(mesh, options, GEOIDX_ERROR_CALLBACK, "distance");
     }

@@ -4,12 +4,13 @@
 #include <limits>
 #include <string>
 
+#include "src/base/numbers.h"
 #include "tests/capi/calls.h"
 
 namespace geodesic::test {
 
-inline constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
-inline constexpr double INFINITE = std::numeric_limits<double>::infinity();
+using geodesic::INFINITE;
+inline constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 
 inline bool last_error_contains(const char* text) {
     return std::strstr(geoidx_last_error(), text) != nullptr;

@@ -14,8 +14,7 @@ using namespace geodesic::format::test;
 
 namespace {
 
-constexpr std::uint32_t DATA = make_tag("DATA");
-constexpr std::array KNOWN{DATA};
+constexpr std::array IMAGE_TAGS{DATA};
 
 Bytes some_bytes(std::size_t size) {
     std::mt19937_64 random(size);
@@ -45,7 +44,7 @@ TEST_CASE("byte images: as a section they are bytes") {
     ContainerWriter writer(1);
     writer.add_images(DATA, bytes);
     const Bytes file = writer.finish();
-    const auto container = Container::parse(file, KNOWN);
+    const auto container = Container::parse(file, IMAGE_TAGS);
     CHECK(container.section(DATA).codec == Codec::ByteImages);
     CHECK(container.read_bytes(DATA, bytes.size()) == bytes);
     CHECK(status_of([&] { container.read_bytes(DATA, bytes.size() - 1); }) == GEOIDX_ERROR_CORRUPT);
@@ -58,7 +57,7 @@ TEST_CASE("byte images: another size or number than the raw size says is refused
         ContainerWriter writer(1);
         writer.add_encoded_images(DATA, Codec::ByteImages, given, raw_size);
         const Bytes file = writer.finish();
-        return status_of([&] { Container::parse(file, KNOWN).read_bytes(DATA, raw_size); });
+        return status_of([&] { Container::parse(file, IMAGE_TAGS).read_bytes(DATA, raw_size); });
     };
     const std::uint64_t size = 2 * BYTE_IMAGE_SIZE + 10;
     CHECK(status(images, size) == GEOIDX_OK);

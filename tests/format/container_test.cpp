@@ -15,9 +15,8 @@ using namespace geodesic::format::test;
 
 namespace {
 
-constexpr std::uint32_t DATA = make_tag("DATA");
 constexpr std::uint32_t MORE = make_tag("MORE");
-constexpr std::array KNOWN = {DATA, MORE};
+constexpr std::array TWO_TAGS = {DATA, MORE};
 constexpr std::uint64_t NO_LIMIT = 1 << 20;
 
 // A file with one section whose stored bytes, codec and raw size are as given.
@@ -30,7 +29,7 @@ Bytes file_with(const Bytes& stored, Codec codec, std::uint64_t raw_size) {
 }
 
 geoidx_status read_status(const Bytes& file, std::uint64_t max_raw_size, std::string* message = nullptr) {
-    return status_of([&] { Container::parse(file, KNOWN).read_bytes(DATA, max_raw_size); }, message);
+    return status_of([&] { Container::parse(file, TWO_TAGS).read_bytes(DATA, max_raw_size); }, message);
 }
 
 geoidx_status read_matrices_status(const Bytes& file, std::span<const std::pair<int, int>> shapes) {
@@ -41,7 +40,7 @@ geoidx_status read_matrices_status(const Bytes& file, std::span<const std::pair<
         targets.push_back({values[i], static_cast<std::uint32_t>(shapes[i].first),
                            static_cast<std::uint32_t>(shapes[i].second)});
     }
-    const Container container = Container::parse(file, KNOWN);
+    const Container container = Container::parse(file, TWO_TAGS);
     return status_of([&] { container.read_matrices(DATA, targets); });
 }
 
@@ -171,7 +170,7 @@ TEST_CASE("a tag cannot be written twice, nor more sections than allowed") {
     for (std::uint32_t tag = 1; tag < MAX_SECTIONS; ++tag) writer.add_raw(tag, {}, SECTION_OPTIONAL);
     CHECK(status_of([&] { writer.add_raw(MORE, {}); }) == GEOIDX_ERROR_LIMIT);
     const Bytes file = writer.finish();
-    CHECK(Container::parse(file, KNOWN).sections().size() == MAX_SECTIONS);
+    CHECK(Container::parse(file, TWO_TAGS).sections().size() == MAX_SECTIONS);
 }
 
 TEST_CASE("a missing section is refused by name") {
@@ -255,7 +254,7 @@ TEST_CASE("matrices are read from raw and zstd sections too") {
         std::vector<float> values(14);
         const std::vector<MatrixTarget> targets = {{std::span(values).first(8), 2, 4},
                                                    {std::span(values).subspan(8), 1, 6}};
-        Container::parse(file, KNOWN).read_matrices(DATA, targets);
+        Container::parse(file, TWO_TAGS).read_matrices(DATA, targets);
         CHECK(bits_of(values) == bits);
     }
 }
@@ -297,7 +296,7 @@ TEST_CASE("the lengths of the images in a section must add up") {
     trailing.push_back(std::byte{0});
     CHECK(status(trailing) == GEOIDX_ERROR_CORRUPT);
     CHECK(status(Bytes(3)) == GEOIDX_ERROR_CORRUPT);
-    const Container container = Container::parse(many = file_with(many, Codec::Png, 48), KNOWN);
+    const Container container = Container::parse(many = file_with(many, Codec::Png, 48), TWO_TAGS);
     CHECK(status_of([&] { container.png_streams(DATA, 0xFFFFFFFF); }) == GEOIDX_ERROR_CORRUPT);
 }
 
@@ -306,6 +305,6 @@ TEST_CASE("images are not bytes, and bytes are not images") {
     CHECK(read_status(images, NO_LIMIT) == GEOIDX_ERROR_CORRUPT);
     // The very bytes of a section without images, but stored as raw.
     const Bytes raw = file_with(png_section({}), Codec::Raw, 4);
-    const Container container = Container::parse(raw, KNOWN);
+    const Container container = Container::parse(raw, TWO_TAGS);
     CHECK(status_of([&] { container.png_streams(DATA, 0); }) == GEOIDX_ERROR_CORRUPT);
 }

@@ -12,11 +12,14 @@
 
 #include <xxhash.h>
 
+#include "format/container.h"
 #include "format/error.h"
 
 namespace geodesic::format::test {
 
 using Bytes = std::vector<std::byte>;
+
+inline constexpr std::uint32_t DATA = make_tag("DATA");
 
 // The status that `action` fails with, GEOIDX_OK when it does not. Any other exception ends the test.
 template <typename Action>

@@ -14,6 +14,7 @@
 #include "tests/capi/calls.h"
 #include "tests/capi/refusals.h"
 #include "tests/index/changed_section.h"
+#include "tests/index/forms.h"
 #include "tests/index/told_issues.h"
 #include "tests/support/sanitized.h"
 
@@ -52,18 +53,6 @@ void check_same_codes(const StoredIndex& a, const StoredIndex& b) {
     CHECK(a.overlay_codes == b.overlay_codes);
     CHECK(a.border_internal_codes == b.border_internal_codes);
     CHECK(a.internal_codes == b.internal_codes);
-}
-
-constexpr std::array CODECS{uint32_t{GEOIDX_CODEC_PACKED}, uint32_t{GEOIDX_CODEC_LOSSLESS},
-                            uint32_t{GEOIDX_CODEC_MAPPED}};
-
-void check_same_answers(const geoidx* a, const geoidx* b, uint32_t count) {
-    for (uint32_t source : {0u, count / 3, count - 1}) {
-        CHECK(msad(a, source, count) == msad(b, source, count));
-        CHECK(sssd(a, source, count / 2) == sssd(b, source, count / 2));
-    }
-    const std::vector<uint32_t> sources{0, count / 2, count - 1};
-    CHECK(msad(a, sources, count) == msad(b, sources, count));
 }
 
 // The packed file with the raw bytes of one section of tables changed.

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "tests/capi/counting_allocator.h"
+#include "tests/capi/refusals.h"
 #include "tests/format/helpers.h"
 #include "tests/index/taken_apart.h"
 #include "tests/index/told_issues.h"
@@ -17,8 +18,6 @@ using namespace geodesic::test;
 
 namespace {
 
-constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
-constexpr float INFINITE = std::numeric_limits<float>::infinity();
 constexpr uint32_t UNREACHABLE_NUMBER = UINT32_MAX;
 
 struct Original {

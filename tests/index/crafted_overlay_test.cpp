@@ -9,6 +9,7 @@
 #include "src/file/folded_triangle.h"
 #include "src/file/sections.h"
 #include "tests/capi/calls.h"
+#include "tests/capi/refusals.h"
 #include "tests/index/told_issues.h"
 #include "tests/support/copied_matrices.h"
 
@@ -17,11 +18,8 @@ using namespace geodesic::test;
 
 namespace {
 
-constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
-constexpr float INFINITE = std::numeric_limits<float>::infinity();
-
 // With one level: one overlay table, among all border vertices.
-const Bytes& original() {
+const Bytes& original_file() {
     static const Bytes file = [] {
         auto options = build_options(GEOIDX_METRIC_EXACT, 1);
         options.engine = GEOIDX_ENGINE_OVERLAY;
@@ -48,8 +46,8 @@ Bytes raw_bytes(const format::Container& container, uint32_t tag, uint32_t folde
 // The file with the raw form of one section changed, or left out where nothing is left of it. All other
 // sections are as they were.
 Bytes with(uint32_t changed, const Change& change) {
-    const auto container = format::Container::parse(original(), INDEX_TAGS);
-    const auto index = open(original());
+    const auto container = format::Container::parse(original_file(), INDEX_TAGS);
+    const auto index = open(original_file());
     const auto border_vertices = static_cast<uint32_t>(info_of(index.get()).border_vertex_count);
     format::ContainerWriter writer(container.mesh_fingerprint());
     for (const format::Section& section : container.sections()) {
@@ -58,7 +56,7 @@ Bytes with(uint32_t changed, const Change& change) {
             change(raw);
             if (!raw.empty()) writer.add_raw(changed, raw);
         } else if (section.codec == format::Codec::Png) {
-            copy_images(container, original(), section, writer);
+            copy_images(container, original_file(), section, writer);
         } else {
             writer.add_bytes(section.tag, container.read_bytes(section.tag, UINT64_MAX));
         }
@@ -99,7 +97,7 @@ TEST_CASE("crafted QUAN") {
 }
 
 TEST_CASE("crafted SEGM") {
-    const auto container = format::Container::parse(original(), INDEX_TAGS);
+    const auto container = format::Container::parse(original_file(), INDEX_TAGS);
     const size_t slots = raw_bytes(container, TAG_SEGMENTS, 0).size() / 8;
     const Bytes raw = raw_bytes(container, TAG_SEGMENTS, 0);
     const auto next = [&](size_t slot) {
@@ -131,7 +129,7 @@ TEST_CASE("crafted overlay: wrong content is told by the number of its section, 
     check_told(with(TAG_QUANTA, set(0, -1.0f)), 109, "QUAN");
     check_told(with(TAG_QUANTA, [](Bytes& raw) { raw.pop_back(); }), 109, "QUAN");
     check_told(with(TAG_QUANTA, [](Bytes& raw) { raw.push_back(std::byte{0}); }), 109, "QUAN");
-    const auto container = format::Container::parse(original(), INDEX_TAGS);
+    const auto container = format::Container::parse(original_file(), INDEX_TAGS);
     const size_t slots = raw_bytes(container, TAG_SEGMENTS, 0).size() / 8;
     check_told(with(TAG_SEGMENTS, set(slots, 0.0f)), 110, "SEGM");
     check_told(with(TAG_SEGMENTS, set(0, uint32_t{0})), 110, "SEGM"); // a segment to itself

@@ -11,8 +11,8 @@
 using namespace geodesic;
 using namespace geodesic::test;
 using file_campaign::FileContent;
-using file_campaign::INFINITE;
 using file_campaign::Matrix;
+using file_campaign::NO_PATH;
 
 namespace {
 
@@ -115,20 +115,20 @@ TEST_CASE("harmful file: patches with an empty border, which no path leaves") {
         for (uint32_t b = 0; b < vertices; ++b) {
             CAPTURE(a);
             CAPTURE(b);
-            CHECK((sssd(index.get(), a, b) < INFINITE) == (part_of[a] == part_of[b]));
-            CHECK((msad(index.get(), a, vertices)[b] < INFINITE) == (part_of[a] == part_of[b]));
+            CHECK((sssd(index.get(), a, b) < NO_PATH) == (part_of[a] == part_of[b]));
+            CHECK((msad(index.get(), a, vertices)[b] < NO_PATH) == (part_of[a] == part_of[b]));
         }
 }
 
 TEST_CASE("harmful file: a border of which one vertex is reached, beside an empty one") {
     const auto content = content_of(
-        2, 1, {{{}, 3}, {{0, 1}, 2}}, true, [](size_t, size_t row) { return row == 0 ? INFINITE : 16010.f; },
-        INFINITE);
+        2, 1, {{{}, 3}, {{0, 1}, 2}}, true, [](size_t, size_t row) { return row == 0 ? NO_PATH : 16010.f; },
+        NO_PATH);
     const auto index = opened(content);
     for (uint32_t alone : {2u, 3u, 4u})
         for (uint32_t other : {0u, 1u, 5u, 6u}) {
-            CHECK(sssd(index.get(), alone, other) == INFINITE);
-            CHECK(sssd(index.get(), 0, other) == (other == 0 ? 0 : INFINITE));
+            CHECK(sssd(index.get(), alone, other) == NO_PATH);
+            CHECK(sssd(index.get(), 0, other) == (other == 0 ? 0 : NO_PATH));
         }
     CHECK(sssd(index.get(), 1, 5) == 16010);
     CHECK(sssd(index.get(), 5, 6) == 1);
@@ -138,18 +138,18 @@ TEST_CASE("harmful file: a vertex that the border around it cannot be reached fr
     // The first pair's way crosses late on a long border, the second one's border has one vertex.
     const std::vector<Leaf> leaves{{first_numbers(300), 1}, {{0}, 1}, {{0, 299}, 1}};
     const auto content =
-        content_of(300, 1, leaves, true, [](size_t leaf, size_t) { return leaf == 1 ? INFINITE : 0.f; });
+        content_of(300, 1, leaves, true, [](size_t leaf, size_t) { return leaf == 1 ? NO_PATH : 0.f; });
     const auto index = opened(content);
     const auto query = query_of(index.get());
     const uint32_t reached = 300, unreached = 301, other = 302;
     for (int turn = 0; turn < 3; ++turn) {
         float distance = -1;
         require_success(geoidx_query_sssd(query.get(), reached, other, &distance));
-        CHECK(distance < INFINITE);
+        CHECK(distance < NO_PATH);
         require_success(geoidx_query_sssd(query.get(), unreached, other, &distance));
-        CHECK(distance == INFINITE);
+        CHECK(distance == NO_PATH);
         require_success(geoidx_query_sssd(query.get(), reached, unreached, &distance));
-        CHECK(distance == INFINITE);
+        CHECK(distance == NO_PATH);
     }
 }
 
@@ -169,12 +169,12 @@ TEST_CASE("harmful file: a long border around many vertices gives no labels to i
     options.max_memory = uint64_t{64} << 20;
     geoidx* index = nullptr;
     require_success(geoidx_open_memory(file.data(), file.size(), &options, &index));
-    CHECK(sssd(IndexHandle(index).get(), 400, 401) == INFINITE);
+    CHECK(sssd(IndexHandle(index).get(), 400, 401) == NO_PATH);
 }
 
 TEST_CASE("harmful file: labels in proportion are fine, however few the tables") {
     std::vector<Leaf> leaves(3000, {{}, 1});
     leaves[0] = {first_numbers(10), 0};
     const auto content = content_of(10, 3, leaves, true, [](size_t, size_t) { return 1.f; });
-    CHECK(sssd(opened(content).get(), 10, 11) == INFINITE);
+    CHECK(sssd(opened(content).get(), 10, 11) == NO_PATH);
 }

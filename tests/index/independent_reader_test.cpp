@@ -19,7 +19,7 @@ using namespace geodesic::test;
 
 namespace {
 
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
+constexpr double UNREACHED = std::numeric_limits<double>::infinity();
 constexpr uint32_t UNUSED = 0xFFFFFFFF;
 
 // ---- Conventions, header, section table, codecs
@@ -395,7 +395,7 @@ struct IndependentIndex {
                     arcs[table->rows[i]].push_back({table->cols[j], length});
                     arcs[table->cols[j]].push_back({table->rows[i], length});
                 }
-        std::vector<double> distance(arcs.size(), INFINITE);
+        std::vector<double> distance(arcs.size(), UNREACHED);
         std::priority_queue<std::pair<double, uint32_t>> queue; // of negative distances
         distance[source] = 0;
         queue.push({0, source});
@@ -481,7 +481,7 @@ TEST_CASE("independent reader: what the file says of mesh and options") {
             CHECK(index.level_begin[l + 1] - index.level_begin[l] == info.patch_count[l - 1]);
         CHECK(index.position_step > 0);
         for (size_t k = 0; k < 3; ++k) {
-            double least = INFINITE;
+            double least = UNREACHED;
             for (const uint32_t id : written.mesh.triangles)
                 least = std::min(least, written.mesh.positions[3 * id + k]);
             CHECK(index.position_origin[k] == least);
@@ -542,8 +542,7 @@ TEST_CASE("independent reader: SSSD and MSAD agree with the library") {
                 const uint32_t to = index.number_of_id[b];
                 const float answer = sssd(handle.get(), a, b);
                 if (from == UNUSED || to == UNUSED) {
-                    wrong +=
-                        double{answer} != (a == b ? 0 : INFINITE) || double{answers[b]} != double{answer};
+                    wrong += double{answer} != (a == b ? 0 : UNREACHED) || double{answers[b]} != double{answer};
                     continue;
                 }
                 // MSAD uses some tables only, of the edge metric without loss.
@@ -558,7 +557,7 @@ TEST_CASE("independent reader: SSSD and MSAD agree with the library") {
                 } else if (searched < 40) {
                     const double expected = index.shortest(from, index.allowed_tables(from, to))[to];
                     wrong += !close(double{answer}, expected);
-                    searched += expected < INFINITE;
+                    searched += expected < UNREACHED;
                 }
             }
         }

@@ -12,6 +12,7 @@
 #include "tests/capi/counting_allocator.h"
 #include "tests/capi/refusals.h"
 #include "tests/index/changed_section.h"
+#include "tests/index/forms.h"
 #include "tests/index/told_issues.h"
 #include "tests/support/temporary_directory.h"
 
@@ -19,10 +20,6 @@ using namespace geodesic;
 using namespace geodesic::test;
 
 namespace {
-
-constexpr std::array CODECS{uint32_t{GEOIDX_CODEC_PACKED}, uint32_t{GEOIDX_CODEC_LOSSLESS},
-                            uint32_t{GEOIDX_CODEC_MAPPED}};
-constexpr std::array ENGINES{uint32_t{GEOIDX_ENGINE_GRAPH}, uint32_t{GEOIDX_ENGINE_OVERLAY}};
 
 geoidx_build_options keeping_options(uint32_t engine = GEOIDX_ENGINE_OVERLAY, double weld_tolerance = 0) {
     auto options = build_options(GEOIDX_METRIC_EXACT, 2);

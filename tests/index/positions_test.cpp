@@ -13,6 +13,7 @@
 #include "tests/capi/calls.h"
 #include "tests/capi/refusals.h"
 #include "tests/index/changed_section.h"
+#include "tests/index/forms.h"
 #include "tests/index/taken_apart.h"
 #include "tests/index/told_issues.h"
 #include "tests/support/temporary_directory.h"
@@ -23,21 +24,11 @@ using namespace geodesic::test;
 namespace {
 
 constexpr uint32_t NONE_LEFT_OUT = 0, NO_POSITIONS = GEOIDX_SAVE_NO_POSITIONS;
-constexpr std::array CODECS{uint32_t{GEOIDX_CODEC_PACKED}, uint32_t{GEOIDX_CODEC_LOSSLESS},
-                            uint32_t{GEOIDX_CODEC_MAPPED}};
-constexpr std::array ENGINES{uint32_t{GEOIDX_ENGINE_GRAPH}, uint32_t{GEOIDX_ENGINE_OVERLAY}};
 
-geoidx_build_options options_of(uint32_t engine) {
+geoidx_build_options exact_options(uint32_t engine) {
     auto options = build_options(GEOIDX_METRIC_EXACT, 2);
     options.engine = engine;
     return options;
-}
-
-void check_same_answers(const geoidx* a, const geoidx* b, uint32_t count) {
-    for (uint32_t source : {0u, count / 3, count - 1}) {
-        CHECK(msad(a, source, count) == msad(b, source, count));
-        CHECK(sssd(a, source, count / 2) == sssd(b, source, count / 2));
-    }
 }
 
 // Leaves positions out and takes them from the mesh again, in each form.
@@ -62,13 +53,13 @@ void check_round_trip(const geoidx* built, const TestMesh& mesh) {
 }
 
 // A small index of the graph engine, whose file can be taken apart, and one of the overlay engine.
-const TestMesh& small_mesh() {
+const TestMesh& small_hills() {
     static const TestMesh mesh = hills(9, 8);
     return mesh;
 }
 
 Bytes small_file(uint32_t engine, uint32_t flags) {
-    return save(build(small_mesh(), options_of(engine)).get(), GEOIDX_CODEC_PACKED, flags);
+    return save(build(small_hills(), exact_options(engine)).get(), GEOIDX_CODEC_PACKED, flags);
 }
 
 // So many entries that they are rounded, in two parts.
@@ -81,19 +72,19 @@ const TestMesh& rounded_mesh() {
     return mesh;
 }
 
-const geoidx* rounded() {
+const geoidx* rounded_index() {
     static const IndexHandle index = [] {
-        auto options = options_of(GEOIDX_ENGINE_OVERLAY);
+        auto options = exact_options(GEOIDX_ENGINE_OVERLAY);
         options.level_count = 0;
         return build(rounded_mesh(), options);
     }();
     return index.get();
 }
 
-geoidx_status status_with_mesh(const Bytes& file) { return open_status(file, small_mesh().view()); }
+geoidx_status status_with_mesh(const Bytes& file) { return open_status(file, small_hills().view()); }
 
 // The small file without positions, with something else changed.
-Bytes with(const std::function<void(TakenApart&)>& change) {
+Bytes with_changes(const std::function<void(TakenApart&)>& change) {
     static const Bytes file = small_file(GEOIDX_ENGINE_GRAPH, NO_POSITIONS);
     TakenApart parts = take_apart(file);
     take_tables_apart(file, parts);
@@ -104,7 +95,7 @@ Bytes with(const std::function<void(TakenApart&)>& change) {
 
 // Opening and verifying find the same.
 void check_corrupt(uint32_t number, const char* tag, const std::function<void(TakenApart&)>& change) {
-    const Bytes file = with(change);
+    const Bytes file = with_changes(change);
     CHECK(status_with_mesh(file) == GEOIDX_ERROR_CORRUPT);
     check_told(file, number, tag);
 }
@@ -129,22 +120,22 @@ TEST_CASE("no positions: an index is the same again, by both engines and in each
         for (uint32_t engine : ENGINES) {
             CAPTURE(of.name);
             CAPTURE(engine);
-            check_round_trip(build(of.mesh, options_of(engine)).get(), of.mesh);
+            check_round_trip(build(of.mesh, exact_options(engine)).get(), of.mesh);
         }
 }
 
 TEST_CASE("no positions: an index whose tables are rounded, of two parts, is the same again") {
-    REQUIRE(info_of(rounded()).table_entries >= 65536);
-    check_round_trip(rounded(), rounded_mesh());
+    REQUIRE(info_of(rounded_index()).table_entries >= 65536);
+    check_round_trip(rounded_index(), rounded_mesh());
 }
 
 TEST_CASE("no positions: the section has 36 bytes and the added vertices, and the file is as much shorter") {
-    const auto built = build(small_mesh(), options_of(GEOIDX_ENGINE_OVERLAY));
+    const auto built = build(small_hills(), exact_options(GEOIDX_ENGINE_OVERLAY));
     const uint64_t added = info_of(built.get()).added_vertex_count;
     CHECK(added > 0);
     std::map<std::string, uint64_t> sizes[2];
     for (uint32_t flags : {NONE_LEFT_OUT, NO_POSITIONS}) {
-        const auto opened = open(save(built.get(), GEOIDX_CODEC_PACKED, flags), small_mesh());
+        const auto opened = open(save(built.get(), GEOIDX_CODEC_PACKED, flags), small_hills());
         geoidx_section sections[11]; // with measured pairs
         uint32_t count = 0;
         require_success(geoidx_get_sections(opened.get(), sections, 11, &count));
@@ -152,7 +143,7 @@ TEST_CASE("no positions: the section has 36 bytes and the added vertices, and th
         for (const geoidx_section& section : sections) sizes[flags][section.tag] = section.raw_size;
     }
     CHECK(sizes[NO_POSITIONS]["POSI"] == 36 + 12 * added);
-    CHECK(sizes[NONE_LEFT_OUT]["POSI"] == 36 + 12 * (small_mesh().vertex_count() + added));
+    CHECK(sizes[NONE_LEFT_OUT]["POSI"] == 36 + 12 * (small_hills().vertex_count() + added));
     for (const auto& [tag, size] : sizes[0])
         if (tag != "POSI") CHECK(sizes[NO_POSITIONS][tag] == size);
 }
@@ -165,7 +156,7 @@ TEST_CASE("no positions: welded vertices are where the first of them is") {
             mesh.positions[3 * size_t{copy}] += apart;
         mesh.add_vertex(mesh.positions[0], mesh.positions[1] + apart, 0); // used by no triangle
         for (uint32_t engine : ENGINES) {
-            auto options = options_of(engine);
+            auto options = exact_options(engine);
             options.weld_tolerance = 0.06;
             const auto built = build(mesh, options);
             REQUIRE(info_of(built.get()).welded_vertex_count == 15 * 11);
@@ -187,7 +178,7 @@ TEST_CASE("no positions: an unused vertex may have the lowest id of a vertex") {
     TestMesh mesh;
     mesh.add_vertex(0.01, 0, 0); // welded to the corner of the grid
     append(mesh, grid(9, 8, 0.2), 0);
-    auto options = options_of(GEOIDX_ENGINE_OVERLAY);
+    auto options = exact_options(GEOIDX_ENGINE_OVERLAY);
     options.weld_tolerance = 0.02;
     check_round_trip(build(mesh, options).get(), mesh);
 }
@@ -199,7 +190,7 @@ TEST_CASE("no positions: those of the mesh must have the precision that the inde
     const TestMesh widened{{floats.positions.begin(), floats.positions.end()}, mesh.triangles};
     const auto bare = [](const geoidx_mesh& built) {
         geoidx* index = nullptr;
-        const auto options = options_of(GEOIDX_ENGINE_OVERLAY);
+        const auto options = exact_options(GEOIDX_ENGINE_OVERLAY);
         require_success(geoidx_build(&built, &options, &index));
         return save(IndexHandle(index).get(), GEOIDX_CODEC_PACKED, NO_POSITIONS);
     };
@@ -216,7 +207,7 @@ TEST_CASE("no positions: without the mesh there is no index, and it is said why"
     const TemporaryDirectory directory;
     for (uint32_t engine : ENGINES)
         for (uint32_t codec : CODECS) {
-            const auto built = build(small_mesh(), options_of(engine));
+            const auto built = build(small_hills(), exact_options(engine));
             const Bytes file = save(built.get(), codec, NO_POSITIONS);
             check_refused(open_status(file), GEOIDX_ERROR_INVALID_ARGUMENT, "no positions");
             CHECK(last_error_contains("expected_mesh"));
@@ -230,7 +221,7 @@ TEST_CASE("no positions: without the mesh there is no index, and it is said why"
             check_refused(geoidx_open(path.c_str(), nullptr, &index), GEOIDX_ERROR_INVALID_ARGUMENT,
                           "expected_mesh");
             CHECK(index == nullptr);
-            const geoidx_mesh view = small_mesh().view();
+            const geoidx_mesh view = small_hills().view();
             const auto expected = expecting(view);
             require_success(geoidx_open(path.c_str(), &expected, &index));
             CHECK(save(IndexHandle(index).get(), codec) == save(built.get(), codec));
@@ -239,24 +230,24 @@ TEST_CASE("no positions: without the mesh there is no index, and it is said why"
 
 TEST_CASE("no positions: another mesh is refused before anything is taken from it") {
     const Bytes file = small_file(GEOIDX_ENGINE_OVERLAY, NO_POSITIONS);
-    TestMesh other = small_mesh();
+    TestMesh other = small_hills();
     const float moved = std::nextafter(static_cast<float>(other.positions[31]), 100.0f);
     other.positions[31] = double{moved};
     CHECK(open_status(file, other.view()) == GEOIDX_ERROR_MESH_MISMATCH);
-    other = small_mesh();
+    other = small_hills();
     std::swap(other.triangles[0], other.triangles[1]);
     CHECK(open_status(file, other.view()) == GEOIDX_ERROR_MESH_MISMATCH);
     CHECK(open_status(file, one_triangle().view()) == GEOIDX_ERROR_MESH_MISMATCH);
-    other = small_mesh();
+    other = small_hills();
     other.positions[0] = std::numeric_limits<double>::quiet_NaN();
     CHECK(open_status(file, other.view()) == GEOIDX_ERROR_BAD_MESH);
-    geoidx_mesh empty = small_mesh().view();
+    geoidx_mesh empty = small_hills().view();
     empty.positions = nullptr;
     CHECK(open_status(file, empty) == GEOIDX_ERROR_INVALID_ARGUMENT);
 }
 
 TEST_CASE("no positions: flags of saving are checked, and a shorter struct has none") {
-    const auto built = build(small_mesh(), options_of(GEOIDX_ENGINE_OVERLAY));
+    const auto built = build(small_hills(), exact_options(GEOIDX_ENGINE_OVERLAY));
     geoidx_save_options options;
     geoidx_save_options_init(&options);
     CHECK(options.flags == 0);
@@ -274,8 +265,8 @@ TEST_CASE("no positions: flags of saving are checked, and a shorter struct has n
 }
 
 TEST_CASE("no positions: what contradicts the format is refused with the mesh, and by verify") {
-    REQUIRE(with([](TakenApart&) {}) == small_file(GEOIDX_ENGINE_GRAPH, NO_POSITIONS));
-    const uint32_t vertices = small_mesh().vertex_count();
+    REQUIRE(with_changes([](TakenApart&) {}) == small_file(GEOIDX_ENGINE_GRAPH, NO_POSITIONS));
+    const uint32_t vertices = small_hills().vertex_count();
     for (float step : {0.f, -1.f, std::numeric_limits<float>::infinity()})
         check_corrupt(104, "POSI", [&](TakenApart& parts) { parts.position_step = step; });
     check_corrupt(104, "POSI", [](TakenApart& parts) { parts.position_origin[1] = NOT_A_NUMBER; });
@@ -300,14 +291,14 @@ TEST_CASE("no positions: a checksum, step or origin that is not the mesh's is to
              [](TakenApart& parts) { parts.position_origin[2] += 1; },
              [](TakenApart& parts) { parts.position_origin[0] = -1e308; },
              [](TakenApart& parts) { std::swap(parts.number_of_id[0], parts.number_of_id[9]); }}) {
-        const Bytes file = with(change);
+        const Bytes file = with_changes(change);
         CHECK(status_with_mesh(file) == GEOIDX_ERROR_MESH_MISMATCH);
         CHECK(told_issues(file).empty());
     }
 }
 
 TEST_CASE("no positions: verify sees the sizes of packed tables, but not every entry") {
-    const Bytes file = save(rounded(), GEOIDX_CODEC_PACKED, NO_POSITIONS);
+    const Bytes file = save(rounded_index(), GEOIDX_CODEC_PACKED, NO_POSITIONS);
     const geoidx_mesh view = rounded_mesh().view();
     const auto changed = [&](const std::function<void(Bytes&)>& change) {
         return with_changed_section(file, TAG_INTERNAL_TABLES, change);

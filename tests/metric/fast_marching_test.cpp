@@ -14,7 +14,7 @@ using namespace geodesic::test;
 
 namespace {
 
-std::vector<Soup> kinds() {
+std::vector<Soup> kinds_to_march() {
     return {jittered_grid(16, 1), bumpy_sphere(3, 1), torus(40, 24, 2, 0.8), prism(12, 20, 6),
             moebius(40, 6),       annulus(30, 6),     pinched_sheets(6)};
 }
@@ -26,7 +26,7 @@ std::unique_ptr<FieldSolver> marching_over(const Mesh& mesh) {
 }
 
 TEST_CASE("fast marching: some percent from the exact distance, and never longer than along edges") {
-    for (const Soup& soup : kinds()) {
+    for (const Soup& soup : kinds_to_march()) {
         const Mesh mesh = mesh_of(soup);
         const auto lengths = edge_lengths(mesh);
         const auto solver = marching_over(mesh);
@@ -51,7 +51,7 @@ TEST_CASE("fast marching: some percent from the exact distance, and never longer
 }
 
 TEST_CASE("fast marching: the nearest of several sources") {
-    for (const Soup& soup : kinds()) {
+    for (const Soup& soup : kinds_to_march()) {
         const Mesh mesh = mesh_of(soup);
         const std::vector<uint32_t> sources{0, mesh.vertex_count() / 3, mesh.vertex_count() - 1};
         const auto solver = marching_over(mesh);

@@ -27,16 +27,16 @@ struct Labelled {
     const OverlayIndex& overlay() const { return built.overlay(); }
 };
 
-geoidx_build_options options_of(uint32_t metric, std::vector<uint32_t> patches) {
+geoidx_build_options options_of_labelled(uint32_t metric, std::vector<uint32_t> patches) {
     auto options = build_options(metric, static_cast<uint32_t>(patches.size()));
     std::ranges::copy(patches, options.patches);
     return options;
 }
 
-const std::list<Labelled>& along_edges() {
+const std::list<Labelled>& labelled_along_edges() {
     static const std::list<Labelled> built = [] {
         std::list<Labelled> made;
-        made.emplace_back(hills(24, 22), options_of(GEOIDX_METRIC_EDGES, {3, 3, 3}));
+        made.emplace_back(hills(24, 22), options_of_labelled(GEOIDX_METRIC_EDGES, {3, 3, 3}));
         return made;
     }();
     return built;
@@ -104,7 +104,7 @@ uint64_t for_each_label(const Labelled& made, const Check& check) {
 }
 
 TEST_CASE("labels: along edges they are the metric's distances, within the steps of the tables") {
-    for (const Labelled& made : along_edges()) {
+    for (const Labelled& made : labelled_along_edges()) {
         const auto metric = solver(made.mesh, made.options);
         std::vector<double> distances;
         uint32_t source = NONE;
@@ -122,7 +122,7 @@ TEST_CASE("labels: along edges they are the metric's distances, within the steps
 }
 
 TEST_CASE("labels: along edges they are those of MSAD from the border vertex, within the steps") {
-    for (const Labelled& made : along_edges()) {
+    for (const Labelled& made : labelled_along_edges()) {
         Query query(made.built.index, std::pmr::get_default_resource());
         std::vector<float> distances(made.mesh.vertex_count());
         uint32_t source = NONE;
@@ -181,14 +181,14 @@ TEST_CASE("labels: none where there is one level, and where borders are too long
 TEST_CASE("labels: separate parts, whose borders are empty, have labels to the borders inside") {
     TestMesh mesh = hills(20, 18);
     append(mesh, hills(20, 18), 100);
-    const Labelled made(mesh, options_of(GEOIDX_METRIC_EDGES, {1, 3, 2}));
+    const Labelled made(mesh, options_of_labelled(GEOIDX_METRIC_EDGES, {1, 3, 2}));
     const OverlayIndex& index = made.overlay();
     for (uint32_t p = 1; p < index.numbering.level_begin[2]; ++p) CHECK(index.rings.size(p) == 0);
     CHECK(count_label_codes(index) > 0);
 }
 
 TEST_CASE("labels: to a border that no vertex inside reaches there is no distance") {
-    const OverlayOf made(hills(20, 18), options_of(GEOIDX_METRIC_EDGES, {3, 2}));
+    const OverlayOf made(hills(20, 18), options_of_labelled(GEOIDX_METRIC_EDGES, {3, 2}));
     StoredIndex stored = restore(made.index);
     std::ranges::fill(stored.border_internal_codes, TableCode::UNREACHED);
     const OverlayOf cut(stored);
@@ -328,7 +328,7 @@ TEST_CASE("labels: where distances are few segments long, rows have two bytes a 
 TEST_CASE("labels: to a border that cannot be reached there is no distance") {
     TestMesh mesh = hills(20, 18);
     append(mesh, hills(20, 18), 100);
-    const Labelled made(mesh, options_of(GEOIDX_METRIC_EDGES, {3, 3, 2}));
+    const Labelled made(mesh, options_of_labelled(GEOIDX_METRIC_EDGES, {3, 3, 2}));
     const auto metric = solver(mesh, made.options);
     uint64_t wrong = 0;
     for_each_label(made, [&](uint32_t border, uint32_t inner, double label, double) {

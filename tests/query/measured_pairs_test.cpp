@@ -5,20 +5,17 @@
 #include <cstring>
 #include <limits>
 
+#include "src/base/numbers.h"
 #include "tests/index/told_issues.h"
 #include "tests/query/planted_pairs.h"
 
 using namespace geodesic::test;
+using geodesic::INFINITE;
 using geodesic::TAG_MEASURED_PAIRS;
 using geodesic::TAG_STEEP_EDGES;
 namespace format = geodesic::format;
 
 namespace {
-
-constexpr float FAR = std::numeric_limits<float>::infinity();
-constexpr uint32_t SIDE = 40;
-
-uint32_t at(uint32_t x, uint32_t y) { return x + y * SIDE; }
 
 const TestMesh& mesh() {
     static const TestMesh made = hills(SIDE, SIDE);
@@ -57,12 +54,12 @@ Bytes section_of(std::span<const Planted> pairs) {
     return writer.take();
 }
 
-Bytes with_section(const Bytes& section) {
+Bytes with_pairs(const Bytes& section) {
     return geodesic::test::with_section(plain_file(), TAG_MEASURED_PAIRS, section);
 }
 
 const Bytes& file_with_pairs() {
-    static const Bytes file = with_section(section_of(planted()));
+    static const Bytes file = with_pairs(section_of(planted()));
     return file;
 }
 
@@ -176,7 +173,7 @@ TEST_CASE("measured pairs: they are within a radius by what was measured") {
     const uint32_t count = mesh().vertex_count();
     for (const auto& [a, b, distance] : planted())
         for (const float share : {0.999f, 1.0f, 1.001f, 4.0f}) {
-            const float radius = share * distance, expected = share < 1 ? FAR : distance;
+            const float radius = share * distance, expected = share < 1 ? INFINITE : distance;
             CHECK(distance_within(query.get(), {&a, 1}, radius, b) == expected);
             std::vector<float> field(count);
             require_success(geoidx_query_msad_within(query.get(), &a, 1, radius, field.data(), count));
@@ -200,25 +197,25 @@ TEST_CASE("measured pairs: several sources have the least of what each of them h
             for (const float share : {0.9f, 1.1f}) {
                 require_success(
                     geoidx_query_msad_within(query.get(), sources, 2, share * least, field.data(), count));
-                CHECK(field[b] == (share < 1 ? FAR : least));
+                CHECK(field[b] == (share < 1 ? INFINITE : least));
             }
         }
         require_success(
             geoidx_query_nearest_sources(query.get(), sources, 2, nearest.data(), field.data(), count));
         CHECK(field[b] == least);
         CHECK(nearest[b] == (distance < other ? 1 : 0));
-        CHECK(distance_within(query.get(), sources, FAR, b) == least);
+        CHECK(distance_within(query.get(), sources, INFINITE, b) == least);
     }
 }
 
 TEST_CASE("measured pairs: a section that breaks a rule is refused") {
     constexpr size_t BEGIN = 20; // of the pairs
     const Bytes good = section_of(planted());
-    REQUIRE(open_status(with_section(good)) == GEOIDX_OK);
-    REQUIRE(open_status(with_section(Bytes(BEGIN))) == GEOIDX_OK); // no pair at all
+    REQUIRE(open_status(with_pairs(good)) == GEOIDX_OK);
+    REQUIRE(open_status(with_pairs(Bytes(BEGIN))) == GEOIDX_OK); // no pair at all
     const auto refused = [&](const char* what, size_t plane, size_t pair, uint32_t value) {
         CAPTURE(what);
-        const Bytes file = with_section(with_value(good, BEGIN, plane, pair, value));
+        const Bytes file = with_pairs(with_value(good, BEGIN, plane, pair, value));
         CHECK(open_status(file) == GEOIDX_ERROR_CORRUPT);
         check_told(file, GEOIDX_ISSUE_PAIR, "PAIR");
     };
@@ -226,18 +223,18 @@ TEST_CASE("measured pairs: a section that breaks a rule is refused") {
     refused("a second vertex that is not there", 1, 0, 1 << 20);
     refused("a first vertex that is not there", 0, 1, UINT32_MAX - 5);
     refused("descending order", 0, 1, UINT32_MAX);
-    for (const float distance : {0.0f, -1.0f, FAR, std::numeric_limits<float>::quiet_NaN()})
+    for (const float distance : {0.0f, -1.0f, INFINITE, std::numeric_limits<float>::quiet_NaN()})
         refused("distance", 2, 2, std::bit_cast<uint32_t>(distance));
     const std::vector<Planted> twice{planted()[0], planted()[0]};
-    CHECK(open_status(with_section(section_of(twice))) == GEOIDX_ERROR_CORRUPT);
-    for (const float error : {-1.0f, FAR, std::numeric_limits<float>::quiet_NaN()}) {
+    CHECK(open_status(with_pairs(section_of(twice))) == GEOIDX_ERROR_CORRUPT);
+    for (const float error : {-1.0f, INFINITE, std::numeric_limits<float>::quiet_NaN()}) {
         Bytes section = good;
         std::memcpy(section.data() + 8, &error, sizeof error);
-        CHECK(open_status(with_section(section)) == GEOIDX_ERROR_CORRUPT);
+        CHECK(open_status(with_pairs(section)) == GEOIDX_ERROR_CORRUPT);
     }
     Bytes longer = good, shorter = good;
     longer.push_back(std::byte{0});
     shorter.pop_back();
     for (const Bytes& section : {longer, shorter, Bytes(BEGIN - 1)})
-        CHECK(open_status(with_section(section)) == GEOIDX_ERROR_CORRUPT);
+        CHECK(open_status(with_pairs(section)) == GEOIDX_ERROR_CORRUPT);
 }

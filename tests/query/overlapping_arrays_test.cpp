@@ -13,7 +13,7 @@ namespace {
 
 using Ids = std::vector<uint32_t>;
 
-constexpr uint32_t SOURCES = 20; // more than what the overlay engine sweeps together
+constexpr uint32_t MANY_SOURCES = 20; // more than what the overlay engine sweeps together
 
 // Room for distances, of which the first words are ids, and sentinels around it.
 class SharedArray {
@@ -113,12 +113,12 @@ void check_overlaps(const TestMesh& mesh, uint32_t engine, uint32_t first) {
     const QueryHandle query = query_of(index.get());
     const uint32_t count = mesh.vertex_count();
     Ids ids;
-    for (uint32_t i = 0; i < SOURCES; ++i) ids.push_back((first + i * 7) % count);
+    for (uint32_t i = 0; i < MANY_SOURCES; ++i) ids.push_back((first + i * 7) % count);
     ask_with_overlaps(index.get(), query.get(), ids, count);
 
     Ids nearest(count);
     std::vector<float> distances(count);
-    require_success(geoidx_query_nearest_sources(query.get(), ids.data(), SOURCES, nearest.data(),
+    require_success(geoidx_query_nearest_sources(query.get(), ids.data(), MANY_SOURCES, nearest.data(),
                                                  distances.data(), count));
     CHECK(distances == msad(index.get(), ids, count));
     Ids positions(count);

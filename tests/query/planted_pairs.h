@@ -13,6 +13,11 @@
 
 namespace geodesic::test {
 
+// Vertices of hills of so many rows and columns.
+inline constexpr uint32_t SIDE = 40;
+
+inline uint32_t at(uint32_t x, uint32_t y) { return x + y * SIDE; }
+
 // Two vertices of the caller's and a distance of theirs, to be put into a file by a test.
 struct Planted {
     uint32_t a, b;

@@ -2,21 +2,20 @@
 // rendering of the rule in format/SPEC.md.
 #include <limits>
 
+#include "src/base/numbers.h"
 #include "tests/index/told_issues.h"
 #include "tests/query/planted_pairs.h"
 
 using namespace geodesic::test;
+using geodesic::INFINITE;
 using geodesic::TAG_MEASURED_PAIRS;
 using geodesic::TAG_STEEP_EDGES;
 namespace format = geodesic::format;
 
 namespace {
 
-constexpr float FAR = std::numeric_limits<float>::infinity();
-constexpr uint32_t SIDE = 40;
-
 // Two sheets, so that some vertices are in no reach of a source.
-const TestMesh& mesh() {
+const TestMesh& two_sheets() {
     static const TestMesh made = [] {
         TestMesh both = hills(SIDE, SIDE);
         append(both, hills(7, 6), 2 * SIDE);
@@ -25,17 +24,16 @@ const TestMesh& mesh() {
     return made;
 }
 
-uint32_t at(uint32_t x, uint32_t y) { return x + y * SIDE; }
-
-const Bytes& plain_file() {
-    static const Bytes file = without_section(save(build(mesh(), default_options()).get()), TAG_STEEP_EDGES);
+const Bytes& file_without_edges() {
+    static const Bytes file =
+        without_section(save(build(two_sheets(), default_options()).get()), TAG_STEEP_EDGES);
     return file;
 }
 
 // Edges all over the mesh, and a chain of them, along which most fields change by more than they say.
-const std::vector<Planted>& planted() {
+const std::vector<Planted>& steep_planted() {
     static const std::vector<Planted> edges = [] {
-        std::vector<Planted> made = planted_edges(mesh(), 23);
+        std::vector<Planted> made = planted_edges(two_sheets(), 23);
         for (uint32_t x = 0; x < 12; ++x) made.push_back({at(x, 20), at(x + 1, 20), 0.5f});
         const auto ends = [](const Planted& edge) { return std::pair(edge.a, edge.b); };
         std::ranges::stable_sort(made, {}, ends);
@@ -46,12 +44,13 @@ const std::vector<Planted>& planted() {
     return edges;
 }
 
-Bytes section_of(std::span<const Planted> edges) {
-    return steep_section(edges, numbers_of_ids(plain_file(), mesh().vertex_count()));
+Bytes steep_section_of(std::span<const Planted> edges) {
+    return steep_section(edges, numbers_of_ids(file_without_edges(), two_sheets().vertex_count()));
 }
 
 const Bytes& file_with_edges() {
-    static const Bytes file = with_section(plain_file(), TAG_STEEP_EDGES, section_of(planted()));
+    static const Bytes file =
+        with_section(file_without_edges(), TAG_STEEP_EDGES, steep_section_of(steep_planted()));
     return file;
 }
 
@@ -64,7 +63,7 @@ struct Field {
 void lower(Field& field) {
     for (bool is_lowered = true; is_lowered;) {
         is_lowered = false;
-        for (const auto& [a, b, most] : planted())
+        for (const auto& [a, b, most] : steep_planted())
             for (const auto& [from, to] : {std::pair{a, b}, {b, a}})
                 if (const float way = field.distance[from] + most; way < field.distance[to]) {
                     field.distance[to] = way;
@@ -82,22 +81,22 @@ std::vector<float> lowered(std::vector<float> distance) {
 
 std::vector<float> within(std::vector<float> field, float radius) {
     for (float& distance : field)
-        if (distance > radius) distance = FAR;
+        if (distance > radius) distance = INFINITE;
     return field;
 }
 
 std::vector<uint32_t> some_sources() {
     std::vector<uint32_t> sources;
-    for (uint32_t v = 3; v < mesh().vertex_count(); v += 97) sources.push_back(v);
-    sources.push_back(mesh().vertex_count() - 1); // on the other sheet
+    for (uint32_t v = 3; v < two_sheets().vertex_count(); v += 97) sources.push_back(v);
+    sources.push_back(two_sheets().vertex_count() - 1); // on the other sheet
     return sources;
 }
 
 }
 
 TEST_CASE("steep edges: fields are lowered along them, from every form of file") {
-    const auto plain = open(plain_file());
-    const uint32_t count = mesh().vertex_count();
+    const auto plain = open(file_without_edges());
+    const uint32_t count = two_sheets().vertex_count();
     std::vector<std::vector<float>> expected;
     for (const uint32_t source : some_sources()) {
         const auto before = msad(plain.get(), source, count);
@@ -119,7 +118,7 @@ TEST_CASE("steep edges: fields are lowered along them, from every form of file")
 TEST_CASE("steep edges: a batch has the bits of single fields") {
     const auto index = open(file_with_edges());
     const auto query = query_of(index.get());
-    const uint32_t count = mesh().vertex_count();
+    const uint32_t count = two_sheets().vertex_count();
     const auto sources = some_sources();
     REQUIRE(sources.size() > 16);
     std::vector<float> batch(sources.size() * count);
@@ -134,10 +133,10 @@ TEST_CASE("steep edges: a batch has the bits of single fields") {
 TEST_CASE("steep edges: within a radius are the bits of a whole field") {
     const auto index = open(file_with_edges());
     const auto query = query_of(index.get());
-    const uint32_t count = mesh().vertex_count();
+    const uint32_t count = two_sheets().vertex_count();
     for (const uint32_t source : some_sources()) {
         const auto field = msad(index.get(), source, count);
-        for (const float radius : {0.0f, 1.5f, 4.0f, 11.0f, 30.0f, FAR}) {
+        for (const float radius : {0.0f, 1.5f, 4.0f, 11.0f, 30.0f, INFINITE}) {
             CAPTURE(radius);
             CHECK(found_within(query.get(), {&source, 1}, radius, count) == within(field, radius));
             std::vector<float> found(count);
@@ -148,9 +147,9 @@ TEST_CASE("steep edges: within a radius are the bits of a whole field") {
 }
 
 TEST_CASE("steep edges: several sources, and which of them is the nearest") {
-    const auto plain = open(plain_file()), index = open(file_with_edges());
+    const auto plain = open(file_without_edges()), index = open(file_with_edges());
     const auto query = query_of(index.get()), plain_query = query_of(plain.get());
-    const uint32_t count = mesh().vertex_count();
+    const uint32_t count = two_sheets().vertex_count();
     const std::vector<uint32_t> sources{5, 700, 1111, 1599};
     Field expected{std::vector<float>(count), std::vector<uint32_t>(count)}, found = expected;
     const auto ask = [&](geoidx_query* of, Field& field) {
@@ -172,10 +171,10 @@ TEST_CASE("steep edges: several sources, and which of them is the nearest") {
 }
 
 TEST_CASE("steep edges: fields of points are lowered, pairs of vertices are not") {
-    const auto plain = open(plain_file()), index = open(file_with_edges());
+    const auto plain = open(file_without_edges()), index = open(file_with_edges());
     const auto query = query_of(index.get()), plain_query = query_of(plain.get());
-    const uint32_t count = mesh().vertex_count();
-    const geoidx_mesh view = mesh().view();
+    const uint32_t count = two_sheets().vertex_count();
+    const geoidx_mesh view = two_sheets().view();
     geoidx_surface* made = nullptr;
     require_success(geoidx_surface_create(&view, nullptr, &made));
     const SurfaceHandle surface(made);
@@ -198,12 +197,12 @@ TEST_CASE("steep edges: measured distances are lowered, too, but not those of pa
     format::ByteWriter writer;
     writer.u64(measured.size());
     for (uint32_t i = 0; i < 3; ++i) writer.f32(0);
-    write_planted(measured, numbers_of_ids(plain_file(), mesh().vertex_count()), writer);
+    write_planted(measured, numbers_of_ids(file_without_edges(), two_sheets().vertex_count()), writer);
     const Bytes section = writer.take();
-    const auto plain = open(with_section(plain_file(), TAG_MEASURED_PAIRS, section)),
+    const auto plain = open(with_section(file_without_edges(), TAG_MEASURED_PAIRS, section)),
                index = open(with_section(file_with_edges(), TAG_MEASURED_PAIRS, section));
     const auto query = query_of(index.get());
-    const uint32_t count = mesh().vertex_count();
+    const uint32_t count = two_sheets().vertex_count();
     for (const auto& [a, b, distance] : measured)
         for (const uint32_t source : {a, b}) {
             const auto before = msad(plain.get(), source, count), field = msad(index.get(), source, count);
@@ -215,9 +214,9 @@ TEST_CASE("steep edges: measured distances are lowered, too, but not those of pa
 }
 
 TEST_CASE("steep edges: what nothing but such an edge leads to is found, however far it is") {
-    const uint32_t count = mesh().vertex_count(), other = SIDE * SIDE + 3;
+    const uint32_t count = two_sheets().vertex_count(), other = SIDE * SIDE + 3;
     const std::vector<Planted> bridge{{at(7, 7), other, 500}};
-    const auto index = open(with_section(plain_file(), TAG_STEEP_EDGES, section_of(bridge)));
+    const auto index = open(with_section(file_without_edges(), TAG_STEEP_EDGES, steep_section_of(bridge)));
     const auto query = query_of(index.get());
     std::vector<uint32_t> targets(800, other), positions(800);
     std::vector<float> distances(800);
@@ -231,9 +230,9 @@ TEST_CASE("steep edges: what nothing but such an edge leads to is found, however
 
 TEST_CASE("steep edges: a section that breaks a rule is refused") {
     constexpr size_t BEGIN = 8; // of the edges
-    const Bytes good = section_of(planted());
+    const Bytes good = steep_section_of(steep_planted());
     const auto file_with = [](const Bytes& section) {
-        return with_section(plain_file(), TAG_STEEP_EDGES, section);
+        return geodesic::test::with_section(file_without_edges(), TAG_STEEP_EDGES, section);
     };
     REQUIRE(open_status(file_with(good)) == GEOIDX_OK);
     REQUIRE(open_status(file_with(Bytes(BEGIN))) == GEOIDX_OK); // no edge at all
@@ -246,9 +245,9 @@ TEST_CASE("steep edges: a section that breaks a rule is refused") {
     refused("a second vertex that is not there", with_value(good, BEGIN, 1, 0, 1 << 20));
     refused("a first vertex that is not there", with_value(good, BEGIN, 0, 1, UINT32_MAX - 5));
     refused("descending order", with_value(good, BEGIN, 0, 1, UINT32_MAX));
-    for (const float most : {0.0f, -1.0f, FAR, std::numeric_limits<float>::quiet_NaN()})
+    for (const float most : {0.0f, -1.0f, INFINITE, std::numeric_limits<float>::quiet_NaN()})
         refused("what ends may differ by", with_value(good, BEGIN, 2, 2, std::bit_cast<uint32_t>(most)));
-    refused("an edge twice", section_of(std::vector<Planted>{planted()[0], planted()[0]}));
+    refused("an edge twice", steep_section_of(std::vector<Planted>{steep_planted()[0], steep_planted()[0]}));
     Bytes longer = good, shorter = good;
     longer.push_back(std::byte{0});
     shorter.pop_back();

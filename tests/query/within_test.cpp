@@ -13,18 +13,16 @@ namespace {
 using Ids = std::vector<uint32_t>;
 using Ranked = std::vector<std::pair<float, uint32_t>>; // in ascending order
 
-constexpr float FAR = std::numeric_limits<float>::infinity();
-
-uint32_t size_of(const Ids& ids) { return static_cast<uint32_t>(ids.size()); }
+uint32_t count_of(const Ids& ids) { return static_cast<uint32_t>(ids.size()); }
 
 Ranked within(geoidx_query* query, const Ids& sources, float radius) {
     uint32_t count = 0;
     require_success(
-        geoidx_query_within(query, sources.data(), size_of(sources), radius, nullptr, nullptr, 0, &count));
+        geoidx_query_within(query, sources.data(), count_of(sources), radius, nullptr, nullptr, 0, &count));
     Ids vertices(count, 7);
     std::vector<float> distances(count, -1);
     uint32_t again = 0;
-    require_success(geoidx_query_within(query, sources.data(), size_of(sources), radius, vertices.data(),
+    require_success(geoidx_query_within(query, sources.data(), count_of(sources), radius, vertices.data(),
                                         distances.data(), count, &again));
     REQUIRE(again == count);
     Ranked ranked;
@@ -35,14 +33,14 @@ Ranked within(geoidx_query* query, const Ids& sources, float radius) {
 // By the least of the fields of single sources.
 Ranked expected_within(const geoidx* index, const Ids& sources, float radius) {
     const auto count = static_cast<uint32_t>(info_of(index).vertex_count);
-    std::vector<float> least(count, FAR);
+    std::vector<float> least(count, INFINITE);
     for (const uint32_t source : sources) {
         const auto field = msad(index, source, count);
         for (uint32_t v = 0; v < count; ++v) least[v] = std::min(least[v], field[v]);
     }
     Ranked ranked;
     for (uint32_t v = 0; v < count; ++v)
-        if (least[v] <= radius && least[v] < FAR) ranked.push_back({least[v], v});
+        if (least[v] <= radius && least[v] < INFINITE) ranked.push_back({least[v], v});
     std::ranges::sort(ranked);
     return ranked;
 }
@@ -51,7 +49,7 @@ Ranked nearest_targets(geoidx_query* query, uint32_t source, const Ids& targets,
     Ids positions(wanted, 7);
     std::vector<float> distances(wanted, -1);
     uint32_t count = wanted + 1;
-    require_success(geoidx_query_nearest_targets(query, source, targets.data(), size_of(targets),
+    require_success(geoidx_query_nearest_targets(query, source, targets.data(), count_of(targets),
                                                  positions.data(), distances.data(), wanted, &count));
     REQUIRE(count <= wanted);
     Ranked ranked;
@@ -62,7 +60,7 @@ Ranked nearest_targets(geoidx_query* query, uint32_t source, const Ids& targets,
 Ranked ranked_by(const Ids& targets, const auto& distance_of) {
     Ranked ranked;
     for (uint32_t i = 0; i < targets.size(); ++i)
-        if (const float d = distance_of(targets[i]); d < FAR) ranked.push_back({d, i});
+        if (const float d = distance_of(targets[i]); d < INFINITE) ranked.push_back({d, i});
     std::ranges::sort(ranked);
     return ranked;
 }
@@ -94,9 +92,9 @@ void for_each_index(const Check& check) {
 void check_within(const geoidx* index, uint32_t count) {
     const QueryHandle query = query_of(index);
     for (const Ids& sources : {Ids{0}, Ids{count / 2}, Ids{count - 1, 0, count / 3}, Ids{1, 1}}) {
-        auto field = expected_within(index, sources, FAR);
+        auto field = expected_within(index, sources, INFINITE);
         for (const float radius : {0.0f, field[field.size() / 10].first, field[field.size() / 2].first,
-                                   field.back().first, FAR, field[field.size() / 4].first}) {
+                                   field.back().first, INFINITE, field[field.size() / 4].first}) {
             CAPTURE(sources);
             CAPTURE(radius);
             CHECK(within(query.get(), sources, radius) == expected_within(index, sources, radius));
@@ -122,7 +120,7 @@ TEST_CASE("within: on long triangles, at every distance of a field") {
         const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
         const QueryHandle query = query_of(index.get());
         for (uint32_t source = 5; source < mesh.vertex_count(); source += 97) {
-            const Ranked field = expected_within(index.get(), {source}, FAR);
+            const Ranked field = expected_within(index.get(), {source}, INFINITE);
             for (size_t i = 1; i < field.size(); i += 7) {
                 CAPTURE(source);
                 CAPTURE(field[i].first);
@@ -167,10 +165,10 @@ TEST_CASE("within: vertices that no triangle uses, and those that were welded") 
     options.weld_tolerance = 1e-6;
     const auto index = build(mesh, options);
     const QueryHandle query = query_of(index.get());
-    CHECK(within(query.get(), {used + 3}, FAR) == Ranked{{0.0f, used + 3}});
+    CHECK(within(query.get(), {used + 3}, INFINITE) == Ranked{{0.0f, used + 3}});
     CHECK(within(query.get(), {used + 4, used + 3, used + 4}, 1) ==
           Ranked{{0.0f, used + 3}, {0.0f, used + 4}});
-    CHECK(within(query.get(), {0}, FAR).size() == used + 3);
+    CHECK(within(query.get(), {0}, INFINITE).size() == used + 3);
     const Ranked at_place = within(query.get(), {used}, 0);
     CHECK(at_place.size() == 2);
     CHECK(at_place == expected_within(index.get(), {used}, 0));
