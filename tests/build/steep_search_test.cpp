@@ -35,7 +35,7 @@ uint64_t count_steep(const geoidx* index, const TestMesh& mesh, uint32_t step) {
 
 }
 
-TEST_CASE("steep search: no field has a steep edge") {
+TEST_CASE("steep search: no field has a steep edge" * doctest::skip(SANITIZED)) {
     for (const TestMesh& mesh :
          {hills(smaller(30, 23), 20), torus(smaller(36, 26), smaller(14, 12)), dirty_sheets()}) {
         const auto index = build(mesh, default_options());
@@ -43,7 +43,7 @@ TEST_CASE("steep search: no field has a steep edge") {
     }
 }
 
-TEST_CASE("steep search: there are some where fields are not lowered") {
+TEST_CASE("steep search: there are some where fields are not lowered" * doctest::skip(SANITIZED)) {
     const TestMesh& mesh = large_rough_sheet();
     const Bytes& file = file_of_large_rough_sheet();
     CHECK(count_steep(open(without_section(file, TAG_STEEP_EDGES)).get(), mesh, 3) > 20);
@@ -51,7 +51,7 @@ TEST_CASE("steep search: there are some where fields are not lowered") {
 }
 
 // Of more vertices than are compared at first.
-TEST_CASE("steep search, wrong pairs: threads change no bit of the file") {
+TEST_CASE("steep search, wrong pairs: threads change no bit of the file" * doctest::skip(SANITIZED)) {
     const Bytes& file = file_of_large_rough_sheet();
     const auto sections = geodesic::format::Container::parse(file, geodesic::INDEX_TAGS);
     REQUIRE(sections.has(TAG_STEEP_EDGES));

@@ -49,8 +49,9 @@ Counts count_wrong(const geoidx* index, const TestMesh& mesh, uint32_t step, siz
 
 }
 
-TEST_CASE("wrong pairs: no answer for near vertices is off by more than a hundredth") {
-    for (const TestMesh& mesh : {rough_sheet(24, 4), hills(smaller(30, 25), 20), lattice(smaller(4, 2))}) {
+TEST_CASE("wrong pairs: no answer for near vertices is off by more than a hundredth" *
+          doctest::skip(SANITIZED)) {
+    for (const TestMesh& mesh : {rough_sheet(24, 4), hills(smaller(30, 25), 20), lattice(smaller(3, 2))}) {
         const auto index = build(mesh, default_options());
         const Counts counts = count_wrong(index.get(), mesh, sparse(1));
         CHECK(counts.wrong == 0);

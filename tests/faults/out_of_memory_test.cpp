@@ -21,7 +21,7 @@ constexpr Source SOURCES[] = {Source::caller, Source::process};
 constexpr uint32_t ENGINES[] = {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY};
 
 // Of the allocations of a query, each of which is followed by every question.
-constexpr uint64_t ASKING_STRIDE = SANITIZED ? 11 : 1;
+constexpr uint64_t ASKING_STRIDE = SANITIZED ? 17 : 3;
 
 // One, and more: with a sanitizer not each number of them.
 constexpr uint32_t NEXT_THREADS = SANITIZED ? 3 : 1;
@@ -472,7 +472,7 @@ TEST_CASE("out of memory while building") {
         for (uint32_t threads = 1; threads <= 4; threads += NEXT_THREADS)
             for (Source source : SOURCES) {
                 CAPTURE(threads);
-                const uint64_t stride = source == Source::caller ? 13 : 1499;
+                const uint64_t stride = source == Source::caller ? 29 : 2999;
                 const uint64_t failed = try_with_faults(source, stride, [&](Fault& fault) {
                     auto options = options_of(engine, threads);
                     options.allocator = fault.allocator();

@@ -542,7 +542,8 @@ TEST_CASE("independent reader: SSSD and MSAD agree with the library") {
                 const uint32_t to = index.number_of_id[b];
                 const float answer = sssd(handle.get(), a, b);
                 if (from == UNUSED || to == UNUSED) {
-                    wrong += double{answer} != (a == b ? 0 : UNREACHED) || double{answers[b]} != double{answer};
+                    wrong +=
+                        double{answer} != (a == b ? 0 : UNREACHED) || double{answers[b]} != double{answer};
                     continue;
                 }
                 // MSAD uses some tables only, of the edge metric without loss.

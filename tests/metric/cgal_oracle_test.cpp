@@ -198,7 +198,7 @@ TEST_CASE("CGAL: scanned and modelled meshes of GEOIDX_MESHES") {
         SurfaceMesh surface;
         const size_t refused = to_cgal(intake.mesh, surface);
         if (refused == 0) {
-            compare_with_cgal(name, intake.mesh, 4); // CGAL takes seconds a source
+            compare_with_cgal(name, intake.mesh, 2); // CGAL takes seconds a source
         } else {
             MESSAGE(name, ": CGAL refuses ", refused, " of its faces; compared with Steiner points instead");
             compare_with_steiner(name, intake.mesh);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/overlay/long_borders.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -108,7 +109,8 @@ TEST_CASE("samples: about 64 of a border, from every second to every eighth vert
 
 // Between two vertices that are samples already, the number of pieces is rounded, so that one has up to one
 // and a half spacings; and it ends at a vertex, up to a segment later, which is no longer than a spacing.
-TEST_CASE("samples: no farther apart where edges are longer than elsewhere on a border") {
+TEST_CASE("samples: no farther apart where edges are longer than elsewhere on a border" *
+          doctest::skip(SANITIZED)) {
     TestMesh mesh = grid(400, 9);
     for (size_t i = 0; i < mesh.positions.size(); i += 3) {
         double& x = mesh.positions[i];

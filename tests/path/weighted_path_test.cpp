@@ -131,7 +131,7 @@ TEST_CASE("weighted path: where all costs are the same it is hardly longer than 
         const WeightedCase of(soup, std::vector<double>(soup.triangles.size(), 0.25));
         const PathCase by_length(soup);
         std::mt19937_64 random(7);
-        for (size_t i = 0; i < 20; ++i) {
+        for (size_t i = 0; i < smaller(20, 4); ++i) {
             const auto from = random_point(soup, random, i), to = random_point(soup, random, i / 4);
             const double exact = by_length.exact(from, to) / 4;
             if (exact == INFINITE) continue;
@@ -180,7 +180,7 @@ TEST_CASE("weighted path: leads along the edge of a cheaper half plane") {
 }
 
 // A row of cheap triangles is a road: a way along its side costs what the road does.
-TEST_CASE("weighted path: follows a cheap road") {
+TEST_CASE("weighted path: follows a cheap road" * doctest::skip(SANITIZED)) {
     const Soup soup = grid(12, 12, 1, 1);
     const auto on_road = [](const Eigen::Vector3d& at) { return at.y() > 1.0 / 12 && at.y() < 2.0 / 12; };
     const WeightedCase of(soup,
@@ -202,7 +202,8 @@ TEST_CASE("weighted path: hardly longer than the metric's distances, by random c
         CAPTURE(number);
         for (const double dearest : {1.5, 4.0, 30.0}) {
             CAPTURE(dearest);
-            check_paths_of(WeightedCase(soup, random_costs(soup, random, dearest)), 16, 12, 0.1, 1e-6);
+            check_paths_of(WeightedCase(soup, random_costs(soup, random, dearest)), smaller(12, 3), 12, 0.1,
+                           1e-6);
         }
     }
 }
@@ -227,7 +228,7 @@ TEST_CASE("weighted path: on stress meshes") {
         for (const StressFamily& family : families) {
             CAPTURE(std::string(family.name));
             const Soup soup = family.draw(random);
-            check_paths_of(WeightedCase(soup, random_costs(soup, random, 6)), 6, 12, 0.1, 1e-5);
+            check_paths_of(WeightedCase(soup, random_costs(soup, random, 6)), smaller(6, 2), 12, 0.1, 1e-5);
         }
 }
 
@@ -287,9 +288,9 @@ TEST_CASE("weighted path: steps lead along it to the target") {
 TEST_CASE("weighted path: steps on long triangles and through ones without area end at the target") {
     std::mt19937_64 random(2);
     for (const Soup& soup : {split_edges(10), prism(64, 1, 100)})
-        for (size_t of_costs = 0; of_costs < 4; ++of_costs) {
+        for (size_t of_costs = 0; of_costs < smaller(4, 1); ++of_costs) {
             const WeightedCase of(soup, random_costs(soup, random, 100), GEOIDX_ENGINE_OVERLAY);
-            for (size_t i = 0; i < 400; i += sparse(1)) {
+            for (size_t i = 0; i < 200; i += sparse(1)) {
                 const auto from = random_point(soup, random, i), to = random_point(soup, random, i / 4);
                 walk(of.on, from, to, 1, of.cost);
             }

@@ -66,7 +66,7 @@ TEST_CASE("overlay: pairs and fields on triangles 40 times as long as wide" * do
 
 // Where triangles are long and narrow, borders zigzag so much that their samples tell little. The edges have
 // lengths of their own, so that none is flipped.
-TEST_CASE("overlay: SSSD on a stretched plane") {
+TEST_CASE("overlay: SSSD on a stretched plane" * doctest::skip(SANITIZED)) {
     TestMesh mesh = grid(50, 50, 0.2);
     for (size_t i = 0; i < mesh.positions.size(); i += 3) mesh.positions[i] *= 8;
     const uint32_t count = mesh.vertex_count();

@@ -72,7 +72,7 @@ struct Errors {
 
 }
 
-TEST_CASE("several sources: the nearest straight line on a plane") {
+TEST_CASE("several sources: the nearest straight line on a plane" * doctest::skip(SANITIZED)) {
     const TestMesh mesh = grid(61, 51, 0.25);
     const uint32_t count = mesh.vertex_count();
     const auto index = build(mesh, overlay_options());
@@ -95,7 +95,7 @@ TEST_CASE("several sources: the nearest straight line on a plane") {
     }
 }
 
-TEST_CASE("several sources: as exact as the nearest of them alone") {
+TEST_CASE("several sources: as exact as the nearest of them alone" * doctest::skip(SANITIZED)) {
     for (const auto& [name, made] : mesh_zoo()) {
         const TestMesh& mesh = made;
         CAPTURE(mesh.vertex_count());

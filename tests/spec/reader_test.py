@@ -3,6 +3,7 @@
 Each mesh is built and asked with the command line tool. MESHES: a folder with spot.obj, which is used if it is there.
 """
 
+import itertools
 import json
 import os
 import pathlib
@@ -128,7 +129,7 @@ def excess(library, reader):
 
 
 class ReaderTest(unittest.TestCase):
-    PAIRS = int(os.environ.get("GEOIDX_READER_PAIRS", 150))
+    PAIRS = int(os.environ.get("GEOIDX_READER_PAIRS", 60))
 
     def check(self, mesh, name, *options):
         subject = Subject(mesh, name, *options)
@@ -208,7 +209,8 @@ class ReaderTest(unittest.TestCase):
         """Sources of which fields are lowered, and two of them together."""
         subject = Subject(self.rough_sheet(38), "steep", "--target-error", "0")
         id_of = numpy.argsort(subject.index.number_of_id)
-        lowered = [source for source in range(0, subject.index.vertex_count, 5) if self.is_lowered(subject, source)]
+        some = range(0, subject.index.vertex_count, 5)
+        lowered = list(itertools.islice((source for source in some if self.is_lowered(subject, source)), 12))
         self.assertGreater(len(lowered), 8)
         for sources in [[source] for source in lowered[:8]] + [[lowered[0], lowered[-1]]]:
             ids = [int(id_of[source]) for source in sources]

@@ -375,7 +375,7 @@ class Threads(unittest.TestCase):
         turns = []
 
         def build():
-            geoidx.Index.build(*hills(90, 90), threads=1)
+            geoidx.Index.build(*hills(40, 40), threads=1)
             done.set()
 
         thread = threading.Thread(target=build)
