@@ -23,33 +23,37 @@ struct Target {
 // Targets by the distances of the vertices around them.
 class TargetSweeps {
 public:
-    explicit TargetSweeps(Query& query) : query_(query) {}
+    // From the only one of the sources.
+    TargetSweeps(Query& query, const Query::PointSources& source)
+        : query_(query), source_(source), known_(source.known.begin(), source.known.end()) {
+        std::ranges::sort(known_, {},
+                          [](const Query::KnownWay& way) { return std::pair(way.number, way.length); });
+    }
 
     void add(const FacePoint& target) {
         targets_.push_back({target.vertex, target.corners()});
         for (size_t k = 0; k < 3; ++k) reach_ = std::max(reach_, static_cast<float>(target.straight[k]));
     }
 
-    // Sweeps from a source until the `count` nearest targets are found, or nothing else can be reached.
+    // Sweeps from the source until the `count` nearest targets are found, or nothing else can be reached.
     // view_of(i) is what the i-th target sees. distance(i, view, by_vertices) is called for each target of
     // which all vertices have been found, with the distance that they give; it returns the one that counts.
     template <class ViewOf, class Distance>
-    std::vector<Query::Found> find(const Query::PointSources& source, size_t count, const ViewOf& view_of,
-                                   const Distance& distance) {
+    std::vector<Query::Found> find(size_t count, const ViewOf& view_of, const Distance& distance) {
         for (float radius = reach_;;) {
-            query_.sweep_within(source, radius);
+            query_.sweep_within(source_, radius);
             std::vector<Query::Found> found;
             // A target that is left out is no nearer: one of its corners is beyond the radius, or all tell
             // how near it can be.
             float left_out = radius - reach_;
             for (uint32_t i = 0; i < targets_.size(); ++i) {
-                if (!are_corners_found(source, targets_[i])) continue;
+                if (!are_corners_found(targets_[i])) continue;
                 const PointView view = view_of(i);
-                const float by_vertices = distance_of(source, view.point);
+                const float by_vertices = distance_of(view.point);
                 if (by_vertices < INFINITE)
                     found.push_back({distance(i, view, by_vertices), i});
                 else
-                    left_out = std::min(left_out, least_by_corners(source, view.point));
+                    left_out = std::min(left_out, least_by_corners(view.point));
             }
             std::ranges::sort(found);
             const bool are_nearest = found.size() >= count && found[count - 1].distance <= left_out;
@@ -60,40 +64,40 @@ public:
     }
 
 private:
-    float distance_at(const Query::PointSources& source, uint32_t number) const {
-        float distance = query_.distance_within(number);
-        for (const Query::KnownWay& way : source.known)
-            if (way.number == number) distance = std::min(distance, way.length);
-        return distance;
+    float distance_at(uint32_t number) const {
+        const float distance = query_.distance_within(number);
+        const auto way = std::ranges::lower_bound(known_, number, {}, &Query::KnownWay::number);
+        return way != known_.end() && way->number == number ? std::min(distance, way->length) : distance;
     }
 
-    bool are_corners_found(const Query::PointSources& source, const Target& target) const {
-        if (target.vertex != NONE) return distance_at(source, target.vertex) < INFINITE;
+    bool are_corners_found(const Target& target) const {
+        if (target.vertex != NONE) return distance_at(target.vertex) < INFINITE;
         return std::ranges::all_of(target.corners,
-                                   [&](uint32_t corner) { return distance_at(source, corner) < INFINITE; });
+                                   [&](uint32_t corner) { return distance_at(corner) < INFINITE; });
     }
 
     // Infinite unless all vertices have been found. A point that is at a vertex has one.
-    float distance_of(const Query::PointSources& source, const FacePoint& point) const {
-        if (point.vertex != NONE) return distance_at(source, point.vertex);
+    float distance_of(const FacePoint& point) const {
+        if (point.vertex != NONE) return distance_at(point.vertex);
         std::array<double, FacePoint::MOST_VERTICES> from_vertices;
         for (size_t k = 0; k < point.vertex_count; ++k) {
-            from_vertices[k] = double{distance_at(source, point.numbers[k])};
+            from_vertices[k] = double{distance_at(point.numbers[k])};
             if (!(from_vertices[k] < double{INFINITE})) return INFINITE;
         }
         return static_cast<float>(distance_over(point, from_vertices));
     }
 
     // No answer of distance_over() is less.
-    float least_by_corners(const Query::PointSources& source, const FacePoint& point) const {
+    float least_by_corners(const FacePoint& point) const {
         float least = 0;
         for (size_t k = 0; k < 3; ++k)
-            least = std::max(least,
-                             distance_at(source, point.numbers[k]) - static_cast<float>(point.straight[k]));
+            least = std::max(least, distance_at(point.numbers[k]) - static_cast<float>(point.straight[k]));
         return least;
     }
 
     Query& query_;
+    const Query::PointSources source_;
+    std::vector<Query::KnownWay> known_; // by their numbers, of each the shortest first
     std::vector<Target> targets_;
     float reach_ = 0; // from a target to the corners of its face
 };
@@ -102,8 +106,6 @@ private:
 
 std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& source,
                                                         std::span<const SurfacePoint> targets, size_t count) {
-    TargetSweeps sweeps(query_);
-    for (const SurfacePoint& target : targets) sweeps.add(face_point_on(index_, surface_, target, unfolds()));
     count = std::min(count, targets.size());
     std::vector<Query::Found> found;
     if (count == 0) return found;
@@ -116,8 +118,11 @@ std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& sour
     } else {
         const PointView from = view_of(source);
         const Sources only = sources_of({&source, 1}, {});
+        TargetSweeps sweeps(query_, only);
+        for (const SurfacePoint& target : targets)
+            sweeps.add(face_point_on(index_, surface_, target, unfolds()));
         found = sweeps.find(
-            only, count, [&](uint32_t i) { return view_of(targets[i]); },
+            count, [&](uint32_t i) { return view_of(targets[i]); },
             [&](uint32_t i, const PointView& to, float by_vertices) {
                 const bool are_vertices = from.point.vertex != NONE && to.point.vertex != NONE;
                 return are_vertices ? by_vertices

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "format/error.h"
 #include "geoidx.h"
@@ -11,6 +12,17 @@
 namespace geodesic {
 
 namespace {
+
+// What a point sees of the faces around it, whatever the index knows of them, goes so many vertices far.
+constexpr size_t NEAR_VERTICES = 32;
+
+// Nothing is seen from a vertex, nor from a face that the index was not made on.
+std::optional<PointView> see_around_any_leaf(const Surface& surface, const SurfacePoint& point) {
+    if (vertex_at(surface, point) != NONE) return std::nullopt;
+    const auto indexed = indexed_point(surface, point);
+    if (!indexed) return std::nullopt;
+    return see_around(surface, *indexed, NEAR_VERTICES);
+}
 
 // Of the faces that a point lies in.
 double longest_edge(const Surface& surface, const SurfacePoint& point) {
@@ -86,13 +98,11 @@ double PointQueries::way_around_corner(const SurfacePoint& source, const Surface
 double PointQueries::straight_way_of_near(const SurfacePoint& source, const SurfacePoint& target,
                                           float distance) const {
     constexpr double NEAR_EDGES = 3;
-    constexpr size_t NEAR_VERTICES = 32;
     const double edge = std::min(longest_edge(surface_, source), longest_edge(surface_, target));
     if (!(double{distance} <= NEAR_EDGES * edge)) return UNREACHABLE;
     const auto seen_from = [&](const SurfacePoint& at, const SurfacePoint& other) {
-        const auto indexed = vertex_at(surface_, at) == NONE ? indexed_point(surface_, at) : std::nullopt;
-        return indexed ? see_around(surface_, *indexed, NEAR_VERTICES).straight_to(surface_, other)
-                       : UNREACHABLE;
+        const auto around = see_around_any_leaf(surface_, at);
+        return around ? around->seen.straight_to(surface_, other) : UNREACHABLE;
     };
     return std::min(seen_from(source, target), seen_from(target, source));
 }
@@ -109,15 +119,17 @@ float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target)
     return with_known_ways(source, from, target, to, query_.point_sssd(from.point, to.point));
 }
 
-// To the corners of the face and, if the metric unfolds, to those of all faces that the point lies in and to
-// the vertices beyond their edges: sums over tables are of rounded distances, which count where these are
-// short.
-void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
-                                  std::vector<Query::KnownWay>& known) const {
-    const auto add = [&](const SurfacePoint& from, uint32_t vertex, uint32_t face) {
-        const double way = straight_nearby(surface_, from, corner_point(surface_, face, vertex));
+// To the corners of the face and, if the metric unfolds, to those of all faces that the point lies in, to the
+// vertices beyond their edges and to others that the point sees: sums over tables are of rounded distances,
+// which count where these are short. `seen` is what the point sees as far as the index tells of it.
+void PointQueries::add_known_ways(const SurfacePoint& source, const SeenFaces& seen, uint32_t position,
+                                  float offset, std::vector<Query::KnownWay>& known) const {
+    const auto add_way = [&](uint32_t vertex, double way) {
         if (way < UNREACHABLE && number_of(vertex) != NONE)
             known.push_back({position, number_of(vertex), offset + static_cast<float>(way)});
+    };
+    const auto add = [&](const SurfacePoint& from, uint32_t vertex, uint32_t face) {
+        add_way(vertex, straight_nearby(surface_, from, corner_point(surface_, face, vertex)));
     };
     if (!unfolds()) {
         for (const uint32_t corner : surface_.faces[source.face]) add(source, corner, source.face);
@@ -134,6 +146,10 @@ void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position,
             });
         }
     });
+    if (!seen.is_cut) return;
+    if (const auto around = see_around_any_leaf(surface_, source))
+        for (uint32_t k = 0; k < around->point.vertex_count; ++k)
+            add_way(around->point.numbers[k], around->point.straight[k]);
 }
 
 PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> points,
@@ -142,11 +158,12 @@ PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> poi
     sources.points.reserve(points.size());
     for (uint32_t i = 0; i < points.size(); ++i) {
         const float offset = offsets.empty() ? 0 : offsets[i];
-        const FacePoint& point = sources.points.emplace_back(view_of(points[i]).point);
-        if (point.vertex == NONE)
-            add_known_ways(points[i], i, offset, sources.known);
+        const PointView view = view_of(points[i]);
+        sources.points.push_back(view.point);
+        if (view.point.vertex == NONE)
+            add_known_ways(points[i], view.seen, i, offset, sources.known);
         else
-            sources.known.push_back({i, point.vertex, offset});
+            sources.known.push_back({i, view.point.vertex, offset});
     }
     return sources;
 }

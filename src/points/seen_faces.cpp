@@ -163,8 +163,10 @@ private:
         const uint32_t face = edge.behind;
         const auto& numbers = point_.numbers;
         if (face == NONE ||
-            !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.along().norm()))
+            !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.along().norm())) {
+            seen_.is_cut = true;
             return false;
+        }
         const uint32_t apex = apex_beyond(face, edge);
         const uint32_t number = known_.number_of(apex);
         const Vector2d place = place_ahead(surface_, edge.second, edge.first, apex);
@@ -246,12 +248,11 @@ void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFace
     polygon.finish();
 }
 
-SeenFaces see_around(const Surface& surface, const SurfacePoint& at, size_t most) {
+PointView see_around(const Surface& surface, const SurfacePoint& at, size_t most) {
     const auto& corners = indexed_corners(surface, at.face);
-    FacePoint polygon = face_point(corners, edge_lengths(surface, corners), at.weights, {true, true, true});
-    SeenFaces seen;
-    see_farther(surface, at, AllFaces(), most, polygon, seen);
-    return seen;
+    PointView view(face_point(corners, edge_lengths(surface, corners), at.weights, {true, true, true}));
+    see_farther(surface, at, AllFaces(), most, view.point, view.seen);
+    return view;
 }
 
 size_t vertices_of_polygon(const Surface& surface) {

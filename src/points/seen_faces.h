@@ -22,10 +22,19 @@ struct SeenFaces {
 
     size_t count = 0;
     std::array<Face, FacePoint::MOST_VERTICES> faces;
+    bool is_cut = false; // whether faces were left out that are not known, as behind the border of a leaf
 
     // The length of the straight line to another point of the surface, in the faces that it lies in; infinite
     // if there is none.
     double straight_to(const Surface& surface, const SurfacePoint& point) const;
+};
+
+// A point with the faces that it sees.
+struct PointView {
+    explicit PointView(const FacePoint& point) : point(point) {}
+
+    FacePoint point;
+    SeenFaces seen;
 };
 
 // What an index knows of the faces of a surface.
@@ -46,8 +55,9 @@ void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFace
                  FacePoint& point, SeenFaces& seen);
 
 // The faces around a point that is at no vertex, as far as a polygon of `most` vertices goes, whatever an
-// index knows of them. `at` is a point of the faces of an index.
-SeenFaces see_around(const Surface& surface, const SurfacePoint& at, size_t most);
+// index knows of them: its vertices have their numbers in the surface. `at` is a point of the faces of an
+// index.
+PointView see_around(const Surface& surface, const SurfacePoint& at, size_t most);
 
 // How many vertices a polygon has on a surface, at most FacePoint::MOST_VERTICES. What it does not tell is a
 // share of an edge's length, so that it has more where edges are long for the whole surface.

@@ -351,6 +351,27 @@ TEST_CASE("points: an offset that all sources have is added to their distances")
         }
 }
 
+TEST_CASE("points: fields are no longer than the straight lines to what a point sees, in whatever leaf") {
+    auto options = path_options();
+    options.level_count = 2;
+    options.patches[0] = options.patches[1] = 5;
+    constexpr uint32_t CELLS = 30;
+    const PathCase on(jittered_grid(CELLS, 4), options);
+    std::mt19937_64 random(3);
+    size_t seen = 0;
+    for (size_t i = 0; i < 300; i += sparse(1)) {
+        const auto source = random_point(on.soup, random, 0);
+        const auto distances = field(on, {&source, 1});
+        for (uint32_t v = 0; v < on.soup.vertex_count(); ++v) {
+            const double straight = (on.soup.positions[v] - on.position(source)).norm();
+            if (straight > 1.2 / CELLS) continue;
+            CHECK(double{distances[v]} < straight + 1e-6 / CELLS);
+            ++seen;
+        }
+    }
+    CHECK(seen > 100);
+}
+
 TEST_CASE("points: bad input is refused by name") {
     const PathCase on(torus(10, 8, 1, 0.4)), other(torus(10, 8, 1, 0.5));
     geoidx_surface_point fine{0, 0, {1, 0, 0}}, bad{0, 0, {2, -1, 0}};
