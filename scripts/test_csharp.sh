@@ -176,8 +176,6 @@ case ${1:-} in
 esac
 dotnet build "$csharp/Geoidx.slnx" -c Release "${quiet[@]}"
 dotnet test "$csharp/Geoidx.Tests" -c Release --no-build "${quiet[@]}"
-echo "netstandard2.1 on .NET:"
-test_netstandard_on_dotnet
 dotnet "$out/artifacts/bin/Geoidx.Bench/release/Geoidx.Bench.dll"
 test_package
 bindings/csharp/test_page.sh "$out/page"
@@ -186,5 +184,6 @@ if command -v mono >/dev/null; then
     echo "netstandard2.1 on Mono:"
     test_under_mono
 else
-    echo "SKIPPED: Mono is missing: the Unity package is compiled, but not run"
+    echo "SKIPPED: Mono is missing: the Unity package is compiled, but not run; netstandard2.1 on .NET:"
+    test_netstandard_on_dotnet
 fi
