@@ -167,7 +167,7 @@ TEST_CASE("target error: every form of file has added vertices, and gives the sa
     }
 }
 
-TEST_CASE("target error: the same bytes whatever the threads" * doctest::skip(SANITIZED)) {
+TEST_CASE("target error: the same bytes whatever the threads") {
     Bytes first;
     for (const uint32_t threads : {1u, 2u, 5u}) {
         auto options = options_with(1e-6);

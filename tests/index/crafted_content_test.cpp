@@ -1,7 +1,6 @@
 // Index files with right checksums and wrong content, one field at a time.
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <random>
 #include <set>

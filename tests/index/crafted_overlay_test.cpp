@@ -2,7 +2,6 @@
 
 #include <cstring>
 #include <functional>
-#include <limits>
 
 #include "format/bytes.h"
 #include "format/container.h"

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <array>
+#include <vector>
+
+#include <doctest/doctest.h>
 
 #include "tests/capi/calls.h"
 

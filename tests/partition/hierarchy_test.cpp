@@ -280,7 +280,7 @@ TEST_CASE("hierarchy: what splits large patches ends when the build is cancelled
     CHECK(solves(refuse, wait) < all / 2);
 }
 
-TEST_CASE("hierarchy: rough distances split large patches, and no others" * doctest::skip(SANITIZED)) {
+TEST_CASE("hierarchy: rough distances split large patches, and no others") {
     for (const Soup& soup : {bumpy_sphere(5, 1), torus(80, 40, 2, 0.8), grid(60, 50, 3, 1)}) {
         const Mesh mesh = mesh_of(soup);
         REQUIRE(mesh.face_count() > HierarchyOptions::LARGE_PATCH);

@@ -1,7 +1,6 @@
 // The vertices within a radius and the nearest targets, against whole fields.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "tests/capi/refusals.h"
 #include "tests/query/query_cases.h"
