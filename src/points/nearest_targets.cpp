@@ -1,5 +1,7 @@
 // The nearest of some points of a surface.
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "src/points/point_queries.h"
 
@@ -20,34 +22,36 @@ struct Target {
     std::array<uint32_t, 3> corners;
 };
 
-// Targets by the distances of the vertices around them.
-class TargetSweeps {
-public:
-    // From the only one of the sources.
-    TargetSweeps(Query& query, const Query::PointSources& source)
-        : query_(query), source_(source), known_(source.known.begin(), source.known.end()) {
-        std::ranges::sort(known_, {},
-                          [](const Query::KnownWay& way) { return std::pair(way.number, way.length); });
-    }
+struct Targets {
+    std::vector<Target> all;
+    float reach = 0; // from a target to the corners of its face
 
     void add(const FacePoint& target) {
-        targets_.push_back({target.vertex, target.corners()});
-        for (size_t k = 0; k < 3; ++k) reach_ = std::max(reach_, static_cast<float>(target.straight[k]));
+        all.push_back({target.vertex, target.corners()});
+        for (size_t k = 0; k < 3; ++k) reach = std::max(reach, static_cast<float>(target.straight[k]));
     }
+};
+
+// Targets by the distances of the vertices around them, from the only one of the sources. Both, and the
+// arrays of the source, outlive it.
+class TargetSweeps {
+public:
+    TargetSweeps(Query& query, const Query::PointSources& source, const Targets& targets)
+        : query_(query), source_(source), targets_(targets) {}
 
     // Sweeps from the source until the `count` nearest targets are found, or nothing else can be reached.
     // view_of(i) is what the i-th target sees. distance(i, view, by_vertices) is called for each target of
     // which all vertices have been found, with the distance that they give; it returns the one that counts.
     template <class ViewOf, class Distance>
     std::vector<Query::Found> find(size_t count, const ViewOf& view_of, const Distance& distance) {
-        for (float radius = reach_;;) {
+        for (float radius = targets_.reach;;) {
             query_.sweep_within(source_, radius);
             std::vector<Query::Found> found;
             // A target that is left out is no nearer: one of its corners is beyond the radius, or all tell
             // how near it can be.
-            float left_out = radius - reach_;
-            for (uint32_t i = 0; i < targets_.size(); ++i) {
-                if (!are_corners_found(targets_[i])) continue;
+            float left_out = radius - targets_.reach;
+            for (uint32_t i = 0; i < targets_.all.size(); ++i) {
+                if (!are_corners_found(targets_.all[i])) continue;
                 const PointView view = view_of(i);
                 const float by_vertices = distance_of(view.point);
                 if (by_vertices < INFINITE)
@@ -59,15 +63,13 @@ public:
             const bool are_nearest = found.size() >= count && found[count - 1].distance <= left_out;
             const float beyond = query_.nearest_beyond();
             if (are_nearest || beyond == INFINITE) return found;
-            radius = std::max(radius, beyond) * GROWTH + reach_;
+            radius = std::max(radius, beyond) * GROWTH + targets_.reach;
         }
     }
 
 private:
     float distance_at(uint32_t number) const {
-        const float distance = query_.distance_within(number);
-        const auto way = std::ranges::lower_bound(known_, number, {}, &Query::KnownWay::number);
-        return way != known_.end() && way->number == number ? std::min(distance, way->length) : distance;
+        return Query::with_known(source_.known, number, query_.distance_within(number));
     }
 
     bool are_corners_found(const Target& target) const {
@@ -97,15 +99,15 @@ private:
 
     Query& query_;
     const Query::PointSources source_;
-    std::vector<Query::KnownWay> known_; // by their numbers, of each the shortest first
-    std::vector<Target> targets_;
-    float reach_ = 0; // from a target to the corners of its face
+    const Targets& targets_;
 };
 
 }
 
 std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& source,
                                                         std::span<const SurfacePoint> targets, size_t count) {
+    Targets faces;
+    for (const SurfacePoint& target : targets) faces.add(face_point_on(index_, surface_, target, unfolds()));
     count = std::min(count, targets.size());
     std::vector<Query::Found> found;
     if (count == 0) return found;
@@ -118,9 +120,7 @@ std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& sour
     } else {
         const PointView from = view_of(source);
         const Sources only = sources_of({&source, 1}, {});
-        TargetSweeps sweeps(query_, only);
-        for (const SurfacePoint& target : targets)
-            sweeps.add(face_point_on(index_, surface_, target, unfolds()));
+        TargetSweeps sweeps(query_, only, faces);
         found = sweeps.find(
             count, [&](uint32_t i) { return view_of(targets[i]); },
             [&](uint32_t i, const PointView& to, float by_vertices) {

@@ -24,6 +24,16 @@ std::optional<PointView> see_around_any_leaf(const Surface& surface, const Surfa
     return see_around(surface, *indexed, NEAR_VERTICES);
 }
 
+// Of the ways from one source, which begin at `begin`, keeps one to each vertex, by numbers.
+void keep_shortest(std::vector<Query::KnownWay>& ways, size_t begin) {
+    const auto first = ways.begin() + static_cast<std::ptrdiff_t>(begin);
+    std::sort(first, ways.end(), [](const auto& a, const auto& b) {
+        return a.number < b.number || (a.number == b.number && a.length < b.length);
+    });
+    const auto is_same = [](const auto& a, const auto& b) { return a.number == b.number; };
+    ways.erase(std::unique(first, ways.end(), is_same), ways.end());
+}
+
 // Of the faces that a point lies in.
 double longest_edge(const Surface& surface, const SurfacePoint& point) {
     double longest = 0;
@@ -125,8 +135,10 @@ float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target)
 void PointQueries::add_known_ways(const SurfacePoint& source, const SeenFaces& seen, uint32_t position,
                                   float offset, std::vector<Query::KnownWay>& known) const {
     const auto add_way = [&](uint32_t vertex, double way) {
-        if (way < UNREACHABLE && number_of(vertex) != NONE)
-            known.push_back({position, number_of(vertex), offset + static_cast<float>(way)});
+        if (!(way < UNREACHABLE) || number_of(vertex) == NONE) return;
+        const double chord = (surface_.positions[vertex] - position_of(surface_, source)).norm();
+        known.push_back({position, number_of(vertex), offset + static_cast<float>(way),
+                         offset + static_cast<float>(std::min(chord, way))});
     };
     const auto add = [&](const SurfacePoint& from, uint32_t vertex, uint32_t face) {
         add_way(vertex, straight_nearby(surface_, from, corner_point(surface_, face, vertex)));
@@ -159,11 +171,13 @@ PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> poi
     for (uint32_t i = 0; i < points.size(); ++i) {
         const float offset = offsets.empty() ? 0 : offsets[i];
         const PointView view = view_of(points[i]);
+        const size_t begin = sources.known.size();
         sources.points.push_back(view.point);
         if (view.point.vertex == NONE)
             add_known_ways(points[i], view.seen, i, offset, sources.known);
         else
-            sources.known.push_back({i, view.point.vertex, offset});
+            sources.known.push_back({i, view.point.vertex, offset, offset});
+        keep_shortest(sources.known, begin);
     }
     return sources;
 }

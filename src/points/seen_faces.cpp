@@ -162,17 +162,18 @@ private:
         const Edge edge = edges_[index];
         const uint32_t face = edge.behind;
         const auto& numbers = point_.numbers;
-        if (face == NONE ||
+        if (face == NONE) return false;
+        const uint32_t apex = apex_beyond(face, edge);
+        const uint32_t number = known_.number_of(apex);
+        if (number == NONE ||
             !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.along().norm())) {
             seen_.is_cut = true;
             return false;
         }
-        const uint32_t apex = apex_beyond(face, edge);
-        const uint32_t number = known_.number_of(apex);
         const Vector2d place = place_ahead(surface_, edge.second, edge.first, apex);
         const bool sees_first = cross(edge.right.direction, place) > 0,
                    sees_second = cross(place, edge.left.direction) > 0;
-        if (number == NONE || !(sees_first || sees_second)) return false;
+        if (!(sees_first || sees_second)) return false;
         const bool is_seen = sees_first && sees_second;
         const double distance = is_seen ? hypotenuse(place.x(), place.y()) : UNREACHABLE;
         const End third{{apex, place}, point_.vertex_count};

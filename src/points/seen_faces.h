@@ -22,7 +22,7 @@ struct SeenFaces {
 
     size_t count = 0;
     std::array<Face, FacePoint::MOST_VERTICES> faces;
-    bool is_cut = false; // whether faces were left out that are not known, as behind the border of a leaf
+    bool is_cut = false; // whether faces were left out that are not known
 
     // The length of the straight line to another point of the surface, in the faces that it lies in; infinite
     // if there is none.

@@ -107,8 +107,10 @@ void Query::point_msad(const PointSources& sources, std::span<float> distances) 
             add_point_field(sources.points[i], sources.offset(i));
         std::ranges::copy(point_field_, by_number.begin());
     }
-    for (const KnownWay& way : sources.known)
-        by_number[way.number] = std::min(by_number[way.number], way.length);
+    for (const KnownWay& way : sources.known) {
+        float& distance = by_number[way.number];
+        distance = sources.with(way, distance);
+    }
     write_by_id(distances);
 }
 
@@ -124,11 +126,11 @@ void Query::point_nearest_sources(const PointSources& sources, std::span<uint32_
     } else {
         nearest_sources_by_fields(sources);
     }
-    for (const KnownWay& way : sources.known)
-        if (way.length < by_number[way.number]) {
-            by_number[way.number] = way.length;
-            nearest_[way.number] = way.source;
-        }
+    for (const KnownWay& way : sources.known) {
+        float& distance = by_number[way.number];
+        if (way.length < distance) nearest_[way.number] = way.source;
+        distance = sources.with(way, distance);
+    }
     for (size_t id = 0; id < nearest.size(); ++id) {
         const uint32_t number = index_.number_of_id[id];
         nearest[id] = number == NONE ? NONE : nearest_[number];

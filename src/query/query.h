@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <optional>
@@ -65,20 +66,36 @@ public:
     // Of two points of faces: symmetric bit for bit.
     float point_sssd(const FacePoint& source, const FacePoint& target);
 
-    // A way from a source, by its position, to a vertex, by its number, that no distance is to be longer
-    // than.
+    // What is known of the distance from a source, by its position, to a vertex, by its number: it is no
+    // longer than a way and no shorter than the line in space.
     struct KnownWay {
         uint32_t source, number;
-        float length;
+        float length, least;
+
+        float limited(float distance) const { return std::min(std::max(distance, least), length); }
     };
     // Points as sources. How far a vertex is, is the least of offset(i) + the distance from points[i].
     struct PointSources {
         std::span<const FacePoint> points;
-        std::span<const float> offsets; // as many, or none: then all are 0
-        std::span<const KnownWay> known;
+        std::span<const float> offsets;  // as many, or none: then all are 0
+        std::span<const KnownWay> known; // by their sources, then by their numbers, each once
 
         float offset(size_t i) const { return offsets.empty() ? 0 : offsets[i]; }
+        std::span<const KnownWay> known_from(uint32_t source) const {
+            const auto begin = std::ranges::lower_bound(known, source, {}, &KnownWay::source);
+            return {begin, std::ranges::upper_bound(begin, known.end(), source, {}, &KnownWay::source)};
+        }
+        // How far the vertex of such a way is from all sources: each is no farther.
+        float with(const KnownWay& way, float distance) const {
+            return points.size() == 1 ? way.limited(distance) : std::min(distance, way.length);
+        }
     };
+
+    // A distance from one source alone, by what is known from it.
+    static float with_known(std::span<const KnownWay> from_source, uint32_t number, float distance) {
+        const auto way = std::ranges::lower_bound(from_source, number, {}, &KnownWay::number);
+        return way != from_source.end() && way->number == number ? way->limited(distance) : distance;
+    }
 
     // Multiple points, all destinations.
     void point_msad(const PointSources& sources, std::span<float> distances);

@@ -77,8 +77,10 @@ std::span<const Query::Found> Query::point_within(const PointSources& sources, f
     for (size_t i = 0; i < sources.points.size(); ++i) {
         const float offset = sources.offset(i), swept = radius_without(offset, radius);
         if (swept < 0) continue;
+        const auto known = sources.known_from(static_cast<uint32_t>(i));
         for (const auto& [number, distance] : numbers_within(sources.points[i], swept))
-            if (const float whole = offset + distance; whole <= radius && whole < INFINITE)
+            if (const float whole = with_known(known, number, offset + distance);
+                whole <= radius && whole < INFINITE)
                 ranked_.push_back({whole, number});
     }
     for (const KnownWay& way : sources.known)
