@@ -125,7 +125,6 @@ FacePoint face_point_on(const Index& index, const Surface& surface, const Surfac
 PointView view_from(const Index& index, const Surface& surface, const SurfacePoint& at,
                     const FacePoint& point) {
     PointView view(point);
-    view.seen.is_cut = point.leaf == NONE;
     if (point.leaf == NONE || point.vertex != NONE) return view;
     if (const auto indexed = indexed_point(surface, at))
         see_farther(surface, *indexed, FacesOfLeaf(index, surface, point.leaf), vertices_of_polygon(surface),

@@ -35,6 +35,12 @@ FacePoint face_point_on(const Index& index, const Surface& surface, const Surfac
                         double cost = 1);
 
 // The same by a metric that unfolds, with the faces around the point as far as the index tells of them.
+struct PointView {
+    explicit PointView(const FacePoint& point) : point(point) {}
+
+    FacePoint point;
+    SeenFaces seen;
+};
 PointView view_from(const Index& index, const Surface& surface, const SurfacePoint& at,
                     const FacePoint& point);
 

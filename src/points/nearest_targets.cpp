@@ -32,8 +32,8 @@ struct Targets {
     }
 };
 
-// Targets by the distances of the vertices around them, from the only one of the sources. Both, and the
-// arrays of the source, outlive it.
+// Targets by the distances of the vertices around them, from the only one of the sources. The query, the
+// targets and the arrays of the source outlive it.
 class TargetSweeps {
 public:
     TargetSweeps(Query& query, const Query::PointSources& source, const Targets& targets)
@@ -68,8 +68,12 @@ public:
     }
 
 private:
+    // As long as a vertex has not been found, only a way that is no longer than what was left out counts.
     float distance_at(uint32_t number) const {
-        return Query::with_known(source_.known, number, query_.distance_within(number));
+        const float distance = query_.distance_within(number);
+        const Query::KnownWay* const way = Query::known_to(source_.known, number);
+        if (!way || (distance == INFINITE && !(way->length <= query_.nearest_beyond()))) return distance;
+        return way->corrected(distance);
     }
 
     bool are_corners_found(const Target& target) const {

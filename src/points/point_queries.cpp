@@ -16,12 +16,14 @@ namespace {
 // What a point sees of the faces around it, whatever the index knows of them, goes so many vertices far.
 constexpr size_t NEAR_VERTICES = 32;
 
-// Nothing is seen from a vertex, nor from a face that the index was not made on.
-std::optional<PointView> see_around_any_leaf(const Surface& surface, const SurfacePoint& point) {
+// Nothing is seen from a vertex, nor from a face that is too flat or that the index was not made on.
+std::optional<SeenAround> see_around_any_leaf(const Surface& surface, const SurfacePoint& point) {
     if (vertex_at(surface, point) != NONE) return std::nullopt;
     const auto indexed = indexed_point(surface, point);
     if (!indexed) return std::nullopt;
-    return see_around(surface, *indexed, NEAR_VERTICES);
+    const SeenAround around = see_around(surface, *indexed, NEAR_VERTICES);
+    if (around.faces.count == 0) return std::nullopt;
+    return around;
 }
 
 // Of the ways from one source, which begin at `begin`, keeps one to each vertex, by numbers.
@@ -112,7 +114,7 @@ double PointQueries::straight_way_of_near(const SurfacePoint& source, const Surf
     if (!(double{distance} <= NEAR_EDGES * edge)) return UNREACHABLE;
     const auto seen_from = [&](const SurfacePoint& at, const SurfacePoint& other) {
         const auto around = see_around_any_leaf(surface_, at);
-        return around ? around->seen.straight_to(surface_, other) : UNREACHABLE;
+        return around ? around->faces.straight_to(surface_, other) : UNREACHABLE;
     };
     return std::min(seen_from(source, target), seen_from(target, source));
 }
@@ -131,14 +133,15 @@ float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target)
 
 // To the corners of the face and, if the metric unfolds, to those of all faces that the point lies in, to the
 // vertices beyond their edges and to others that the point sees: sums over tables are of rounded distances,
-// which count where these are short. `seen` is what the point sees as far as the index tells of it.
-void PointQueries::add_known_ways(const SurfacePoint& source, const SeenFaces& seen, uint32_t position,
-                                  float offset, std::vector<Query::KnownWay>& known) const {
+// which count where these are short, and the polygon that the index tells of ends at the border of a leaf. Of
+// a vertex that the point does not see, what is known is the line in space.
+void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
+                                  std::vector<Query::KnownWay>& known) const {
     const auto add_way = [&](uint32_t vertex, double way) {
-        if (!(way < UNREACHABLE) || number_of(vertex) == NONE) return;
+        if (number_of(vertex) == NONE) return;
         const double chord = (surface_.positions[vertex] - position_of(surface_, source)).norm();
-        known.push_back({position, number_of(vertex), offset + static_cast<float>(way),
-                         offset + static_cast<float>(std::min(chord, way))});
+        known.push_back({position, number_of(vertex), offset + static_cast<float>(std::max(way, chord)),
+                         offset + static_cast<float>(chord)});
     };
     const auto add = [&](const SurfacePoint& from, uint32_t vertex, uint32_t face) {
         add_way(vertex, straight_nearby(surface_, from, corner_point(surface_, face, vertex)));
@@ -158,10 +161,8 @@ void PointQueries::add_known_ways(const SurfacePoint& source, const SeenFaces& s
             });
         }
     });
-    if (!seen.is_cut) return;
     if (const auto around = see_around_any_leaf(surface_, source))
-        for (uint32_t k = 0; k < around->point.vertex_count; ++k)
-            add_way(around->point.numbers[k], around->point.straight[k]);
+        for (uint32_t k = 0; k < around->vertex_count; ++k) add_way(around->vertices[k], around->straight[k]);
 }
 
 PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> points,
@@ -170,13 +171,12 @@ PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> poi
     sources.points.reserve(points.size());
     for (uint32_t i = 0; i < points.size(); ++i) {
         const float offset = offsets.empty() ? 0 : offsets[i];
-        const PointView view = view_of(points[i]);
         const size_t begin = sources.known.size();
-        sources.points.push_back(view.point);
-        if (view.point.vertex == NONE)
-            add_known_ways(points[i], view.seen, i, offset, sources.known);
+        const FacePoint& point = sources.points.emplace_back(view_of(points[i]).point);
+        if (point.vertex == NONE)
+            add_known_ways(points[i], i, offset, sources.known);
         else
-            sources.known.push_back({i, view.point.vertex, offset, offset});
+            sources.known.push_back({i, point.vertex, offset, offset});
         keep_shortest(sources.known, begin);
     }
     return sources;

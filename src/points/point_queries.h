@@ -44,7 +44,7 @@ private:
         operator Query::PointSources() const { return {points, offsets, known}; }
     };
     Sources sources_of(std::span<const SurfacePoint> points, std::span<const float> offsets) const;
-    void add_known_ways(const SurfacePoint& source, const SeenFaces& seen, uint32_t position, float offset,
+    void add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
                         std::vector<Query::KnownWay>& known) const;
     float with_straight_way(const SurfacePoint& source, const SurfacePoint& target, float distance,
                             bool is_seen = false) const;

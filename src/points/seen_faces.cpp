@@ -162,18 +162,15 @@ private:
         const Edge edge = edges_[index];
         const uint32_t face = edge.behind;
         const auto& numbers = point_.numbers;
-        if (face == NONE) return false;
+        if (face == NONE ||
+            !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.along().norm()))
+            return false;
         const uint32_t apex = apex_beyond(face, edge);
         const uint32_t number = known_.number_of(apex);
-        if (number == NONE ||
-            !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.along().norm())) {
-            seen_.is_cut = true;
-            return false;
-        }
         const Vector2d place = place_ahead(surface_, edge.second, edge.first, apex);
         const bool sees_first = cross(edge.right.direction, place) > 0,
                    sees_second = cross(place, edge.left.direction) > 0;
-        if (!(sees_first || sees_second)) return false;
+        if (number == NONE || !(sees_first || sees_second)) return false;
         const bool is_seen = sees_first && sees_second;
         const double distance = is_seen ? hypotenuse(place.x(), place.y()) : UNREACHABLE;
         const End third{{apex, place}, point_.vertex_count};
@@ -249,11 +246,15 @@ void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFace
     polygon.finish();
 }
 
-PointView see_around(const Surface& surface, const SurfacePoint& at, size_t most) {
+SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t most) {
     const auto& corners = indexed_corners(surface, at.face);
-    PointView view(face_point(corners, edge_lengths(surface, corners), at.weights, {true, true, true}));
-    see_farther(surface, at, AllFaces(), most, view.point, view.seen);
-    return view;
+    FacePoint polygon = face_point(corners, edge_lengths(surface, corners), at.weights, {true, true, true});
+    SeenAround around;
+    see_farther(surface, at, AllFaces(), most, polygon, around.faces);
+    around.vertex_count = polygon.vertex_count;
+    std::copy_n(polygon.numbers.begin(), polygon.vertex_count, around.vertices.begin());
+    std::copy_n(polygon.straight.begin(), polygon.vertex_count, around.straight.begin());
+    return around;
 }
 
 size_t vertices_of_polygon(const Surface& surface) {

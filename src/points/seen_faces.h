@@ -22,19 +22,10 @@ struct SeenFaces {
 
     size_t count = 0;
     std::array<Face, FacePoint::MOST_VERTICES> faces;
-    bool is_cut = false; // whether faces were left out that are not known
 
     // The length of the straight line to another point of the surface, in the faces that it lies in; infinite
     // if there is none.
     double straight_to(const Surface& surface, const SurfacePoint& point) const;
-};
-
-// A point with the faces that it sees.
-struct PointView {
-    explicit PointView(const FacePoint& point) : point(point) {}
-
-    FacePoint point;
-    SeenFaces seen;
 };
 
 // What an index knows of the faces of a surface.
@@ -54,10 +45,18 @@ protected:
 void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, size_t most,
                  FacePoint& point, SeenFaces& seen);
 
-// The faces around a point that is at no vertex, as far as a polygon of `most` vertices goes, whatever an
-// index knows of them: its vertices have their numbers in the surface. `at` is a point of the faces of an
-// index.
-PointView see_around(const Surface& surface, const SurfacePoint& at, size_t most);
+// The faces around a point with the vertices of their polygon.
+struct SeenAround {
+    SeenFaces faces;
+    uint32_t vertex_count = 0;
+    std::array<uint32_t, FacePoint::MOST_VERTICES> vertices; // of the surface
+    std::array<double, FacePoint::MOST_VERTICES>
+        straight; // from each to the point; infinite if it is not seen
+};
+
+// What a point that is at no vertex sees, as far as a polygon of `most` vertices goes, whatever an index
+// knows of it. `at` is a point of the faces of an index.
+SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t most);
 
 // How many vertices a polygon has on a surface, at most FacePoint::MOST_VERTICES. What it does not tell is a
 // share of an edge's length, so that it has more where edges are long for the whole surface.

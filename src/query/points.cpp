@@ -109,7 +109,7 @@ void Query::point_msad(const PointSources& sources, std::span<float> distances) 
     }
     for (const KnownWay& way : sources.known) {
         float& distance = by_number[way.number];
-        distance = sources.with(way, distance);
+        distance = sources.corrected(way, distance);
     }
     write_by_id(distances);
 }
@@ -129,7 +129,7 @@ void Query::point_nearest_sources(const PointSources& sources, std::span<uint32_
     for (const KnownWay& way : sources.known) {
         float& distance = by_number[way.number];
         if (way.length < distance) nearest_[way.number] = way.source;
-        distance = sources.with(way, distance);
+        distance = sources.corrected(way, distance);
     }
     for (size_t id = 0; id < nearest.size(); ++id) {
         const uint32_t number = index_.number_of_id[id];

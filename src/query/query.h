@@ -67,12 +67,12 @@ public:
     float point_sssd(const FacePoint& source, const FacePoint& target);
 
     // What is known of the distance from a source, by its position, to a vertex, by its number: it is no
-    // longer than a way and no shorter than the line in space.
+    // longer than a way, if one is known, and no shorter than the line in space.
     struct KnownWay {
         uint32_t source, number;
-        float length, least;
+        float length, chord; // both with the offset of the source
 
-        float limited(float distance) const { return std::min(std::max(distance, least), length); }
+        float corrected(float distance) const { return std::min(std::max(distance, chord), length); }
     };
     // Points as sources. How far a vertex is, is the least of offset(i) + the distance from points[i].
     struct PointSources {
@@ -85,16 +85,17 @@ public:
             const auto begin = std::ranges::lower_bound(known, source, {}, &KnownWay::source);
             return {begin, std::ranges::upper_bound(begin, known.end(), source, {}, &KnownWay::source)};
         }
-        // How far the vertex of such a way is from all sources: each is no farther.
-        float with(const KnownWay& way, float distance) const {
-            return points.size() == 1 ? way.limited(distance) : std::min(distance, way.length);
+        // Corrects the distance of the way's vertex from the nearest source. How far it is from one of
+        // several at least is no bound for all.
+        float corrected(const KnownWay& way, float distance) const {
+            return points.size() == 1 ? way.corrected(distance) : std::min(distance, way.length);
         }
     };
 
-    // A distance from one source alone, by what is known from it.
-    static float with_known(std::span<const KnownWay> from_source, uint32_t number, float distance) {
+    // What is known of the distance between a source, by all that is known from it, and a vertex, or null.
+    static const KnownWay* known_to(std::span<const KnownWay> from_source, uint32_t number) {
         const auto way = std::ranges::lower_bound(from_source, number, {}, &KnownWay::number);
-        return way != from_source.end() && way->number == number ? way->limited(distance) : distance;
+        return way != from_source.end() && way->number == number ? &*way : nullptr;
     }
 
     // Multiple points, all destinations.

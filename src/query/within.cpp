@@ -78,10 +78,11 @@ std::span<const Query::Found> Query::point_within(const PointSources& sources, f
         const float offset = sources.offset(i), swept = radius_without(offset, radius);
         if (swept < 0) continue;
         const auto known = sources.known_from(static_cast<uint32_t>(i));
-        for (const auto& [number, distance] : numbers_within(sources.points[i], swept))
-            if (const float whole = with_known(known, number, offset + distance);
-                whole <= radius && whole < INFINITE)
-                ranked_.push_back({whole, number});
+        for (const auto& [number, distance] : numbers_within(sources.points[i], swept)) {
+            const KnownWay* const way = known_to(known, number);
+            const float whole = way ? way->corrected(offset + distance) : offset + distance;
+            if (whole <= radius && whole < INFINITE) ranked_.push_back({whole, number});
+        }
     }
     for (const KnownWay& way : sources.known)
         if (way.length <= radius && way.length < INFINITE) ranked_.push_back({way.length, way.number});

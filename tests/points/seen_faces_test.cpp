@@ -183,7 +183,7 @@ TEST_CASE("seen faces: over edges of several faces all of these are seen, as if 
         CAPTURE(i);
         SurfacePoint at = random_point(surface, random, 0);
         at.face = static_cast<uint32_t>(random() % (2 * 6)); // of the first panel, beside the edge
-        const SeenFaces seen = see_around(surface, at, FacePoint::MOST_VERTICES).seen;
+        const SeenFaces seen = see_around(surface, at, FacePoint::MOST_VERTICES).faces;
         for (size_t j = 0; j < 40; ++j) {
             const SurfacePoint other = random_point(surface, random, j);
             const double straight = seen.straight_to(surface, other);
@@ -213,7 +213,7 @@ TEST_CASE("seen faces: edges of many faces end what is seen, and may be all that
         for (size_t i = 0; i < 50; ++i) {
             SurfacePoint at = random_point(surface, random, 0);
             at.face = static_cast<uint32_t>(random() % (2 * 6));
-            const SeenFaces seen = see_around(surface, at, FacePoint::MOST_VERTICES).seen;
+            const SeenFaces seen = see_around(surface, at, FacePoint::MOST_VERTICES).faces;
             for (const SeenFaces::Face& face : std::span(seen.faces).first(seen.count))
                 ++seen_in[face.face / of_panel];
         }
