@@ -472,7 +472,7 @@ TEST_CASE("out of memory while building") {
         for (uint32_t threads = 1; threads <= 4; threads += NEXT_THREADS)
             for (Source source : SOURCES) {
                 CAPTURE(threads);
-                const uint64_t stride = source == Source::caller ? 29 : 2999;
+                const uint64_t stride = source == Source::caller ? 13 : 2999;
                 const uint64_t failed = try_with_faults(source, stride, [&](Fault& fault) {
                     auto options = options_of(engine, threads);
                     options.allocator = fault.allocator();
