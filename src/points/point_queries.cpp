@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "format/error.h"
 #include "geoidx.h"
@@ -17,21 +18,16 @@ namespace {
 constexpr size_t NEAR_VERTICES = 32;
 
 // Nothing is seen from a vertex, nor from a face that is too flat or that the index was not made on.
-std::optional<SeenAround> see_around_any_leaf(const Surface& surface, const SurfacePoint& point) {
-    if (vertex_at(surface, point) != NONE) return std::nullopt;
-    const auto indexed = indexed_point(surface, point);
-    if (!indexed) return std::nullopt;
-    const SeenAround around = see_around(surface, *indexed, NEAR_VERTICES);
-    if (around.faces.count == 0) return std::nullopt;
-    return around;
+SeenAround see_around_any_leaf(const Surface& surface, const SurfacePoint& point) {
+    const auto indexed = vertex_at(surface, point) == NONE ? indexed_point(surface, point) : std::nullopt;
+    return indexed ? see_around(surface, *indexed, NEAR_VERTICES) : SeenAround();
 }
 
 // Of the ways from one source, which begin at `begin`, keeps one to each vertex, by numbers.
 void keep_shortest(std::vector<Query::KnownWay>& ways, size_t begin) {
     const auto first = ways.begin() + static_cast<std::ptrdiff_t>(begin);
-    std::sort(first, ways.end(), [](const auto& a, const auto& b) {
-        return a.number < b.number || (a.number == b.number && a.length < b.length);
-    });
+    std::ranges::sort(first, ways.end(), {},
+                      [](const auto& way) { return std::pair(way.number, way.length); });
     const auto is_same = [](const auto& a, const auto& b) { return a.number == b.number; };
     ways.erase(std::unique(first, ways.end(), is_same), ways.end());
 }
@@ -113,8 +109,7 @@ double PointQueries::straight_way_of_near(const SurfacePoint& source, const Surf
     const double edge = std::min(longest_edge(surface_, source), longest_edge(surface_, target));
     if (!(double{distance} <= NEAR_EDGES * edge)) return UNREACHABLE;
     const auto seen_from = [&](const SurfacePoint& at, const SurfacePoint& other) {
-        const auto around = see_around_any_leaf(surface_, at);
-        return around ? around->faces.straight_to(surface_, other) : UNREACHABLE;
+        return see_around_any_leaf(surface_, at).faces.straight_to(surface_, other);
     };
     return std::min(seen_from(source, target), seen_from(target, source));
 }
@@ -137,10 +132,12 @@ float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target)
 // a vertex that the point does not see, what is known is the line in space.
 void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
                                   std::vector<Query::KnownWay>& known) const {
+    const Eigen::Vector3d place = position_of(surface_, source);
     const auto add_way = [&](uint32_t vertex, double way) {
-        if (number_of(vertex) == NONE) return;
-        const double chord = (surface_.positions[vertex] - position_of(surface_, source)).norm();
-        known.push_back({position, number_of(vertex), offset + static_cast<float>(std::max(way, chord)),
+        const uint32_t number = number_of(vertex);
+        if (number == NONE) return;
+        const double chord = (surface_.positions[vertex] - place).norm();
+        known.push_back({position, number, offset + static_cast<float>(std::max(way, chord)),
                          offset + static_cast<float>(chord)});
     };
     const auto add = [&](const SurfacePoint& from, uint32_t vertex, uint32_t face) {
@@ -161,8 +158,8 @@ void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position,
             });
         }
     });
-    if (const auto around = see_around_any_leaf(surface_, source))
-        for (uint32_t k = 0; k < around->vertex_count; ++k) add_way(around->vertices[k], around->straight[k]);
+    const SeenAround around = see_around_any_leaf(surface_, source);
+    for (uint32_t k = 0; k < around.vertex_count; ++k) add_way(around.vertices[k], around.straight[k]);
 }
 
 PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> points,

@@ -251,6 +251,7 @@ SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t mos
     FacePoint polygon = face_point(corners, edge_lengths(surface, corners), at.weights, {true, true, true});
     SeenAround around;
     see_farther(surface, at, AllFaces(), most, polygon, around.faces);
+    if (around.faces.count == 0) return around; // the corners alone, of a face that may be too flat
     around.vertex_count = polygon.vertex_count;
     std::copy_n(polygon.numbers.begin(), polygon.vertex_count, around.vertices.begin());
     std::copy_n(polygon.straight.begin(), polygon.vertex_count, around.straight.begin());

@@ -45,13 +45,13 @@ protected:
 void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, size_t most,
                  FacePoint& point, SeenFaces& seen);
 
-// The faces around a point with the vertices of their polygon.
+// The faces around a point with the vertices of their polygon, which has none if no face is seen. straight[k]
+// is from vertices[k] to the point, infinite if the point does not see it.
 struct SeenAround {
     SeenFaces faces;
     uint32_t vertex_count = 0;
     std::array<uint32_t, FacePoint::MOST_VERTICES> vertices; // of the surface
-    std::array<double, FacePoint::MOST_VERTICES>
-        straight; // from each to the point; infinite if it is not seen
+    std::array<double, FacePoint::MOST_VERTICES> straight;
 };
 
 // What a point that is at no vertex sees, as far as a polygon of `most` vertices goes, whatever an index
