@@ -57,8 +57,8 @@ private:
 };
 
 // Tries something with the first allocation failing, then with the one `stride` later, and so on until none
-// fails any more; with every one where GEOIDX_EVERY_FAULT is set in the environment. Returns how often one
-// failed.
+// fails any more; once more from half a stride on, where allocations after the failing one succeed. Every one
+// fails where GEOIDX_EVERY_FAULT is set in the environment. Returns how often one failed.
 inline uint64_t try_with_faults(Source source, uint64_t stride, const std::function<void(Fault&)>& attempt) {
     if (std::getenv("GEOIDX_EVERY_FAULT")) stride = 1;
     uint64_t failed = 0;

@@ -3,14 +3,12 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
-#include "src/base/numbers.h"
+#include "tests/capi/refusals.h"
 #include "tests/index/told_issues.h"
 #include "tests/query/planted_pairs.h"
 
 using namespace geodesic::test;
-using geodesic::INFINITE;
 using geodesic::TAG_MEASURED_PAIRS;
 using geodesic::TAG_STEEP_EDGES;
 namespace format = geodesic::format;
@@ -223,11 +221,11 @@ TEST_CASE("measured pairs: a section that breaks a rule is refused") {
     refused("a second vertex that is not there", 1, 0, 1 << 20);
     refused("a first vertex that is not there", 0, 1, UINT32_MAX - 5);
     refused("descending order", 0, 1, UINT32_MAX);
-    for (const float distance : {0.0f, -1.0f, INFINITE, std::numeric_limits<float>::quiet_NaN()})
+    for (const float distance : {0.0f, -1.0f, INFINITE, NOT_A_NUMBER})
         refused("distance", 2, 2, std::bit_cast<uint32_t>(distance));
     const std::vector<Planted> twice{planted()[0], planted()[0]};
     CHECK(open_status(with_pairs(section_of(twice))) == GEOIDX_ERROR_CORRUPT);
-    for (const float error : {-1.0f, INFINITE, std::numeric_limits<float>::quiet_NaN()}) {
+    for (const float error : {-1.0f, INFINITE, NOT_A_NUMBER}) {
         Bytes section = good;
         std::memcpy(section.data() + 8, &error, sizeof error);
         CHECK(open_status(with_pairs(section)) == GEOIDX_ERROR_CORRUPT);

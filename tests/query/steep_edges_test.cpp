@@ -1,13 +1,11 @@
 // Edges along which fields are lowered: every query that gives distances of a field does so, against a plain
 // rendering of the rule in format/SPEC.md.
-#include <limits>
 
-#include "src/base/numbers.h"
+#include "tests/capi/refusals.h"
 #include "tests/index/told_issues.h"
 #include "tests/query/planted_pairs.h"
 
 using namespace geodesic::test;
-using geodesic::INFINITE;
 using geodesic::TAG_MEASURED_PAIRS;
 using geodesic::TAG_STEEP_EDGES;
 namespace format = geodesic::format;
@@ -245,7 +243,7 @@ TEST_CASE("steep edges: a section that breaks a rule is refused") {
     refused("a second vertex that is not there", with_value(good, BEGIN, 1, 0, 1 << 20));
     refused("a first vertex that is not there", with_value(good, BEGIN, 0, 1, UINT32_MAX - 5));
     refused("descending order", with_value(good, BEGIN, 0, 1, UINT32_MAX));
-    for (const float most : {0.0f, -1.0f, INFINITE, std::numeric_limits<float>::quiet_NaN()})
+    for (const float most : {0.0f, -1.0f, INFINITE, NOT_A_NUMBER})
         refused("what ends may differ by", with_value(good, BEGIN, 2, 2, std::bit_cast<uint32_t>(most)));
     refused("an edge twice", steep_section_of(std::vector<Planted>{steep_planted()[0], steep_planted()[0]}));
     Bytes longer = good, shorter = good;
