@@ -1,6 +1,7 @@
 // The nearest of some points of a surface.
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "src/points/point_queries.h"
@@ -13,6 +14,9 @@ namespace {
 // (`geoidx_bench paths`).
 constexpr uint64_t VERTICES_PER_PAIR = 5;
 
+// No answer is shorter than this share of the line in space: those of vertices are not held to it.
+constexpr float LEAST_SHARE_OF_LINE = 0.99f;
+
 // Each sweep looks this many times as far as the one before, or as the nearest vertex that it left out.
 constexpr float GROWTH = 2;
 
@@ -22,14 +26,43 @@ struct Target {
     std::array<uint32_t, 3> corners;
 };
 
+// Targets and what is known of them before any sweep.
 struct Targets {
     std::vector<Target> all;
     float reach = 0; // from a target to the corners of its face
+    // Lower bounds of the distances, in ascending order.
+    std::vector<Query::Found> least_possible;
 
-    void add(const FacePoint& target) {
+    void add(const FacePoint& target, float line) {
+        least_possible.push_back({LEAST_SHARE_OF_LINE * line, static_cast<uint32_t>(all.size())});
         all.push_back({target.vertex, target.corners()});
         for (size_t k = 0; k < 3; ++k) reach = std::max(reach, static_cast<float>(target.straight[k]));
     }
+    void sort() { std::ranges::sort(least_possible); }
+};
+
+// The nearest of what is added, at most so many.
+class Nearest {
+public:
+    explicit Nearest(size_t most) : most_(most) {}
+
+    void add(const Query::Found& found) {
+        found_.push_back(found);
+        std::ranges::push_heap(found_);
+        if (found_.size() <= most_) return;
+        std::ranges::pop_heap(found_);
+        found_.pop_back();
+    }
+    // What is farther is not kept; infinity as long as there is room.
+    float limit() const { return found_.size() < most_ ? INFINITE : found_.front().distance; }
+    std::vector<Query::Found> sorted() && {
+        std::ranges::sort_heap(found_);
+        return std::move(found_);
+    }
+
+private:
+    size_t most_;
+    std::vector<Query::Found> found_; // a heap
 };
 
 // Targets by the distances of the vertices around them, from the only one of the sources. The query, the
@@ -46,23 +79,22 @@ public:
     std::vector<Query::Found> find(size_t count, const ViewOf& view_of, const Distance& distance) {
         for (float radius = targets_.reach;;) {
             query_.sweep_within(source_, radius);
-            std::vector<Query::Found> found;
+            Nearest nearest(count);
             // A target that is left out is no nearer: one of its corners is beyond the radius, or all tell
             // how near it can be.
             float left_out = radius - targets_.reach;
-            for (uint32_t i = 0; i < targets_.all.size(); ++i) {
+            for (const auto& [least, i] : targets_.least_possible) {
+                if (least > nearest.limit()) break;
                 if (!are_corners_found(targets_.all[i])) continue;
                 const PointView view = view_of(i);
                 const float by_vertices = distance_of(view.point);
                 if (by_vertices < INFINITE)
-                    found.push_back({distance(i, view, by_vertices), i});
+                    nearest.add({distance(i, view, by_vertices), i});
                 else
                     left_out = std::min(left_out, least_by_corners(view.point));
             }
-            std::ranges::sort(found);
-            const bool are_nearest = found.size() >= count && found[count - 1].distance <= left_out;
             const float beyond = query_.nearest_beyond();
-            if (are_nearest || beyond == INFINITE) return found;
+            if (nearest.limit() <= left_out || beyond == INFINITE) return std::move(nearest).sorted();
             radius = std::max(radius, beyond) * GROWTH + targets_.reach;
         }
     }
@@ -110,8 +142,12 @@ private:
 
 std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& source,
                                                         std::span<const SurfacePoint> targets, size_t count) {
+    const Eigen::Vector3d place = position_of(surface_, source);
     Targets faces;
-    for (const SurfacePoint& target : targets) faces.add(face_point_on(index_, surface_, target, unfolds()));
+    for (const SurfacePoint& target : targets)
+        faces.add(face_point_on(index_, surface_, target, unfolds()),
+                  static_cast<float>((position_of(surface_, target) - place).norm()));
+    faces.sort();
     count = std::min(count, targets.size());
     std::vector<Query::Found> found;
     if (count == 0) return found;
