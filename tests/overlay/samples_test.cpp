@@ -85,16 +85,25 @@ uint32_t longest_gap(const Rings::Chain& chain, std::span<const uint16_t> sample
     return longest;
 }
 
-TEST_CASE("samples: about 64 of a border, from every second to every eighth vertex, along every chain") {
+// The most that there are if every second vertex is a sample, and both ends of each open chain.
+size_t every_second(const OverlayIndex& overlay, uint32_t patch) {
+    size_t most = 0;
+    for (const auto& chain : overlay.rings.chains_of(patch)) most += (chain.last - chain.first + 3) / 2;
+    return most;
+}
+
+TEST_CASE("samples: about 64 of a border, more of one that is long for its mesh, along every chain") {
     uint32_t open_chains = 0, closed_chains = 0, long_borders = 0;
     for (const OverlayOf& of : built()) {
         const OverlayIndex& overlay = of.overlay();
         for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
             const auto samples = overlay.pairs.samples.of(p);
             const uint32_t size = overlay.numbering.border_size(p);
-            const double step = std::clamp(size / 64.0, 2.0, 8.0);
+            const double extent = std::sqrt(static_cast<double>(overlay.numbering.vertex_count()));
+            const double step = std::clamp(std::min(size / 64.0, extent / 40), 2.0, 10.0);
             if (size > 128) CHECK(samples.size() >= 56);
-            if (overlay.numbering.parent[p] == 0) CHECK(samples.size() <= std::max(192u, size / 2));
+            if (overlay.numbering.parent[p] == 0)
+                CHECK(samples.size() <= std::max(size_t{192}, every_second(overlay, p)));
             long_borders += size > 128;
             for (const auto& chain : overlay.rings.chains_of(p)) {
                 CHECK(longest_gap(chain, samples, overlay.rings.begin[p]) <= 1.5 * step + 1);

@@ -12,9 +12,11 @@ namespace {
 
 // A border has about WANTED samples, but no more than MOST_SHARE of its vertices and no fewer than
 // LEAST_SHARE of them; and up to twice as many where its edges are longer in some places than in others. A
-// chain has FEWEST_OF_CHAIN samples or more, or all of its vertices if these are fewer: where nothing
-// unfolds, each vertex is a chain by itself.
-constexpr double WANTED = 64, MOST_SHARE = 1.0 / 2, LEAST_SHARE = 1.0 / 10;
+// border that is long for its mesh has more: samples are about a fortieth of the mesh's extent apart, or
+// less, since all pairs that are nearer than some spacings take longer. A chain has FEWEST_OF_CHAIN samples
+// or more, or all of its vertices if these are fewer: where nothing unfolds, each vertex is a chain by
+// itself.
+constexpr double WANTED = 64, WANTED_PER_EXTENT = 40, MOST_SHARE = 1.0 / 2, LEAST_SHARE = 1.0 / 10;
 constexpr uint32_t FEWEST_OF_CHAIN = 3;
 
 // Ways along a border to where it meets the parent's are made longer by this share of a spacing.
@@ -22,8 +24,9 @@ constexpr float LONGER_ALONG_BORDER = 0.5f;
 
 // The share of the vertices of a patch's border that are to be samples.
 double share_of(const OverlayIndex& index, uint32_t patch) {
-    const uint32_t size = std::max(1u, index.numbering.border_size(patch));
-    return std::clamp(WANTED / size, LEAST_SHARE, MOST_SHARE);
+    const double size = std::max(1u, index.numbering.border_size(patch));
+    const double extent = std::sqrt(static_cast<double>(index.numbering.vertex_count())); // in edges
+    return std::clamp(std::max(WANTED / size, WANTED_PER_EXTENT / extent), LEAST_SHARE, MOST_SHARE);
 }
 
 // How far samples are to be apart along a border, on average. Segments longer than this are long.
