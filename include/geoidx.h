@@ -759,10 +759,13 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * same bits. By GEOIDX_METRIC_EXACT, points of one triangle are as far apart as the straight line between
  * them is long, and so are those of triangles that share an edge which that line crosses, unless the index
  * knows a much shorter way; so are those a few triangles apart that see each other over these, unless the
- * index knows a way that is shorter by a hundredth; others are to the accuracy of the index. Points of
- * triangles that share a corner are no farther apart than the way over it is long and, by
- * GEOIDX_METRIC_EXACT, than a straight line around it over the triangles between the two. +INFINITY where
- * there is no path. */
+ * index knows a way that is shorter by a hundredth. Others that are less than about four of the longest edges
+ * around them apart are as far apart as a path of GEOIDX_PATH_STRAIGHT between them is long: of edges that
+ * are long for the distance, vertices tell little. That takes tens of microseconds, on surfaces of few large
+ * triangles some hundred and rarely milliseconds, and scratch from the global heap. All others are to the
+ * accuracy of the index. Points of triangles that share a corner are no farther apart than the way over it is
+ * long and, by GEOIDX_METRIC_EXACT, than a straight line around it over the triangles between the two.
+ * +INFINITY where there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* source,
                                                  const geoidx_surface_point* target, float* distance);
@@ -794,8 +797,8 @@ GEOIDX_API geoidx_status geoidx_query_point_within(geoidx_query* query, const ge
                                                    float* distances, uint32_t capacity, uint32_t* count);
 
 /* geoidx_query_nearest_targets of points of the surface: few targets are asked for one by one, as by
- * geoidx_query_point_sssd; the distances of many come from fields, as those of geoidx_query_point_msad. A
- * point of which a corner cannot be reached is not reached either. */
+ * geoidx_query_point_sssd, but without paths; the distances of many come from fields, as those of
+ * geoidx_query_point_msad. A point of which a corner cannot be reached is not reached either. */
 GEOIDX_API geoidx_status geoidx_query_point_nearest_targets(
     geoidx_query* query, const geoidx_surface* surface, const geoidx_surface_point* source,
     const geoidx_surface_point* targets, uint32_t target_count, uint32_t* positions, float* distances,

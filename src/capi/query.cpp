@@ -9,6 +9,7 @@
 #include "src/capi/status.h"
 #include "src/path/next_step.h"
 #include "src/path/path.h"
+#include "src/path/point_distance.h"
 #include "src/points/point_queries.h"
 
 using namespace geodesic;
@@ -265,7 +266,7 @@ geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface*
         require(distance, "distance is NULL");
         const SurfacePoint from = checked_point(surface->surface, *source, "source"),
                            to = checked_point(surface->surface, *target, "target");
-        *distance = PointQueries(query->index, query->query, surface->surface).sssd(from, to);
+        *distance = distance_of_points(query->index, query->query, surface->surface, from, to);
     });
 }
 

@@ -41,6 +41,15 @@ double longest_edge(const Surface& surface, const SurfacePoint& point) {
     return longest;
 }
 
+// Of the polygon of a point that is at no vertex.
+double longest_edge_around(const FacePoint& point) {
+    double longest = 0;
+    if (point.vertex != NONE) return longest;
+    for (const FacePoint::Edge& edge : std::span(point.edges).first(point.edge_count))
+        longest = std::max(longest, edge.length);
+    return longest;
+}
+
 }
 
 PointQueries::PointQueries(const Index& index, Query& query, const Surface& surface)
@@ -114,16 +123,29 @@ double PointQueries::straight_way_of_near(const SurfacePoint& source, const Surf
     return std::min(seen_from(source, target), seen_from(target, source));
 }
 
-float PointQueries::sssd(const SurfacePoint& source, const SurfacePoint& target) {
+PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfacePoint& target) {
     FacePoint first = face_point_on(index_, surface_, source, unfolds()),
               second = face_point_on(index_, surface_, target, unfolds());
-    if (first.vertex != NONE && second.vertex != NONE) return query_.point_sssd(first, second);
+    if (first.vertex != NONE && second.vertex != NONE) return {query_.point_sssd(first, second)};
     const auto has_leaf = [](const FacePoint& point) { return point.vertex != NONE || point.leaf != NONE; };
     if (!has_leaf(first) || !has_leaf(second))
-        return with_straight_way(source, target, query_.point_sssd(first, second));
+        return judged(with_straight_way(source, target, query_.point_sssd(first, second)), first, second,
+                      [&] { return with_straight_way(source, target, INFINITE); });
     share_leaf(index_, first, second);
     const PointView from = view_of(source, first), to = view_of(target, second);
-    return with_known_ways(source, from, target, to, query_.point_sssd(from.point, to.point));
+    const float distance = query_.point_sssd(from.point, to.point);
+    return judged(with_known_ways(source, from, target, to, distance), from.point, to.point,
+                  [&] { return with_known_ways(source, from, target, to, INFINITE); });
+}
+
+// What vertices answer is measured where tables would be wrong; only the edges of others count.
+template <class KnownWay>
+PointQueries::Pair PointQueries::judged(float distance, const FacePoint& first, const FacePoint& second,
+                                        const KnownWay& known_way) const {
+    constexpr double FEW_EDGES = 4;
+    const double longest = std::max(longest_edge_around(first), longest_edge_around(second));
+    if (!unfolds() || distance == 0 || !(double{distance} < FEW_EDGES * longest)) return {distance};
+    return {distance, false, known_way()};
 }
 
 // To the corners of the face and, if the metric unfolds, to those of all faces that the point lies in, to the

@@ -16,7 +16,18 @@ public:
     // does not tell what a way within a face costs.
     PointQueries(const Index& index, Query& query, const Surface& surface);
 
-    float sssd(const SurfacePoint& source, const SurfacePoint& target);
+    // By tables alone.
+    float sssd(const SurfacePoint& source, const SurfacePoint& target) {
+        return pair(source, target).distance;
+    }
+    // The same, and how much it says. Where the edges around a point are long for how far the other one is
+    // away, a way that crosses them may come from another side than tables tell of.
+    struct Pair {
+        float distance;
+        bool is_sure = true;
+        float known_way = INFINITE; // the length of some way, where the distance is not sure
+    };
+    Pair pair(const SurfacePoint& source, const SurfacePoint& target);
     // Of several sources; `offsets` are as many, or none.
     void msad(std::span<const SurfacePoint> sources, std::span<const float> offsets,
               std::span<float> distances);
@@ -50,6 +61,9 @@ private:
                             bool is_seen = false) const;
     float with_known_ways(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
                           const PointView& to, float distance) const;
+    template <class KnownWay>
+    Pair judged(float distance, const FacePoint& first, const FacePoint& second,
+                const KnownWay& known_way) const;
     double way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const;
     double straight_way_of_near(const SurfacePoint& source, const SurfacePoint& target, float distance) const;
 
