@@ -755,17 +755,19 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * different sides, as around holes that are as small as triangles or between spikes, off by a share of the
  * triangles' edges. `surface` must be of the index's mesh, and stay open during the call only. */
 
-/* geoidx_query_sssd between points of the surface, symmetric bit for bit. Of points at vertices it gives the
- * same bits. By GEOIDX_METRIC_EXACT, points of one triangle are as far apart as the straight line between
- * them is long, and so are those of triangles that share an edge which that line crosses, unless the index
- * knows a much shorter way; so are those a few triangles apart that see each other over these, unless the
- * index knows a way that is shorter by a hundredth. Others that are less than about four of the longest edges
- * around them apart are as far apart as a path of GEOIDX_PATH_STRAIGHT between them is long: of edges that
- * are long for the distance, vertices tell little. That takes tens of microseconds, on surfaces of few large
- * triangles some hundred and rarely milliseconds, and scratch from the global heap. All others are to the
- * accuracy of the index. Points of triangles that share a corner are no farther apart than the way over it is
- * long and, by GEOIDX_METRIC_EXACT, than a straight line around it over the triangles between the two.
- * +INFINITY where there is no path. */
+/* geoidx_query_sssd between points of the surface, symmetric bit for bit. Of points at vertices it gives
+ * the same bits. By GEOIDX_METRIC_EXACT, points of one triangle are as far apart as the straight line
+ * between them is long, and so are those of triangles that share an edge which that line crosses, unless
+ * the index knows a much shorter way; so are those a few triangles apart that see each other over these,
+ * unless the index knows a way that is shorter by a hundredth. Where the index says that two points are
+ * less than four of the longest edges around them apart, a path of GEOIDX_PATH_STRAIGHT is found, and its
+ * length is the distance unless one of the ways above is shorter: of edges that are long for the distance,
+ * vertices tell little. That takes tens of microseconds, on surfaces of few large triangles some hundred,
+ * between details far apart beside one very large triangle as long as a path, by GEOIDX_ENGINE_GRAPH
+ * several whole fields. It takes scratch from the global heap each time, and from the index's allocator as
+ * paths do. All others are to the accuracy of the index. Points of triangles that share a corner are no
+ * farther apart than the way over it is long and, by GEOIDX_METRIC_EXACT, than a straight line around it
+ * over the triangles between the two. +INFINITY where there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* source,
                                                  const geoidx_surface_point* target, float* distance);
