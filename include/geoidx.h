@@ -655,8 +655,8 @@ GEOIDX_API geoidx_status geoidx_matrix(const geoidx* index, const uint32_t* sour
                                        const uint32_t* targets, uint32_t target_count, float* distances,
                                        uint64_t distance_count);
 
-/* One thread's scratch, so that a query does not lock and, after the first ones, does not allocate. The index
- * must outlive it. */
+/* One thread's scratch, so that a query does not lock and, after the first ones, does not allocate, but for
+ * paths and what says so below. The index must outlive it. */
 GEOIDX_API geoidx_status geoidx_query_create(const geoidx* index, geoidx_query** out);
 GEOIDX_API void geoidx_query_close(geoidx_query* query);
 GEOIDX_API geoidx_status geoidx_query_sssd(geoidx_query* query, uint32_t source, uint32_t target,
@@ -760,14 +760,14 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * between them is long, and so are those of triangles that share an edge which that line crosses, unless
  * the index knows a much shorter way; so are those a few triangles apart that see each other over these,
  * unless the index knows a way that is shorter by a hundredth. Where the index says that two points are
- * less than four of the longest edges around them apart, a path of GEOIDX_PATH_STRAIGHT is found, and its
- * length is the distance unless one of the ways above is shorter: of edges that are long for the distance,
- * vertices tell little. That takes tens of microseconds, on surfaces of few large triangles some hundred,
- * between details far apart beside one very large triangle as long as a path, by GEOIDX_ENGINE_GRAPH
- * several whole fields. It takes scratch from the global heap each time, and from the index's allocator as
- * paths do. All others are to the accuracy of the index. Points of triangles that share a corner are no
- * farther apart than the way over it is long and, by GEOIDX_METRIC_EXACT, than a straight line around it
- * over the triangles between the two. +INFINITY where there is no path. */
+ * less than four edges apart, by the longest edge around them or the average one of the mesh, a path of
+ * GEOIDX_PATH_STRAIGHT is found, and its length is the distance unless one of the ways above is shorter: of
+ * edges that are long for the distance, vertices tell little. That takes tens of microseconds, on surfaces of
+ * few large triangles some hundred, and is given up after 2000 triangles. It takes scratch from the global
+ * heap each time, and from the index's allocator as paths do; by GEOIDX_ENGINE_GRAPH, where it would take
+ * several whole fields, it is not done. All others are to the accuracy of the index. Points of triangles that
+ * share a corner are no farther apart than the way over it is long and, by GEOIDX_METRIC_EXACT, than a
+ * straight line around it over the triangles between the two. +INFINITY where there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* source,
                                                  const geoidx_surface_point* target, float* distance);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "format/error.h"
@@ -42,25 +43,30 @@ bool is_same(const Strip& a, const Strip& b) { return a.faces == b.faces && a.po
 
 class PathFinder {
 public:
+    // A strip that takes more steps than that is given up.
     PathFinder(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
-               const SurfacePoint& target)
+               const SurfacePoint& target, size_t most_steps = SIZE_MAX)
         : index_(index), query_(query), surface_(surface), points_(index, query, surface), source_(source),
-          target_(target), search_(surface) {}
+          target_(target), search_(surface), most_steps_(most_steps) {}
 
+    struct FoundWay {
+        StripWay way;
+        bool is_settled = true; // or its corridor was too large to be searched for a shorter one
+    };
+    FoundWay find_way(PathQuality quality);
     SurfacePath find(PathQuality quality);
-    StripWay find_way(PathQuality quality);
 
 private:
     FacePoint prepared_as(const SurfacePoint& end, PathQuality quality) const;
     StripWay find_straight(const FacePoint& source, const FacePoint& target);
     double known_length(const FacePoint& target);
-    void shorten(StripWay& way, double length, size_t most_vertices);
+    bool shorten(StripWay& way, double length, size_t most_vertices);
     double distance(size_t end, uint32_t vertex) {
         return end_distance(index_, query_, surface_, end, vertex);
     }
     TargetDistances distances_from(size_t end) {
         constexpr double ERROR = 0.005; // of most distances of most indexes
-        return {[this, end](uint32_t vertex) { return distance(end, vertex); }, {}, ERROR};
+        return {[this, end](uint32_t vertex) { return distance(end, vertex); }, {}, ERROR, most_steps_};
     }
     std::optional<Strip> led_by(size_t end);
     double least_distance(double distance) const;
@@ -72,6 +78,7 @@ private:
     PointQueries points_;
     const SurfacePoint source_, target_;
     StripSearch search_;
+    const size_t most_steps_;
 };
 
 // The least that a distance can be of which the index says this, by the largest errors that it states. These
@@ -144,36 +151,40 @@ double PathFinder::known_length(const FacePoint& target) {
     return distance_over(target, from_vertices) * (1 + std::max(index_.description.error.p99, LEAST_ERROR));
 }
 
-// Searches the corridor of paths up to this length for a shorter one, unless it has too many vertices.
-void PathFinder::shorten(StripWay& way, double length, size_t most_vertices) {
+// Searches the corridor of paths up to this length for a shorter one, unless it has too many vertices; tells
+// whether it has.
+bool PathFinder::shorten(StripWay& way, double length, size_t most_vertices) {
     size_t count = 0;
     const Corridor corridor = corridor_around(surface_, way.strip, [&](uint32_t vertex, double slack) {
         const bool is_one = count <= most_vertices && belongs(vertex, slack, length);
         count += is_one;
         return is_one;
     });
-    if (count <= most_vertices) make_shortest_in_corridor(surface_, corridor, way.strip, way.path);
+    if (count > most_vertices) return false;
+    make_shortest_in_corridor(surface_, corridor, way.strip, way.path);
+    return true;
 }
 
 // There are surfaces of so many bumps that straight ways are not among the shortest ones. There, too, a
 // corridor is searched.
-StripWay PathFinder::find_way(PathQuality quality) {
+PathFinder::FoundWay PathFinder::find_way(PathQuality quality) {
     constexpr size_t MOST_VERTICES_OF_STRAIGHT = 1000;
     const FacePoint source = prepared_as(source_, quality), target = prepared_as(target_, quality);
-    StripWay way = find_straight(source, target);
-    if (way.strip.faces.size() == 1) return way;
+    FoundWay found{find_straight(source, target)};
+    StripWay& way = found.way;
+    if (way.strip.faces.size() == 1) return found;
     if (quality == PathQuality::EXACT)
         shorten(way, way.path.length, surface_.vertex_count());
     else if (const double length = known_length(target); way.path.length > length)
-        shorten(way, length, MOST_VERTICES_OF_STRAIGHT);
-    return way;
+        found.is_settled = shorten(way, length, MOST_VERTICES_OF_STRAIGHT);
+    return found;
 }
 
 SurfacePath PathFinder::find(PathQuality quality) {
     if (is_at(surface_, source_, target_) && points_.sssd(source_, target_) == 0)
         return path_of_strip(surface_, {source_, target_, {source_.face}, {}}, {});
-    const auto [strip, path] = find_way(quality);
-    return path_of_strip(surface_, strip, path);
+    const StripWay way = find_way(quality).way;
+    return path_of_strip(surface_, way.strip, way.path);
 }
 
 }
@@ -208,7 +219,20 @@ SurfacePath find_path(const Index& index, Query& query, const Surface& surface, 
 
 StripWay find_straight_path(const Index& index, Query& query, const Surface& surface,
                             const SurfacePoint& source, const SurfacePoint& target) {
-    return PathFinder(index, query, surface, source, target).find_way(PathQuality::STRAIGHT);
+    return PathFinder(index, query, surface, source, target).find_way(PathQuality::STRAIGHT).way;
+}
+
+std::optional<double> straight_length_between(const Index& index, Query& query, const Surface& surface,
+                                              const SurfacePoint& source, const SurfacePoint& target,
+                                              size_t most_steps) {
+    PathFinder finder(index, query, surface, source, target, most_steps);
+    try {
+        const PathFinder::FoundWay found = finder.find_way(PathQuality::STRAIGHT);
+        if (found.is_settled) return found.way.path.length;
+    } catch (const Error& error) {
+        if (error.status != GEOIDX_ERROR_NO_PATH) throw;
+    }
+    return std::nullopt;
 }
 
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "src/path/strip.h"
 #include "src/path/surface_path.h"
 #include "src/points/point_queries.h"
@@ -21,5 +23,11 @@ SurfacePath find_path(const Index& index, Query& query, const Surface& surface, 
 // A path of STRAIGHT quality by the exact metric, with its strip. Throws Error as find_path does.
 StripWay find_straight_path(const Index& index, Query& query, const Surface& surface,
                             const SurfacePoint& source, const SurfacePoint& target);
+
+// Its length. Nothing where no strip is found in so many steps, or where there may be a shorter path in a
+// corridor that is too large to be searched. Throws Error as require_path_end does.
+std::optional<double> straight_length_between(const Index& index, Query& query, const Surface& surface,
+                                              const SurfacePoint& source, const SurfacePoint& target,
+                                              size_t most_steps);
 
 }

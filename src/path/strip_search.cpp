@@ -111,11 +111,12 @@ std::optional<Strip> StripSearch::run(const SurfacePoint& source, const SurfaceP
                                       const TargetDistances& distances) {
     distances_ = &distances;
     begin(source, target);
-    while (!open_.empty()) {
+    for (size_t steps = 0; !open_.empty() && steps <= distances.most_steps;) {
         const uint32_t index = open_.pop();
         const Node& node = open_[index];
         if (node.kind == Kind::TARGET) return strip_to(index);
         if (!close(node)) continue;
+        ++steps;
         if (node.kind == Kind::FACE)
             leave_face(index);
         else

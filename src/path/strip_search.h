@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -19,6 +20,7 @@ struct TargetDistances {
     std::function<std::span<const double>(uint32_t, uint32_t)> inside_edge;
     // As a share, how far they may be off: ways that lead on are followed unless others seem shorter by more.
     double error = 0;
+    size_t most_steps = SIZE_MAX; // faces and vertices to leave before a search is given up
 };
 
 // Finds strips from one point to another: A* over faces, each entered at a point of an edge, and over
@@ -29,7 +31,7 @@ class StripSearch {
 public:
     explicit StripSearch(const Surface& surface) : surface_(surface) {}
 
-    // Nothing if there is no way.
+    // Nothing if there is no way, or if it is given up.
     std::optional<Strip> run(const SurfacePoint& source, const SurfacePoint& target,
                              const TargetDistances& distances);
 

@@ -10,12 +10,13 @@ namespace geodesic {
 
 namespace {
 
-// A pair of points takes about as long as a pair of vertices for every so many vertices of their polygons
-// (`geoidx_bench paths`).
+// A pair of points by tables takes about as long as a pair of vertices for every so many vertices of their
+// polygons (`geoidx_bench paths`, which has some along paths among them).
 constexpr uint64_t VERTICES_PER_PAIR = 5;
 
-// No answer is shorter than this share of the line in space: those of vertices are not held to it.
-constexpr float LEAST_SHARE_OF_LINE = 0.99f;
+// A target is farther than what this share of the line in space to it is longer than. Answers of vertices may
+// be a little shorter than that line.
+constexpr double LEAST_SHARE_OF_LINE = 0.99;
 
 // Each sweep looks this many times as far as the one before, or as the nearest vertex that it left out.
 constexpr float GROWTH = 2;
@@ -26,20 +27,29 @@ struct Target {
     std::array<uint32_t, 3> corners;
 };
 
-// Targets and what is known of them before any sweep.
 struct Targets {
     std::vector<Target> all;
     float reach = 0; // from a target to the corners of its face
-    // Lower bounds of the distances, in ascending order.
-    std::vector<Query::Found> least_possible;
 
-    void add(const FacePoint& target, float line) {
-        least_possible.push_back({LEAST_SHARE_OF_LINE * line, static_cast<uint32_t>(all.size())});
+    void add(const FacePoint& target) {
         all.push_back({target.vertex, target.corners()});
         for (size_t k = 0; k < 3; ++k) reach = std::max(reach, static_cast<float>(target.straight[k]));
     }
-    void sort() { std::ranges::sort(least_possible); }
 };
+
+// Lower bounds of the distances of targets, in ascending order.
+std::vector<Query::Found> least_possible(const Surface& surface, const SurfacePoint& source,
+                                         std::span<const SurfacePoint> targets) {
+    const Eigen::Vector3d place = position_of(surface, source);
+    std::vector<Query::Found> least;
+    least.reserve(targets.size());
+    for (uint32_t i = 0; i < targets.size(); ++i) {
+        const double line = (position_of(surface, targets[i]) - place).norm();
+        least.push_back({static_cast<float>(LEAST_SHARE_OF_LINE * line), i});
+    }
+    std::ranges::sort(least);
+    return least;
+}
 
 // The nearest of what is added, at most so many.
 class Nearest {
@@ -72,18 +82,20 @@ public:
     TargetSweeps(Query& query, const Query::PointSources& source, const Targets& targets)
         : query_(query), source_(source), targets_(targets) {}
 
-    // Sweeps from the source until the `count` nearest targets are found, or nothing else can be reached.
+    // Sweeps from the source until the `count` nearest targets are found, or nothing else can be reached;
+    // looks at targets in the order of what they have in `least_possible`.
     // view_of(i) is what the i-th target sees. distance(i, view, by_vertices) is called for each target of
     // which all vertices have been found, with the distance that they give; it returns the one that counts.
     template <class ViewOf, class Distance>
-    std::vector<Query::Found> find(size_t count, const ViewOf& view_of, const Distance& distance) {
+    std::vector<Query::Found> find(size_t count, std::span<const Query::Found> least_possible,
+                                   const ViewOf& view_of, const Distance& distance) {
         for (float radius = targets_.reach;;) {
             query_.sweep_within(source_, radius);
             Nearest nearest(count);
             // A target that is left out is no nearer: one of its corners is beyond the radius, or all tell
             // how near it can be.
             float left_out = radius - targets_.reach;
-            for (const auto& [least, i] : targets_.least_possible) {
+            for (const auto& [least, i] : least_possible) {
                 if (least > nearest.limit()) break;
                 if (!are_corners_found(targets_.all[i])) continue;
                 const PointView view = view_of(i);
@@ -142,12 +154,8 @@ private:
 
 std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& source,
                                                         std::span<const SurfacePoint> targets, size_t count) {
-    const Eigen::Vector3d place = position_of(surface_, source);
     Targets faces;
-    for (const SurfacePoint& target : targets)
-        faces.add(face_point_on(index_, surface_, target, unfolds()),
-                  static_cast<float>((position_of(surface_, target) - place).norm()));
-    faces.sort();
+    for (const SurfacePoint& target : targets) faces.add(face_point_on(index_, surface_, target, unfolds()));
     count = std::min(count, targets.size());
     std::vector<Query::Found> found;
     if (count == 0) return found;
@@ -162,11 +170,12 @@ std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& sour
         const Sources only = sources_of({&source, 1}, {});
         TargetSweeps sweeps(query_, only, faces);
         found = sweeps.find(
-            count, [&](uint32_t i) { return view_of(targets[i]); },
+            count, least_possible(surface_, source, targets), [&](uint32_t i) { return view_of(targets[i]); },
             [&](uint32_t i, const PointView& to, float by_vertices) {
                 const bool are_vertices = from.point.vertex != NONE && to.point.vertex != NONE;
-                return are_vertices ? by_vertices
-                                    : with_known_ways(source, from, targets[i], to, by_vertices);
+                return are_vertices
+                           ? by_vertices
+                           : known_ways(source, from, targets[i], to, by_vertices).corrected(by_vertices);
             });
     }
     found.resize(std::min(count, found.size()));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "format/error.h"
 #include "geoidx.h"
@@ -71,34 +72,40 @@ PointView PointQueries::view_of(const SurfacePoint& at, const FacePoint& point) 
     return unfolds() ? view_from(index_, surface_, at, point) : PointView(point);
 }
 
-// The distance of two points, by what the index says of it. No way is shorter than the straight line in
-// space. The straight line over the faces counts even where the index, to its accuracy, says that there is a
-// shorter way. Much shorter ways are there: around a needle that stands between two faces.
-float PointQueries::with_straight_way(const SurfacePoint& source, const SurfacePoint& target, float distance,
-                                      bool is_seen) const {
-    constexpr double MUCH_SHORTER = 0.95;
-    if (is_same_point(surface_, source, target)) return 0;
-    const double straight = unfolds() ? std::min(straight_nearby(surface_, source, target),
-                                                 straight_in_plane(surface_, source, target))
-                                      : UNREACHABLE;
-    if (straight < UNREACHABLE && source.face == target.face) return static_cast<float>(straight);
-    distance = std::min(distance, static_cast<float>(way_around_corner(source, target)));
-    if (unfolds() && !is_seen && straight == UNREACHABLE)
-        distance = std::min(distance, static_cast<float>(straight_way_of_near(source, target, distance)));
-    const double chord = (position_of(surface_, source) - position_of(surface_, target)).norm();
-    distance = std::max(distance, static_cast<float>(chord));
-    return double{distance} < MUCH_SHORTER * straight ? distance : static_cast<float>(straight);
+// No way is shorter than the straight line in space. The straight line over the faces counts even where
+// tables, to their accuracy, say that there is a shorter way. Much shorter ways are there: around a needle
+// that stands between two faces. Where a polygon has both points in it, a table's rounded distance says less.
+float KnownWays::corrected(float distance) const {
+    constexpr float SHORTER = 0.99f, MUCH_SHORTER = 0.95f;
+    if (is_shortest) return straight;
+    if (!(distance < SHORTER * seen)) distance = seen;
+    distance = std::max(std::min(distance, other), line);
+    return distance < MUCH_SHORTER * straight ? distance : straight;
 }
 
-// The distance of two points of which one may see the other: that by tables is rounded, and does not hold
-// where a polygon has both points in it. Only a much shorter way can be another one.
-float PointQueries::with_known_ways(const SurfacePoint& source, const PointView& from,
-                                    const SurfacePoint& target, const PointView& to, float distance) const {
-    constexpr float SHORTER = 0.99f;
-    const auto straight = static_cast<float>(
-        std::min(from.seen.straight_to(surface_, target), to.seen.straight_to(surface_, source)));
-    return with_straight_way(source, target, distance < SHORTER * straight ? distance : straight,
-                             straight < INFINITE);
+// What surface and views tell of a pair that is this far by tables.
+KnownWays PointQueries::known_ways(const SurfacePoint& source, const PointView& from,
+                                   const SurfacePoint& target, const PointView& to, float distance) const {
+    KnownWays known;
+    if (is_same_point(surface_, source, target)) {
+        known.straight = 0;
+        known.is_shortest = true;
+        return known;
+    }
+    if (unfolds()) {
+        known.straight = static_cast<float>(
+            std::min(straight_nearby(surface_, source, target), straight_in_plane(surface_, source, target)));
+        known.is_shortest = source.face == target.face && known.straight < INFINITE;
+        if (known.is_shortest) return known;
+        known.seen = static_cast<float>(
+            std::min(from.seen.straight_to(surface_, target), to.seen.straight_to(surface_, source)));
+    }
+    known.line = static_cast<float>((position_of(surface_, source) - position_of(surface_, target)).norm());
+    known.other = static_cast<float>(way_around_corner(source, target));
+    if (unfolds() && known.seen == INFINITE && known.straight == INFINITE)
+        known.other = std::min(known.other, static_cast<float>(straight_way_of_near(
+                                                source, target, std::min(distance, known.other))));
+    return known;
 }
 
 // The length of a way around a corner that the faces of two points share, or over it. Tables of an index
@@ -123,29 +130,29 @@ double PointQueries::straight_way_of_near(const SurfacePoint& source, const Surf
     return std::min(seen_from(source, target), seen_from(target, source));
 }
 
+// Pairs of vertices that tables have wrong are measured; points have no such pairs, so that only the edges
+// around those that are at no vertex count. Where these are short for the mesh, its average edge does, of
+// which tables are rounded to a share. A search for a path asks for distances that the graph engine, and
+// points without a leaf, have by whole fields only: there, tables have to do.
 PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfacePoint& target) {
+    constexpr double FEW_EDGES = 4;
     FacePoint first = face_point_on(index_, surface_, source, unfolds()),
               second = face_point_on(index_, surface_, target, unfolds());
     if (first.vertex != NONE && second.vertex != NONE) return {query_.point_sssd(first, second)};
     const auto has_leaf = [](const FacePoint& point) { return point.vertex != NONE || point.leaf != NONE; };
-    if (!has_leaf(first) || !has_leaf(second))
-        return judged(with_straight_way(source, target, query_.point_sssd(first, second)), first, second,
-                      [&] { return with_straight_way(source, target, INFINITE); });
-    share_leaf(index_, first, second);
-    const PointView from = view_of(source, first), to = view_of(target, second);
-    const float distance = query_.point_sssd(from.point, to.point);
-    return judged(with_known_ways(source, from, target, to, distance), from.point, to.point,
-                  [&] { return with_known_ways(source, from, target, to, INFINITE); });
-}
-
-// What vertices answer is measured where tables would be wrong; only the edges of others count.
-template <class KnownWay>
-PointQueries::Pair PointQueries::judged(float distance, const FacePoint& first, const FacePoint& second,
-                                        const KnownWay& known_way) const {
-    constexpr double FEW_EDGES = 4;
-    const double longest = std::max(longest_edge_around(first), longest_edge_around(second));
-    if (!unfolds() || distance == 0 || !(double{distance} < FEW_EDGES * longest)) return {distance};
-    return {distance, false, known_way()};
+    const bool have_leaves = has_leaf(first) && has_leaf(second);
+    if (have_leaves) share_leaf(index_, first, second);
+    const PointView from = have_leaves ? view_of(source, first) : PointView(first),
+                    to = have_leaves ? view_of(target, second) : PointView(second);
+    const float by_tables = query_.point_sssd(from.point, to.point);
+    const KnownWays known = known_ways(source, from, target, to, by_tables);
+    const float distance = known.corrected(by_tables);
+    const double longest = std::max(
+        {longest_edge_around(from.point), longest_edge_around(to.point), double{surface_.average_edge}});
+    const bool is_sure = known.is_shortest || distance == INFINITE || double{distance} >= FEW_EDGES * longest;
+    if (is_sure || !have_leaves || !unfolds() || std::holds_alternative<GraphIndex>(index_.engine))
+        return {distance};
+    return {distance, false, known.corrected(INFINITE)};
 }
 
 // To the corners of the face and, if the metric unfolds, to those of all faces that the point lies in, to the

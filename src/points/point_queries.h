@@ -9,6 +9,18 @@
 
 namespace geodesic {
 
+// Lengths of ways between two points, infinite where none is known.
+struct KnownWays {
+    float straight = INFINITE; // over faces that are known to lie between
+    float seen = INFINITE;     // straight over the polygons of the points
+    float other = INFINITE;    // of any kind
+    float line = 0;            // in space: no way is shorter
+    bool is_shortest = false;  // the straight one, whatever tables say
+
+    // The distance of which tables say this, or infinity if they say nothing.
+    float corrected(float distance) const;
+};
+
 // Distances of points of a surface by an index of its mesh.
 class PointQueries {
 public:
@@ -16,18 +28,17 @@ public:
     // does not tell what a way within a face costs.
     PointQueries(const Index& index, Query& query, const Surface& surface);
 
-    // By tables alone.
-    float sssd(const SurfacePoint& source, const SurfacePoint& target) {
-        return pair(source, target).distance;
-    }
-    // The same, and how much it says. Where the edges around a point are long for how far the other one is
-    // away, a way that crosses them may come from another side than tables tell of.
+    // Of two points, and whether that is sure. Where the edges around a point are long for how far the other
+    // one is away, a way that crosses them may come from another side than tables tell of.
     struct Pair {
         float distance;
         bool is_sure = true;
         float known_way = INFINITE; // the length of some way, where the distance is not sure
     };
     Pair pair(const SurfacePoint& source, const SurfacePoint& target);
+    float sssd(const SurfacePoint& source, const SurfacePoint& target) {
+        return pair(source, target).distance;
+    }
     // Of several sources; `offsets` are as many, or none.
     void msad(std::span<const SurfacePoint> sources, std::span<const float> offsets,
               std::span<float> distances);
@@ -57,13 +68,8 @@ private:
     Sources sources_of(std::span<const SurfacePoint> points, std::span<const float> offsets) const;
     void add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
                         std::vector<Query::KnownWay>& known) const;
-    float with_straight_way(const SurfacePoint& source, const SurfacePoint& target, float distance,
-                            bool is_seen = false) const;
-    float with_known_ways(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
-                          const PointView& to, float distance) const;
-    template <class KnownWay>
-    Pair judged(float distance, const FacePoint& first, const FacePoint& second,
-                const KnownWay& known_way) const;
+    KnownWays known_ways(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
+                         const PointView& to, float distance) const;
     double way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const;
     double straight_way_of_near(const SurfacePoint& source, const SurfacePoint& target, float distance) const;
 

@@ -62,6 +62,14 @@ const PointQuestion POINT_QUESTIONS[] = {
          about.add_distances(1);
          return status;
      }},
+    {"near pair",
+     [](AboutPoints& about) {
+         const geoidx_surface_point beside{about.points[0].triangle + 3, 0, {0.4, 0.3, 0.3}};
+         const auto status = geoidx_query_point_sssd(about.query, about.surface, &about.points[0], &beside,
+                                                     about.distances.data());
+         about.add_distances(1);
+         return status;
+     }},
     {"field",
      [](AboutPoints& about) {
          const auto status = geoidx_query_point_msad(about.query, about.surface, about.points.data(), 3,

@@ -88,7 +88,10 @@ uint32_t longest_gap(const Rings::Chain& chain, std::span<const uint16_t> sample
 // The most that there are if every second vertex is a sample, and both ends of each open chain.
 size_t every_second(const OverlayIndex& overlay, uint32_t patch) {
     size_t most = 0;
-    for (const auto& chain : overlay.rings.chains_of(patch)) most += (chain.last - chain.first + 3) / 2;
+    for (const auto& chain : overlay.rings.chains_of(patch)) {
+        const size_t size = chain.last - chain.first + 1;
+        most += chain.is_closed ? (size + 1) / 2 : size / 2 + 1;
+    }
     return most;
 }
 
@@ -100,7 +103,7 @@ TEST_CASE("samples: about 64 of a border, more of one that is long for its mesh,
             const auto samples = overlay.pairs.samples.of(p);
             const uint32_t size = overlay.numbering.border_size(p);
             const double extent = std::sqrt(static_cast<double>(overlay.numbering.vertex_count()));
-            const double step = std::clamp(std::min(size / 64.0, extent / 40), 2.0, 10.0);
+            const double step = std::clamp(std::min(size / 64.0, extent / 40), 2.0, 8.0);
             if (size > 128) CHECK(samples.size() >= 56);
             if (overlay.numbering.parent[p] == 0)
                 CHECK(samples.size() <= std::max(size_t{192}, every_second(overlay, p)));

@@ -7,22 +7,13 @@
 #include "src/path/sides.h"
 #include "src/path/straighten.h"
 #include "src/path/strip_search.h"
-#include "tests/support/meshes.h"
+#include "tests/support/surfaces.h"
 
 using namespace geodesic;
 
 namespace {
 
 constexpr uint32_t RAYS = 25, RINGS = 4, RING = 3, TARGET_RAY = 12;
-
-Surface cone_surface(const std::vector<Eigen::Vector3d>& rays) {
-    const test::Soup soup = test::cone(rays, RINGS);
-    Intake intake;
-    intake.mesh.positions = soup.positions;
-    for (const auto& [a, b, c] : soup.triangles) intake.mesh.faces.push_back({a, b, c});
-    connect(intake.mesh);
-    return Surface(std::move(intake));
-}
 
 uint32_t vertex_of(uint32_t ray, uint32_t ring) { return 1 + ray + RAYS * (ring - 1); }
 
@@ -42,7 +33,7 @@ TEST_CASE("sides: the shorter way around a cone, from the longer one") {
     const auto rays = test::cone_rays(RAYS, 0.3);
     const double facet = std::acos(rays[0].dot(rays[1])), radius = double{RING} / RINGS;
     REQUIRE((RAYS - TARGET_RAY) * facet < std::numbers::pi);
-    const Surface surface = cone_surface(rays);
+    const Surface surface = test::surface_of(test::cone(rays, RINGS));
     // Of one half of the cone, and of its apex, the search is told that there is no way.
     const TargetDistances distances{
         [&](uint32_t vertex) {

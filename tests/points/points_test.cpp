@@ -28,26 +28,6 @@ struct MeanError {
 
 Soup comb_of_slivers() { return scaled(with_random_diagonals(comb(2), 20, 33), 1, 1e-4, 1); }
 
-// A cylinder as tools write it: sides of two triangles each, and caps that are fans around a vertex of the
-// rim.
-Soup cylinder(uint32_t sides, double height) {
-    Soup soup;
-    for (const double z : {0.0, height})
-        for (uint32_t i = 0; i < sides; ++i) {
-            const double turned = 2 * std::numbers::pi * i / sides;
-            soup.positions.push_back({std::cos(turned), std::sin(turned), z});
-        }
-    for (uint32_t i = 0; i < sides; ++i) {
-        const uint32_t next = (i + 1) % sides;
-        soup.triangles.push_back({i, next, next + sides});
-        soup.triangles.push_back({i, next + sides, i + sides});
-        if (i < 1 || i + 1 == sides) continue;
-        soup.triangles.push_back({0, next, i});
-        soup.triangles.push_back({sides, i + sides, next + sides});
-    }
-    return soup;
-}
-
 bool is_flat(const Soup& soup) { return soup.positions[0].z() == 0 && soup.positions.back().z() == 0; }
 
 void raise_at_random(Soup& soup, std::mt19937_64& random) {
@@ -134,7 +114,7 @@ TEST_CASE("points: on edges they are as accurate as beside them" * doctest::skip
 // What lies behind a cap is seen over all of its rim, or else unfolded over chords far too near.
 TEST_CASE("points: on cylinders whose caps have no vertex inside") {
     for (const double height : {0.2, 2.0}) {
-        const PathCase on(cylinder(32, height), default_options());
+        const PathCase on(closed_cylinder(32, height), default_options());
         std::mt19937_64 random(7);
         MeanError points;
         size_t over_a_twentieth = 0;

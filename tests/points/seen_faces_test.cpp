@@ -8,6 +8,7 @@
 #include "tests/path/path_cases.h"
 #include "tests/support/drilled_plate.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/surfaces.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -33,11 +34,8 @@ struct Nothing final : All {
     bool go_on(uint32_t, uint32_t, double) const override { return false; }
 };
 
-Surface surface_of(const Soup& soup) {
-    Intake intake;
-    intake.mesh.positions = soup.positions;
-    for (const auto& [a, b, c] : soup.triangles) intake.mesh.faces.push_back({a, b, c});
-    connect(intake.mesh);
+Surface surface_of_flipped(const Soup& soup) {
+    Intake intake = intake_of(soup);
     FlatFaces flat(intake.mesh);
     return Surface(std::move(intake), {}, std::move(flat));
 }
@@ -117,7 +115,7 @@ std::vector<double> distances_of(const FacePoint& point, const std::function<dou
 }
 
 TEST_CASE("seen faces: in a plane everything is where it is") {
-    const Surface surface = surface_of(jittered_grid(16, 3));
+    const Surface surface = surface_of_flipped(jittered_grid(16, 3));
     std::mt19937_64 random(1);
     uint32_t far = 0, near = 0;
     for (size_t i = 0; i < 300; ++i) {
@@ -152,8 +150,8 @@ TEST_CASE("seen faces: in a plane everything is where it is") {
 }
 
 TEST_CASE("seen faces: the polygon goes all around, has room for more, and ends where the surface does") {
-    const Surface surface = surface_of(bumpy_sphere(3, 4));
-    const Surface sheet = surface_of(jittered_grid(4, 5));
+    const Surface surface = surface_of_flipped(bumpy_sphere(3, 4));
+    const Surface sheet = surface_of_flipped(jittered_grid(4, 5));
     std::mt19937_64 random(2);
     double least = INFINITE;
     for (size_t i = 0; i < 200; ++i) {
@@ -171,7 +169,7 @@ TEST_CASE("seen faces: the polygon goes all around, has room for more, and ends 
 
 TEST_CASE("seen faces: over edges of several faces all of these are seen, as if each were the only one") {
     const Soup soup = panels({0, 1, 2.5, 4});
-    const Surface surface = surface_of(soup);
+    const Surface surface = surface_of_flipped(soup);
     std::mt19937_64 random(4);
     const uint32_t of_panel = static_cast<uint32_t>(soup.triangles.size() / 4);
     const auto flat = [&](uint32_t panel, const SurfacePoint& point) { // unfolded onto the side of that panel
@@ -206,7 +204,7 @@ TEST_CASE("seen faces: over edges of several faces all of these are seen, as if 
 TEST_CASE("seen faces: edges of many faces end what is seen, and may be all that there are") {
     for (const size_t count : {5u, 6u}) {
         const Soup soup = count == 5 ? panels({0, 1, 2, 3, 4}) : panels({0, 1, 2, 3, 4, 5});
-        const Surface surface = surface_of(soup);
+        const Surface surface = surface_of_flipped(soup);
         std::mt19937_64 random(5);
         const uint32_t of_panel = static_cast<uint32_t>(soup.triangles.size() / count);
         std::vector<uint32_t> seen_in(count);
@@ -236,7 +234,7 @@ TEST_CASE("seen faces: edges of many faces end what is seen, and may be all that
                     cells.triangles.push_back({at(a, b), at(a + 1, b), at(a + 1, b + 1)});
                     cells.triangles.push_back({at(a, b), at(a + 1, b + 1), at(a, b + 1)});
                 }
-    const Surface surface = surface_of(cells);
+    const Surface surface = surface_of_flipped(cells);
     std::mt19937_64 random(6);
     for (size_t i = 0; i < 100; ++i)
         for (const size_t most : {size_t{16}, size_t{32}, FacePoint::MOST_VERTICES}) {
@@ -248,7 +246,7 @@ TEST_CASE("seen faces: edges of many faces end what is seen, and may be all that
 }
 
 TEST_CASE("seen faces: nothing is seen that is not known") {
-    const Surface surface = surface_of(bumpy_sphere(3, 4));
+    const Surface surface = surface_of_flipped(bumpy_sphere(3, 4));
     std::mt19937_64 random(3);
     for (size_t i = 0; i < 100; ++i) {
         CAPTURE(i);
@@ -263,7 +261,7 @@ TEST_CASE("seen faces: nothing is seen that is not known") {
 // Lines over the wall of a hole may come up to its rim again, and are longer than those in the plane.
 TEST_CASE("seen faces: of planes that are cut into slivers the flipped faces are seen") {
     constexpr size_t MOST = 16;
-    const Surface surface = surface_of(drilled_plate(3, 12, 0.1));
+    const Surface surface = surface_of_flipped(drilled_plate(3, 12, 0.1));
     std::mt19937_64 random(5);
     uint32_t flipped = 0, vertices_in_plane = 0, points_in_plane = 0;
     for (size_t i = 0; i < 400; ++i) {
@@ -302,7 +300,7 @@ TEST_CASE("seen faces: of planes that are cut into slivers the flipped faces are
 // By exact distances of the vertices, so that nothing but the polygon makes the error.
 TEST_CASE("seen faces: on rough surfaces a polygon tells far more than its face") {
     for (const Soup& soup : {bumpy_sphere(2, 5), cube(4), rough_terrain()}) {
-        const Surface surface = surface_of(soup);
+        const Surface surface = surface_of_flipped(soup);
         const PathCase on(soup);
         std::mt19937_64 random(4);
         double by_face = 0, by_polygon = 0;

@@ -297,6 +297,24 @@ std::vector<Vector3d> saddle_rays(uint32_t count, double slope) {
     return rays;
 }
 
+Soup closed_cylinder(uint32_t sides, double height) {
+    Soup soup;
+    for (const double z : {0.0, height})
+        for (uint32_t i = 0; i < sides; ++i) {
+            const double turned = 2 * std::numbers::pi * i / sides;
+            soup.positions.push_back({std::cos(turned), std::sin(turned), z});
+        }
+    for (uint32_t i = 0; i < sides; ++i) {
+        const uint32_t next = (i + 1) % sides;
+        soup.triangles.push_back({i, next, next + sides});
+        soup.triangles.push_back({i, next + sides, i + sides});
+        if (i < 1 || i + 1 == sides) continue;
+        soup.triangles.push_back({0, next, i});
+        soup.triangles.push_back({sides, i + sides, next + sides});
+    }
+    return soup;
+}
+
 Soup prism(uint32_t sides, uint32_t levels, double height) {
     Soup soup;
     const double radius = 0.5 / std::sin(std::numbers::pi / sides);

@@ -60,6 +60,10 @@ Soup cone(std::span<const Eigen::Vector3d> rays, uint32_t rings);
 std::vector<Eigen::Vector3d> cone_rays(uint32_t count, double slope);
 // Rays that rise and fall by turns (count is even): more than 2 pi around the apex.
 std::vector<Eigen::Vector3d> saddle_rays(uint32_t count, double slope);
+// A cylinder of radius 1 as tools write it: sides of two triangles each, and caps that are fans around a
+// vertex of the rim.
+Soup closed_cylinder(uint32_t sides, double height);
+
 // An open prism: `sides` flat sides of width 1 and height `height`; vertex side + sides * level.
 Soup prism(uint32_t sides, uint32_t levels, double height);
 Soup torus(uint32_t around, uint32_t across, double radius, double thickness);

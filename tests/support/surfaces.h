@@ -1,0 +1,19 @@
+#pragma once
+
+#include "src/surface/surface.h"
+#include "tests/support/meshes.h"
+
+namespace geodesic::test {
+
+// A mesh as a surface takes it, as it lies in the soup: not in spatial order.
+inline Intake intake_of(const Soup& soup) {
+    Intake intake;
+    intake.mesh.positions = soup.positions;
+    for (const auto& [a, b, c] : soup.triangles) intake.mesh.faces.push_back({a, b, c});
+    connect(intake.mesh);
+    return intake;
+}
+
+inline Surface surface_of(const Soup& soup) { return Surface(intake_of(soup)); }
+
+}
