@@ -202,6 +202,7 @@ TEST_CASE("weighted path: hardly longer than the metric's distances, by random c
         CAPTURE(number);
         for (const double dearest : {1.5, 4.0, 30.0}) {
             CAPTURE(dearest);
+            if (SANITIZED && dearest < 30) continue;
             check_paths_of(WeightedCase(soup, random_costs(soup, random, dearest)), smaller(12, 3), 12, 0.1,
                            1e-6);
         }
