@@ -14,9 +14,9 @@ namespace geodesic {
 namespace {
 
 // Pairs with no larger error than this are not held. If more than so many for each vertex, on average, have a
-// larger one, what is let pass is raised by this factor.
+// larger one, and they are not few in all, what is let pass is raised by this factor.
 constexpr double LARGEST_ERROR = 0.01;
-constexpr size_t MOST_PAIRS = 4;
+constexpr size_t MOST_PAIRS = 4, FEW_IN_ALL = 32768;
 constexpr double RAISE = 1.5;
 // Wrong pairs are seldom alone. So what is known around their ends, and around the neighbours of these, must
 // reach so many times as far as they are long. Looking farther may find at most so many times the vertices of
@@ -61,7 +61,7 @@ public:
     const ErrorsByDistance& let_pass() const { return let_pass_; }
 
 private:
-    size_t most() const { return MOST_PAIRS * near_.vertex_count(); }
+    size_t most() const { return std::max(MOST_PAIRS * near_.vertex_count(), FEW_IN_ALL); }
 
     // What is held changes the fields of both vertices of a pair, so that those are looked at again. Returns
     // whether there are not too many pairs.
@@ -81,11 +81,12 @@ private:
     // held besides that make edges less steep, since they are more exact than lowered ones. They have smaller
     // errors than the others and take the place of none.
     void hold_steep() {
-        for (uint32_t pass = 0; pass < MOST_PASSES && held_.size() < most(); ++pass) {
+        const size_t room = std::max(MOST_PAIRS * near_.vertex_count(), held_.size());
+        for (uint32_t pass = 0; pass < MOST_PASSES && held_.size() < room; ++pass) {
             if (!find(pass == 0 ? all_vertices() : vertices_with_pairs(), true)) return;
-            if (held_.size() <= most()) hold();
+            if (held_.size() <= room) hold();
         }
-        if (held_.size() > most()) keep_worst();
+        if (held_.size() > room) keep_worst(room);
     }
 
     std::vector<uint32_t> all_vertices() const {
@@ -184,9 +185,9 @@ private:
         take_pairs(pairs, index_.numbering().vertex_count(), measured());
     }
 
-    void keep_worst() {
+    void keep_worst(size_t count) {
         std::ranges::stable_sort(held_, std::ranges::greater{}, &WrongPair::error);
-        held_.resize(most());
+        held_.resize(count);
         keep_different(held_); // in the order of pairs again
         hold();
     }

@@ -46,7 +46,7 @@ TEST_CASE("steep search: no field has a steep edge" * doctest::skip(SANITIZED)) 
 TEST_CASE("steep search: there are some where fields are not lowered" * doctest::skip(SANITIZED)) {
     const TestMesh& mesh = large_rough_sheet();
     const Bytes& file = file_of_large_rough_sheet();
-    CHECK(count_steep(open(without_section(file, TAG_STEEP_EDGES)).get(), mesh, 3) > 20);
+    CHECK(count_steep(open(without_section(file, TAG_STEEP_EDGES)).get(), mesh, 3) > 0);
     CHECK(count_steep(open(file).get(), mesh, 3) == 0);
 }
 

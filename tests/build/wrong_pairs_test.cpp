@@ -1,6 +1,7 @@
 // That near vertices are right, all of them, on surfaces where tables alone are not: against the metric.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/build/errors.h"
 #include "tests/build/large_rough_sheet.h"
@@ -77,6 +78,27 @@ TEST_CASE("wrong pairs: around them, farther ones are found") {
                  now = count_wrong(index.get(), mesh, STEP, NEAREST, 4 * NEAREST);
     CHECK(before.wrong > 20);
     CHECK(now.wrong < before.wrong / 4);
+}
+
+// Tables are rounded to a share of the longest distances in them, of which a hole is some
+// hundred-thousandths.
+TEST_CASE("wrong pairs: of a small mesh with tiny details, many more are held") {
+    constexpr uint32_t AROUND = 40;
+    TestMesh mesh;
+    for (const double radius : {1e-5, 2e-5, 1.0})
+        for (uint32_t k = 0; k < AROUND; ++k) {
+            const double angle = 2 * std::numbers::pi * k / AROUND;
+            mesh.add_vertex(radius * std::cos(angle), radius * std::sin(angle), 0);
+        }
+    for (const uint32_t ring : {0u, AROUND})
+        for (uint32_t k = 0; k < AROUND; ++k) {
+            const uint32_t next = (k + 1) % AROUND;
+            mesh.add_triangle(ring + k, ring + AROUND + k, ring + AROUND + next);
+            mesh.add_triangle(ring + k, ring + AROUND + next, ring + next);
+        }
+    const auto index = build(mesh, default_options());
+    CHECK(count_wrong(tables_only(index.get()).get(), mesh, 1).wrong > 8 * mesh.vertex_count());
+    CHECK(count_wrong(index.get(), mesh, 1).wrong == 0);
 }
 
 // Most of its fields are steep along edges as short as the bevel, by the rounding of tables.
