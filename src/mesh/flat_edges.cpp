@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <unordered_set>
 #include <utility>
@@ -104,16 +105,20 @@ public:
         return any;
     }
 
-    // Puts planes back in which edges have not become much shorter. Returns whether any plane is left.
+    // Puts planes back in which edges have not become much shorter, and those that cover themselves. Returns
+    // whether any plane is left.
     bool keep_what_is_worth_it() {
         std::vector<double> before(faces_.size(), 0), after(faces_.size(), 0); // by plane
         for (uint32_t f = 0; f < faces_.size(); ++f) {
             before[plane_[f]] += squares_of_edges(mesh_.faces[f]);
             after[plane_[f]] += squares_of_edges(faces_[f]);
         }
+        std::vector<uint8_t> is_kept(faces_.size());
+        for (uint32_t f = 0; f < faces_.size(); ++f) is_kept[f] = after[f] < WORTH_IT * before[f];
+        leave_out_covered(is_kept);
         bool any = false;
         for (uint32_t f = 0; f < faces_.size(); ++f) {
-            if (after[plane_[f]] < WORTH_IT * before[plane_[f]]) {
+            if (is_kept[plane_[f]]) {
                 any = true;
             } else {
                 faces_[f] = mesh_.faces[f];
@@ -208,6 +213,29 @@ private:
             if (is_flat(q)) plane_[plane_of(q.first)] = plane_of(q.second);
         }
         for (uint32_t f = 0; f < mesh_.face_count(); ++f) plane_[f] = plane_of(f);
+    }
+
+    // A plane lies over itself where its angles at a vertex are more than a turn together. A position does
+    // not tell there which of its faces a point lies in.
+    void leave_out_covered(std::vector<uint8_t>& is_kept) const {
+        constexpr double MOST = 2 * std::numbers::pi + 0.01;
+        std::vector<std::pair<uint64_t, double>> angles; // by plane and vertex
+        for (uint32_t f = 0; f < mesh_.face_count(); ++f) {
+            if (!is_kept[plane_[f]]) continue;
+            const auto& corners = mesh_.faces[f];
+            for (size_t k = 0; k < 3; ++k) {
+                const auto [sine, cosine] =
+                    angle_at(mesh_.positions[corners[k]], mesh_.positions[corners[(k + 1) % 3]],
+                             mesh_.positions[corners[(k + 2) % 3]]);
+                angles.emplace_back(uint64_t{plane_[f]} << 32 | corners[k], std::atan2(sine, cosine));
+            }
+        }
+        std::ranges::sort(angles);
+        double sum = 0;
+        for (size_t i = 0; i < angles.size(); ++i) {
+            sum = i > 0 && angles[i - 1].first == angles[i].first ? sum + angles[i].second : angles[i].second;
+            if (sum > MOST) is_kept[angles[i].first >> 32] = 0;
+        }
     }
 
     // One of its faces stands for a plane. The others lead to it.

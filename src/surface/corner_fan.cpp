@@ -25,6 +25,15 @@ uint32_t only_face_beyond(const Surface& surface, uint32_t face, uint32_t v, uin
     return count == 1 ? found : NONE;
 }
 
+// Whether the corners of a face lie on one line, but for rounding: its angles do not tell where it ends.
+bool is_too_flat(const Surface& surface, uint32_t face) {
+    constexpr double ROUNDING = 1e-12;
+    const auto& [a, b, c] = surface.faces[face];
+    const Vector3d ab = surface.positions[b] - surface.positions[a],
+                   ac = surface.positions[c] - surface.positions[a];
+    return !(ab.cross(ac).norm() > ROUNDING * std::max(ab.squaredNorm(), ac.squaredNorm()));
+}
+
 // Unfolds the faces around a vertex, which becomes the origin, from one point on, which becomes a point of
 // the first axis.
 class CornerFan {
@@ -40,7 +49,7 @@ public:
         while (turn_to(surface_.positions[end])) {
             narrow();
             face_ = only_face_beyond(surface_, face_, vertex_, end);
-            if (face_ == NONE || face_ == first_face) return UNREACHABLE;
+            if (face_ == NONE || face_ == first_face || is_too_flat(surface_, face_)) return UNREACHABLE;
             if (face_ == to.face) return straight_in_face(to);
             end = third_vertex(end);
         }
@@ -92,6 +101,7 @@ double straight_around(const Surface& surface, const SurfacePoint& a, const Surf
     const SurfacePoint& from = a.face < b.face ? a : b;
     const SurfacePoint& to = a.face < b.face ? b : a;
     double least = UNREACHABLE;
+    if (is_too_flat(surface, from.face)) return least;
     for (const uint32_t end : surface.faces[from.face])
         if (end != vertex) least = std::min(least, CornerFan(surface, from, vertex).straight_to(to, end));
     return least;

@@ -202,6 +202,13 @@ TEST_CASE("flat edges: nothing is flipped where nothing is to be") {
     }
 }
 
+TEST_CASE("flat edges: nothing is flipped in a plane that covers itself") {
+    for (const uint32_t turns : {1u, 2u}) {
+        const Mesh mesh = mesh_of(with_random_diagonals(flat_fan(turns), ROUNDS, 3));
+        CHECK(flip_flat_edges(mesh).has_value() == (turns == 1));
+    }
+}
+
 TEST_CASE("flat edges: an edge stays if the other diagonal is an edge already") {
     Soup soup;
     soup.positions = {{-2, 0, 0}, {2, 0, 0}, {0, 0.5, 0}, {0, -0.5, 0}, {0, 0, 1}};

@@ -130,6 +130,39 @@ TEST_CASE("points: on cylinders whose caps have no vertex inside") {
     }
 }
 
+// Its faces lie over each other, so that a position does not tell where a point is.
+TEST_CASE("points: on a plane that covers itself, as the metric says") {
+    const PathCase on(with_random_diagonals(flat_fan(2), 20, 3));
+    std::mt19937_64 random(7);
+    for (size_t i = 0; i < 300; i += sparse(1)) {
+        CAPTURE(i);
+        const auto a = random_point(on.soup, random, i), b = random_point(on.soup, random, 0);
+        const double exact = on.exact(a, b);
+        CHECK(std::abs(on.sssd(a, b) - exact) <= 0.01 * exact);
+    }
+}
+
+// Edges that are longer than others on the same line lead beyond their ends by no way of their own.
+TEST_CASE("points: in triangles without area, no line leads past the end of an edge") {
+    const std::vector<Eigen::Vector3d> positions{{0, 0, 0}, {0, 0, 1},  {0, 0, 2},
+                                                 {0, 0, 3}, {1, 0, .5}, {-1, 0, 2.5}};
+    using Triangles = std::vector<std::array<uint32_t, 3>>;
+    for (const Triangles& triangles : {Triangles{{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {0, 5, 1}},
+                                       Triangles{{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {0, 5, 3}}}) {
+        Soup soup;
+        soup.positions = positions;
+        soup.triangles = triangles;
+        const PathCase on(soup);
+        std::mt19937_64 random(7);
+        for (size_t i = 0; i < 300; ++i) {
+            CAPTURE(i);
+            const auto a = random_point(soup, random, i), b = random_point(soup, random, i / 4);
+            const double exact = on.exact(a, b);
+            CHECK(std::abs(on.sssd(a, b) - exact) <= 0.005 * exact + 1e-5);
+        }
+    }
+}
+
 // Around a point whose distances from the corners come from different sides, the straight way is off by a
 // share of the triangle.
 TEST_CASE("points: any pair of hard meshes, and those without a path") {

@@ -297,6 +297,27 @@ std::vector<Vector3d> saddle_rays(uint32_t count, double slope) {
     return rays;
 }
 
+Soup flat_fan(uint32_t turns) {
+    constexpr uint32_t SECTORS_OF_TURN = 10, RINGS = 3;
+    const uint32_t sectors = turns * SECTORS_OF_TURN;
+    Soup soup;
+    soup.positions.emplace_back(0, 0, 0);
+    for (uint32_t ring = 1; ring <= RINGS; ++ring)
+        for (uint32_t s = 0; s < sectors; ++s) {
+            const double angle = 2 * std::numbers::pi * s / SECTORS_OF_TURN;
+            soup.positions.emplace_back(ring * std::cos(angle), ring * std::sin(angle), 0);
+        }
+    const auto at = [&](uint32_t ring, uint32_t s) { return 1 + (ring - 1) * sectors + s % sectors; };
+    for (uint32_t s = 0; s < sectors; ++s) {
+        soup.triangles.push_back({0, at(1, s), at(1, s + 1)});
+        for (uint32_t ring = 1; ring < RINGS; ++ring) {
+            soup.triangles.push_back({at(ring, s), at(ring + 1, s), at(ring + 1, s + 1)});
+            soup.triangles.push_back({at(ring, s), at(ring + 1, s + 1), at(ring, s + 1)});
+        }
+    }
+    return soup;
+}
+
 Soup closed_cylinder(uint32_t sides, double height) {
     Soup soup;
     for (const double z : {0.0, height})

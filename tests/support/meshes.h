@@ -60,6 +60,8 @@ Soup cone(std::span<const Eigen::Vector3d> rays, uint32_t rings);
 std::vector<Eigen::Vector3d> cone_rays(uint32_t count, double slope);
 // Rays that rise and fall by turns (count is even): more than 2 pi around the apex.
 std::vector<Eigen::Vector3d> saddle_rays(uint32_t count, double slope);
+// A disk of ten sectors and three rings around a vertex, in one plane; with two turns it lies over itself.
+Soup flat_fan(uint32_t turns);
 // A cylinder of radius 1 as tools write it: sides of two triangles each, and caps that are fans around a
 // vertex of the rim.
 Soup closed_cylinder(uint32_t sides, double height);
