@@ -31,7 +31,8 @@ public:
           solver_(ExactMetric(corridor.mesh).make_solver()), source_(local(strip.source)),
           target_(local(strip.target)) {}
 
-    void make_shortest(Strip& strip, StripPath& path);
+    double shortest_length();
+    void make_shortest(Effort effort, Strip& strip, StripPath& path);
 
 private:
     SurfacePoint local(const SurfacePoint& point) const;
@@ -239,12 +240,18 @@ std::optional<Strip> CorridorPath::search_by_excess(const std::vector<uint32_t>&
     });
 }
 
+double CorridorPath::shortest_length() {
+    solve_from_target({}, 0);
+    return solver_->point_distance(0);
+}
+
 // The search places the target beyond an edge by the distances of the edge's ends. That fails where shortest
 // paths of different ways meet inside of the edge. Then the path is longer than the distance of the source,
 // and is searched again with distances of points inside of edges: of those around the strip, then of all that
 // a shortest path can cross. At last it is searched by the shortest ways over these edges from both ends. The
-// path stays as it is where no search finds a shorter one.
-void CorridorPath::make_shortest(Strip& strip, StripPath& path) {
+// path stays as it is where no search finds a shorter one. All but what is around the strip takes up to some
+// seconds.
+void CorridorPath::make_shortest(Effort effort, Strip& strip, StripPath& path) {
     constexpr uint32_t FEW_POINTS = 7, MANY_POINTS = 31;
     // Returns whether the path is the shortest.
     const auto search_with = [&](const std::vector<uint32_t>& edges, uint32_t points_per_edge) {
@@ -261,14 +268,19 @@ void CorridorPath::make_shortest(Strip& strip, StripPath& path) {
     const std::vector<uint32_t> edges = edges_of_shortest(over_vertex, shortest);
     for (const uint32_t points : {FEW_POINTS, MANY_POINTS})
         if (search_with(edges, points)) return;
+    if (effort == Effort::NEARLY_ALWAYS) return;
     if (auto found = search_by_excess(edges, over_vertex)) try_strip(std::move(*found), strip, path);
 }
 
 }
 
-void make_shortest_in_corridor(const Surface& surface, const Corridor& corridor, Strip& strip,
+void make_shortest_in_corridor(const Surface& surface, const Corridor& corridor, Effort effort, Strip& strip,
                                StripPath& path) {
-    CorridorPath(surface, corridor, strip).make_shortest(strip, path);
+    CorridorPath(surface, corridor, strip).make_shortest(effort, strip, path);
+}
+
+double shortest_length_in_corridor(const Surface& surface, const Corridor& corridor, const Strip& strip) {
+    return CorridorPath(surface, corridor, strip).shortest_length();
 }
 
 }

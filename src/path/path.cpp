@@ -49,18 +49,18 @@ public:
         : index_(index), query_(query), surface_(surface), points_(index, query, surface), source_(source),
           target_(target), search_(surface), most_steps_(most_steps) {}
 
-    struct FoundWay {
-        StripWay way;
-        bool is_settled = true; // or its corridor was too large to be searched for a shorter one
-    };
-    FoundWay find_way(PathQuality quality);
+    StripWay find_way(PathQuality quality);
     SurfacePath find(PathQuality quality);
+    std::optional<double> find_length(double known);
 
 private:
-    FacePoint prepared_as(const SurfacePoint& end, PathQuality quality) const;
+    static constexpr size_t MOST_VERTICES = 1000; // of a corridor that is no exact path's
+
+    FacePoint prepared_as(const SurfacePoint& end, bool with_all_it_sees) const;
     StripWay find_straight(const FacePoint& source, const FacePoint& target);
+    double longest_shortest(double known) const;
     double known_length(const FacePoint& target);
-    bool shorten(StripWay& way, double length, size_t most_vertices);
+    std::optional<Corridor> corridor_of(const Strip& strip, double length, size_t most_vertices);
     double distance(size_t end, uint32_t vertex) {
         return end_distance(index_, query_, surface_, end, vertex);
     }
@@ -93,10 +93,10 @@ double PathFinder::least_distance(double distance) const {
 // What the query knows of an end. Where faces are small for what the surface does, the corners of its face
 // mostly lead to the same strips as all that it sees, and a path between near points takes a quarter less
 // time. A corridor is as wide as errors may be, so that the less they are the better.
-FacePoint PathFinder::prepared_as(const SurfacePoint& end, PathQuality quality) const {
+FacePoint PathFinder::prepared_as(const SurfacePoint& end, bool with_all_it_sees) const {
     constexpr double RIGHT = 5e-4; // mean error
     const bool has_large_faces = index_.description.error.mean > RIGHT || surface_.flat_faces.has(end.face);
-    if (quality == PathQuality::EXACT || has_large_faces) return points_.view_of(end).point;
+    if (with_all_it_sees || has_large_faces) return points_.view_of(end).point;
     return face_point_on(index_, surface_, end, points_.unfolds());
 }
 
@@ -141,49 +141,68 @@ StripWay PathFinder::find_straight(const FacePoint& source, const FacePoint& tar
     return std::move(*std::ranges::min_element(ways, {}, length));
 }
 
-// How long a shortest path to the target is at most, as the index has it, but for one of a hundred distances
-// that err by more.
-double PathFinder::known_length(const FacePoint& target) {
+// How long a shortest path is at most of which the index says that it is so long, but for one of a hundred
+// distances that err by more.
+double PathFinder::longest_shortest(double known) const {
     constexpr double LEAST_ERROR = 1e-3;
+    return known * (1 + std::max(index_.description.error.p99, LEAST_ERROR));
+}
+
+// As the field of the source has it.
+double PathFinder::known_length(const FacePoint& target) {
     std::array<double, FacePoint::MOST_VERTICES> from_vertices;
     for (size_t k = 0; k < target.vertex_count; ++k)
         from_vertices[k] = double{query_.end_distance(0, target.numbers[k])};
-    return distance_over(target, from_vertices) * (1 + std::max(index_.description.error.p99, LEAST_ERROR));
+    return distance_over(target, from_vertices);
 }
 
-// Searches the corridor of paths up to this length for a shorter one, unless it has too many vertices; tells
-// whether it has.
-bool PathFinder::shorten(StripWay& way, double length, size_t most_vertices) {
+// The corridor of paths up to this length, unless it has too many vertices.
+std::optional<Corridor> PathFinder::corridor_of(const Strip& strip, double length, size_t most_vertices) {
     size_t count = 0;
-    const Corridor corridor = corridor_around(surface_, way.strip, [&](uint32_t vertex, double slack) {
+    Corridor corridor = corridor_around(surface_, strip, [&](uint32_t vertex, double slack) {
         const bool is_one = count <= most_vertices && belongs(vertex, slack, length);
         count += is_one;
         return is_one;
     });
-    if (count > most_vertices) return false;
-    make_shortest_in_corridor(surface_, corridor, way.strip, way.path);
-    return true;
+    if (count > most_vertices) return std::nullopt;
+    return corridor;
 }
 
 // There are surfaces of so many bumps that straight ways are not among the shortest ones. There, too, a
 // corridor is searched.
-PathFinder::FoundWay PathFinder::find_way(PathQuality quality) {
-    constexpr size_t MOST_VERTICES_OF_STRAIGHT = 1000;
-    const FacePoint source = prepared_as(source_, quality), target = prepared_as(target_, quality);
-    FoundWay found{find_straight(source, target)};
-    StripWay& way = found.way;
-    if (way.strip.faces.size() == 1) return found;
-    if (quality == PathQuality::EXACT)
-        shorten(way, way.path.length, surface_.vertex_count());
-    else if (const double length = known_length(target); way.path.length > length)
-        found.is_settled = shorten(way, length, MOST_VERTICES_OF_STRAIGHT);
-    return found;
+StripWay PathFinder::find_way(PathQuality quality) {
+    const bool with_all_they_see = quality == PathQuality::EXACT || has_long_edges(surface_);
+    const FacePoint source = prepared_as(source_, with_all_they_see),
+                    target = prepared_as(target_, with_all_they_see);
+    StripWay way = find_straight(source, target);
+    if (way.strip.faces.size() == 1) return way;
+    if (quality == PathQuality::EXACT) {
+        const auto corridor = corridor_of(way.strip, way.path.length, surface_.vertex_count());
+        make_shortest_in_corridor(surface_, *corridor, Effort::ALWAYS, way.strip, way.path);
+        return way;
+    }
+    const double length = longest_shortest(known_length(target));
+    if (way.path.length <= length) return way;
+    if (const auto corridor = corridor_of(way.strip, length, MOST_VERTICES))
+        make_shortest_in_corridor(surface_, *corridor, Effort::NEARLY_ALWAYS, way.strip, way.path);
+    return way;
+}
+
+// The length of a straight path or, if the pair is known to be shorter, of a shortest one in the corridor.
+// Nothing where that is too large.
+std::optional<double> PathFinder::find_length(double known) {
+    const StripWay way = find_straight(prepared_as(source_, false), prepared_as(target_, false));
+    const double length = longest_shortest(known);
+    if (way.strip.faces.size() == 1 || way.path.length <= length) return way.path.length;
+    const auto corridor = corridor_of(way.strip, length, MOST_VERTICES);
+    if (!corridor) return std::nullopt;
+    return std::min(way.path.length, shortest_length_in_corridor(surface_, *corridor, way.strip));
 }
 
 SurfacePath PathFinder::find(PathQuality quality) {
     if (is_at(surface_, source_, target_) && points_.sssd(source_, target_) == 0)
         return path_of_strip(surface_, {source_, target_, {source_.face}, {}}, {});
-    const StripWay way = find_way(quality).way;
+    const StripWay way = find_way(quality);
     return path_of_strip(surface_, way.strip, way.path);
 }
 
@@ -219,20 +238,18 @@ SurfacePath find_path(const Index& index, Query& query, const Surface& surface, 
 
 StripWay find_straight_path(const Index& index, Query& query, const Surface& surface,
                             const SurfacePoint& source, const SurfacePoint& target) {
-    return PathFinder(index, query, surface, source, target).find_way(PathQuality::STRAIGHT).way;
+    return PathFinder(index, query, surface, source, target).find_way(PathQuality::STRAIGHT);
 }
 
-std::optional<double> straight_length_between(const Index& index, Query& query, const Surface& surface,
-                                              const SurfacePoint& source, const SurfacePoint& target,
-                                              size_t most_steps) {
-    PathFinder finder(index, query, surface, source, target, most_steps);
+std::optional<double> length_of_near_path(const Index& index, Query& query, const Surface& surface,
+                                          const SurfacePoint& source, const SurfacePoint& target,
+                                          double known, size_t most_steps) {
     try {
-        const PathFinder::FoundWay found = finder.find_way(PathQuality::STRAIGHT);
-        if (found.is_settled) return found.way.path.length;
+        return PathFinder(index, query, surface, source, target, most_steps).find_length(known);
     } catch (const Error& error) {
         if (error.status != GEOIDX_ERROR_NO_PATH) throw;
+        return std::nullopt;
     }
-    return std::nullopt;
 }
 
 }

@@ -24,10 +24,11 @@ SurfacePath find_path(const Index& index, Query& query, const Surface& surface, 
 StripWay find_straight_path(const Index& index, Query& query, const Surface& surface,
                             const SurfacePoint& source, const SurfacePoint& target);
 
-// Its length. Nothing where no strip is found in so many steps, or where there may be a shorter path in a
-// corridor that is too large to be searched. Throws Error as require_path_end does.
-std::optional<double> straight_length_between(const Index& index, Query& query, const Surface& surface,
-                                              const SurfacePoint& source, const SurfacePoint& target,
-                                              size_t most_steps);
+// The length of a shortest path between near points, of which tables say that it is so long: of one of
+// STRAIGHT quality or, if that is longer, of a shortest one in the corridor. Nothing where no strip is found
+// in so many steps, or where the corridor is too large. Throws Error as require_path_end does.
+std::optional<double> length_of_near_path(const Index& index, Query& query, const Surface& surface,
+                                          const SurfacePoint& source, const SurfacePoint& target,
+                                          double known, size_t most_steps);
 
 }

@@ -24,7 +24,8 @@ float distance_of_points(const Index& index, Query& query, const Surface& surfac
     const SurfacePoint &first = is_turned ? target : source, &second = is_turned ? source : target;
     const PointQueries::Pair pair = PointQueries(index, query, surface).pair(first, second);
     if (pair.is_sure) return pair.distance;
-    const auto length = straight_length_between(index, query, surface, first, second, MOST_STEPS);
+    const auto length =
+        length_of_near_path(index, query, surface, first, second, double{pair.distance}, MOST_STEPS);
     return length ? std::min(static_cast<float>(*length), pair.known_way) : pair.distance;
 }
 

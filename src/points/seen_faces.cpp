@@ -258,10 +258,15 @@ SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t mos
     return around;
 }
 
+bool has_long_edges(const Surface& surface) {
+    constexpr double SOME_EDGES_ACROSS = 48;
+    return surface.bounding_box_diagonal < SOME_EDGES_ACROSS * surface.average_edge;
+}
+
 size_t vertices_of_polygon(const Surface& surface) {
-    constexpr double FEW_EDGES_ACROSS = 5, SOME_EDGES_ACROSS = 48;
-    const double edges_across = surface.bounding_box_diagonal / surface.average_edge;
-    return edges_across < FEW_EDGES_ACROSS ? 64 : edges_across < SOME_EDGES_ACROSS ? 32 : 16;
+    constexpr double FEW_EDGES_ACROSS = 5;
+    if (surface.bounding_box_diagonal < FEW_EDGES_ACROSS * surface.average_edge) return 64;
+    return has_long_edges(surface) ? 32 : 16;
 }
 
 }

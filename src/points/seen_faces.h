@@ -58,6 +58,9 @@ struct SeenAround {
 // knows of it. `at` is a point of the faces of an index.
 SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t most);
 
+// Whether edges are long for the whole surface.
+bool has_long_edges(const Surface& surface);
+
 // How many vertices a polygon has on a surface, at most FacePoint::MOST_VERTICES. What it does not tell is a
 // share of an edge's length, so that it has more where edges are long for the whole surface.
 size_t vertices_of_polygon(const Surface& surface);

@@ -47,6 +47,18 @@ TEST_CASE("point distance: on a tiny part of a large ground, as the metric says"
     }
 }
 
+// Straight ways over the caps are not among the shortest ones.
+TEST_CASE("point distance: on the caps of a star, as the metric says") {
+    Soup star = closed_cylinder(40, 0.3);
+    for (uint32_t v = 1; v < star.vertex_count(); v += 2) star.positions[v].head<2>() *= 0.4;
+    const PathCase on(star);
+    std::mt19937_64 random(6);
+    for (size_t i = 0; i < smaller(3000, 40); ++i) {
+        CAPTURE(i);
+        check_pair(on, random_point(star, random, 0), random_point(star, random, 0), 0.005);
+    }
+}
+
 TEST_CASE("point distance: near points of a rough surface are as far apart as the metric says") {
     const PathCase on(bumpy_sphere(smaller(4, 3), 3));
     std::mt19937_64 random(8);
