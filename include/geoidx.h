@@ -180,16 +180,16 @@ enum {
      * may be a little below the metric's. Building takes time linear in the vertices.
      * With GEOIDX_METRIC_EXACT, delta 0 and no edge_lengths, an index also holds the metric's own distances
      * of those pairs, of each vertex and the 480 nearest ones, of which tables are off by more than a
-     * hundredth, at most four for each vertex, the most wrong ones first, and none that are too short to have
-     * a relative error (see geoidx_info): all queries from vertices answer these, MSAD from several ones
-     * source by source. Around such pairs up to 1,920 vertices are compared. Points within triangles and
-     * sources with offsets have none. On meshes of more than 400,000 vertices fewer are compared. Building
-     * takes some 4 KB of memory a vertex for that, up to 8 KB where many pairs are wrong.
-     * Then, too, an index holds the edges along which MSAD would change by more than they are long, and
-     * lowers the farther ends of these, measured distances included: from one vertex, the distances of the
-     * ends of any edge of the welded mesh differ by no more than 1.05 times its length and the rounding of a
-     * float, on meshes of up to 65,536 vertices. On larger ones, from several sources and from points, an
-     * edge in a million may be steeper. */
+     * hundredth, at most four for each vertex or 32,768 in all, whichever is more, the most wrong ones first,
+     * and none that are too short to have a relative error (see geoidx_info): all queries from vertices
+     * answer these, MSAD from several ones source by source. Around such pairs up to 1,920 vertices are
+     * compared. Points within triangles and sources with offsets have none. On meshes of more than 400,000
+     * vertices fewer are compared. Building takes some 4 KB of memory a vertex for that, up to 8 KB where
+     * many pairs are wrong. Then, too, an index holds the edges along which MSAD would change by more than
+     * they are long, and lowers the farther ends of these, measured distances included: from one vertex, the
+     * distances of the ends of any edge of the welded mesh differ by no more than 1.05 times its length and
+     * the rounding of a float, on meshes of up to 65,536 vertices. On larger ones, from several sources and
+     * from points, an edge in a million may be steeper. */
     GEOIDX_ENGINE_OVERLAY = 1
 };
 
@@ -759,15 +759,16 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * the same bits. By GEOIDX_METRIC_EXACT, points of one triangle are as far apart as the straight line
  * between them is long, and so are those of triangles that share an edge which that line crosses, unless
  * the index knows a much shorter way; so are those a few triangles apart that see each other over these,
- * unless the index knows a way that is shorter by a hundredth. Where the index says that two points are
- * less than four edges apart, by the longest edge around them or the average one of the mesh, a path of
- * GEOIDX_PATH_STRAIGHT is found, and its length is the distance unless one of the ways above is shorter: of
- * edges that are long for the distance, vertices tell little. That takes tens of microseconds, on surfaces of
- * few large triangles some hundred, and is given up after 2000 triangles. It takes scratch from the global
- * heap each time, and from the index's allocator as paths do; by GEOIDX_ENGINE_GRAPH, where it would take
- * several whole fields, it is not done. All others are to the accuracy of the index. Points of triangles that
- * share a corner are no farther apart than the way over it is long and, by GEOIDX_METRIC_EXACT, than a
- * straight line around it over the triangles between the two. +INFINITY where there is no path. */
+ * unless the index knows a way that is shorter by a hundredth. Where the index says that two points are less
+ * than four edges apart, by the longest edge around them or the average one of the mesh, their distance is
+ * the length of a path of GEOIDX_PATH_STRAIGHT, of a shortest one in its corridor where that is shorter, or
+ * of one of the ways above: of edges that are long for the distance, vertices tell little. That takes tens of
+ * microseconds, on surfaces of few large triangles some hundred. It takes scratch from the global heap each
+ * time, and from the index's allocator as paths do. It is given up after 2000 triangles or with a corridor of
+ * more than 1000 vertices, and by GEOIDX_ENGINE_GRAPH it is not done. All other distances are to the accuracy
+ * of the index. Points of triangles that share a corner are no farther apart than the way over it is long
+ * and, by GEOIDX_METRIC_EXACT, than a straight line around it over the triangles between the two. +INFINITY
+ * where there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* source,
                                                  const geoidx_surface_point* target, float* distance);
@@ -835,7 +836,7 @@ enum {
     /* A path that is locally shortest: no vertex that it passes can be passed on a shorter side. Its length
      * is never below the distance and mostly equal to it. Where it is longer than the index says that its
      * ends are apart, by more than the p99 of the errors (0.1 % at least), a corridor of up to 1,000 vertices
-     * is searched as by GEOIDX_PATH_EXACT, which takes as long as that (GEOIDX_METRIC_EXACT). */
+     * is searched nearly as by GEOIDX_PATH_EXACT, and takes nearly as long (GEOIDX_METRIC_EXACT). */
     GEOIDX_PATH_STRAIGHT = 0,
     /* GEOIDX_METRIC_EXACT: the shortest path within a corridor, the vertices that a path as short as the
      * straight one can lead over unless the index errs by more than the largest error stated for it. There
