@@ -775,10 +775,10 @@ GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoi
 
 /* geoidx_query_msad from points of the surface: distances[v] is the least of offsets[i] + the distance from
  * sources[i] to v. `offsets` are finite and not negative; NULL: all are 0. An offset that all sources have is
- * added to the distances without it; where offsets differ, distances of the later ones are less exact. By
- * GEOIDX_METRIC_EXACT the distance to a vertex that a source within a triangle sees over the 30 or so
- * triangles around it is no longer than that straight line and, from one source, no shorter than the line in
- * space. */
+ * added to the distances without it. Where offsets differ, up to four sources take a field each, and with
+ * more the distances of the later ones are less exact. By GEOIDX_METRIC_EXACT the distance to a vertex that a
+ * source within a triangle sees over the 30 or so triangles around it is no longer than that straight line
+ * and, from one source, no shorter than the line in space. */
 GEOIDX_API geoidx_status geoidx_query_point_msad(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* sources, uint32_t source_count,
                                                  const float* offsets, float* distances,

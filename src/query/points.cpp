@@ -1,5 +1,6 @@
 // Points of faces, as the ends of pairs, as sources and as the ends of paths.
 #include <algorithm>
+#include <functional>
 #include <tuple>
 
 #include "src/query/query.h"
@@ -79,8 +80,13 @@ void Query::add_point_field(const FacePoint& point, float offset) {
     }
 }
 
-bool Query::takes_all(const PointSources& sources) const {
-    return std::ranges::all_of(sources.points, [&](const FacePoint& point) { return takes(point); });
+// Whether all sources go into one sweep. Of a few whose offsets differ, a field for each is more exact.
+bool Query::sweep_together(const PointSources& sources) const {
+    constexpr size_t FEW = 4;
+    const auto& offsets = sources.offsets;
+    const bool have_one_offset = std::ranges::adjacent_find(offsets, std::not_equal_to()) == offsets.end();
+    return (have_one_offset || offsets.size() > FEW) &&
+           std::ranges::all_of(sources.points, [&](const FacePoint& point) { return takes(point); });
 }
 
 // Fills offsets_ with the offsets without the least one, which is returned. Sweeps unfold over borders as if
@@ -96,41 +102,14 @@ float Query::take_offsets(const PointSources& sources) {
 
 void Query::point_msad(const PointSources& sources, std::span<float> distances) {
     check_count("distance_count", distances.size(), 1);
-    const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
-    if (takes_all(sources)) {
-        const float least = take_offsets(sources);
-        std::get<OverlayQuery>(engine_).point_msad(sources.points, offsets_, by_number);
-        add_to_each(by_number, least);
-    } else {
-        point_field_.assign(by_number.size(), INFINITE);
-        for (size_t i = 0; i < sources.points.size(); ++i)
-            add_point_field(sources.points[i], sources.offset(i));
-        std::ranges::copy(point_field_, by_number.begin());
-    }
-    for (const KnownWay& way : sources.known) {
-        float& distance = by_number[way.number];
-        distance = sources.corrected(way, distance);
-    }
+    fill_from_points(sources, false);
     write_by_id(distances);
 }
 
 void Query::point_nearest_sources(const PointSources& sources, std::span<uint32_t> nearest,
                                   std::span<float> distances) {
     check_count("vertex_count", nearest.size(), 1);
-    const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
-    nearest_.resize(by_number.size());
-    if (takes_all(sources)) {
-        const float least = take_offsets(sources);
-        std::get<OverlayQuery>(engine_).point_nearest_sources(sources.points, offsets_, by_number, nearest_);
-        add_to_each(by_number, least);
-    } else {
-        nearest_sources_by_fields(sources);
-    }
-    for (const KnownWay& way : sources.known) {
-        float& distance = by_number[way.number];
-        if (way.length < distance) nearest_[way.number] = way.source;
-        distance = sources.corrected(way, distance);
-    }
+    fill_from_points(sources, true);
     for (size_t id = 0; id < nearest.size(); ++id) {
         const uint32_t number = index_.number_of_id[id];
         nearest[id] = number == NONE ? NONE : nearest_[number];
@@ -138,18 +117,39 @@ void Query::point_nearest_sources(const PointSources& sources, std::span<uint32_
     if (!distances.empty()) write_by_id(distances);
 }
 
-// Fills nearest_ and distance_, field by field.
-void Query::nearest_sources_by_fields(const PointSources& sources) {
+// Fills distance_ and, if asked for, nearest_, by numbers.
+void Query::fill_from_points(const PointSources& sources, bool with_nearest) {
+    if (with_nearest) nearest_.resize(index_.numbering().vertex_count());
+    if (!sweep_together(sources)) return fill_by_fields(sources, with_nearest);
+    const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
+    const float least = take_offsets(sources);
+    auto& overlay = std::get<OverlayQuery>(engine_);
+    if (with_nearest)
+        overlay.point_nearest_sources(sources.points, offsets_, by_number, nearest_);
+    else
+        overlay.point_msad(sources.points, offsets_, by_number);
+    add_to_each(by_number, least);
+    for (const KnownWay& way : sources.known) {
+        float& distance = by_number[way.number];
+        if (with_nearest && way.length < distance) nearest_[way.number] = way.source;
+        distance = sources.corrected(way, distance);
+    }
+}
+
+// Source by source, each with all that is known from it.
+void Query::fill_by_fields(const PointSources& sources, bool with_nearest) {
     const uint32_t count = index_.numbering().vertex_count();
     std::fill_n(distance_.begin(), count, INFINITE);
-    std::ranges::fill(nearest_, NONE);
+    if (with_nearest) std::ranges::fill(nearest_, NONE);
     for (uint32_t i = 0; i < sources.points.size(); ++i) {
         point_field_.assign(count, INFINITE);
         add_point_field(sources.points[i], sources.offset(i));
+        for (const KnownWay& way : sources.known_from(i))
+            point_field_[way.number] = way.corrected(point_field_[way.number]);
         for (uint32_t v = 0; v < count; ++v)
             if (point_field_[v] < distance_[v]) {
                 distance_[v] = point_field_[v];
-                nearest_[v] = i;
+                if (with_nearest) nearest_[v] = i;
             }
     }
 }

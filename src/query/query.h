@@ -155,11 +155,12 @@ private:
     void take_sources(std::span<const uint32_t> source_ids);
     std::span<const float> field_within(float radius);
     bool takes(const FacePoint& point) const;
-    bool takes_all(const PointSources& sources) const;
+    bool sweep_together(const PointSources& sources) const;
     float vertex_to_point(uint32_t vertex, const FacePoint& point);
     float take_offsets(const PointSources& sources);
     void add_point_field(const FacePoint& point, float offset);
-    void nearest_sources_by_fields(const PointSources& sources);
+    void fill_from_points(const PointSources& sources, bool with_nearest);
+    void fill_by_fields(const PointSources& sources, bool with_nearest);
     size_t fields_at_once(size_t left) const;
     FieldsByNumber fields_from(std::span<const uint32_t> source_ids);
     void ssad_at_once(std::span<const uint32_t> source_ids, std::span<float> distances);
