@@ -81,6 +81,7 @@ private:
     // held besides that make edges less steep, since they are more exact than lowered ones. They have smaller
     // errors than the others and take the place of none.
     void hold_steep() {
+        if (held_.size() > most()) return keep_worst(most());
         const size_t room = std::max(MOST_PAIRS * near_.vertex_count(), held_.size());
         for (uint32_t pass = 0; pass < MOST_PASSES && held_.size() < room; ++pass) {
             if (!find(pass == 0 ? all_vertices() : vertices_with_pairs(), true)) return;
@@ -109,7 +110,7 @@ private:
         workers_.run(of_task.size(), [&](FieldSolver&, size_t task) {
             NearComparison comparison(index_, intake_, near_, edge_ends_, limit_, finds_steep);
             const size_t begin = task * at_once, end = std::min(begin + at_once, sources.size());
-            const size_t far_too_many = 16 * MOST_PAIRS * (end - begin);
+            const size_t far_too_many = most() > FEW_IN_ALL ? 16 * MOST_PAIRS * (end - begin) : FEW_IN_ALL;
             for (size_t i = begin; i < end && of_task[task].size() < far_too_many; ++i) {
                 workers_.check_cancelled();
                 comparison.compare(sources[i], of_task[task]);
