@@ -215,8 +215,8 @@ private:
         for (uint32_t f = 0; f < mesh_.face_count(); ++f) plane_[f] = plane_of(f);
     }
 
-    // A plane lies over itself where its angles at a vertex are more than a turn together. A position does
-    // not tell there which of its faces a point lies in.
+    // Around a vertex with angles of more than a turn together, a plane lies over itself. A position does not
+    // tell there which of its faces a point lies in. Faces without area have angles that say nothing.
     void leave_out_covered(std::vector<uint8_t>& is_kept) const {
         constexpr double MOST = 2 * std::numbers::pi + 0.01;
         std::vector<std::pair<uint64_t, double>> angles; // by plane and vertex
@@ -227,7 +227,8 @@ private:
                 const auto [sine, cosine] =
                     angle_at(mesh_.positions[corners[k]], mesh_.positions[corners[(k + 1) % 3]],
                              mesh_.positions[corners[(k + 2) % 3]]);
-                angles.emplace_back(uint64_t{plane_[f]} << 32 | corners[k], std::atan2(sine, cosine));
+                if (sine > FLATNESS)
+                    angles.emplace_back(uint64_t{plane_[f]} << 32 | corners[k], std::atan2(sine, cosine));
             }
         }
         std::ranges::sort(angles);

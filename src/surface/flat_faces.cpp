@@ -243,7 +243,9 @@ double FlatFaces::straight_between(std::span<const Vector3d> positions, const Co
         if (!(from.is_vertex ? walk.begin_at(from.vertices[0], plane) : walk.begin_in(at_from.row)))
             return false;
         const auto end = walk.run();
-        return end && (end->row == at_to.row || to.is_vertex);
+        if (!end || end->row == at_to.row) return end.has_value();
+        const auto& corners = faces_[end->row];
+        return to.is_vertex && std::ranges::find(corners, to.vertices[0]) != corners.end();
     };
     if (!sees(a, *at_a, b, *at_b) && !sees(b, *at_b, a, *at_a)) return UNREACHABLE;
     return (a.position - b.position).norm();

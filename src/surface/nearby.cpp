@@ -25,9 +25,7 @@ double straight_across(const Surface& surface, const SurfacePoint& a, const Surf
     if (!(off > 0)) {
         // Both on the line of the edge, in faces without area if beyond its ends.
         const double at = std::clamp(from.foot, 0.0, length);
-        const double on_edge = std::clamp(to.foot, std::min(at, from.foot), std::max(at, from.foot));
-        const double over = std::clamp(on_edge, 0.0, length);
-        return std::abs(from.foot - over) + std::abs(over - to.foot);
+        return std::abs(from.foot - at) + std::abs(at - to.foot);
     }
     const double crossing = (from.foot * to.height + to.foot * from.height) / off;
     return crossing >= 0 && crossing <= length ? hypotenuse(from.foot - to.foot, off) : UNREACHABLE;

@@ -318,6 +318,18 @@ Soup flat_fan(uint32_t turns) {
     return soup;
 }
 
+Soup flat_spiral(uint32_t turns) {
+    constexpr uint32_t STEPS_OF_TURN = 12, ACROSS = 3;
+    const uint32_t steps = turns * STEPS_OF_TURN;
+    Soup soup = grid(steps, ACROSS, 2 * std::numbers::pi * turns, 1);
+    for (Vector3d& at : soup.positions) {
+        // A little farther out with each turn, so that no two vertices are one.
+        const double angle = at.x(), radius = 1 + at.y() + 0.01 * angle;
+        at = {radius * std::cos(angle), radius * std::sin(angle), 0};
+    }
+    return soup;
+}
+
 Soup closed_cylinder(uint32_t sides, double height) {
     Soup soup;
     for (const double z : {0.0, height})

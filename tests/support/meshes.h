@@ -62,6 +62,8 @@ std::vector<Eigen::Vector3d> cone_rays(uint32_t count, double slope);
 std::vector<Eigen::Vector3d> saddle_rays(uint32_t count, double slope);
 // A disk of ten sectors and three rings around a vertex, in one plane; with two turns it lies over itself.
 Soup flat_fan(uint32_t turns);
+// The same without its middle, and cut through from there: a strip that goes around and around.
+Soup flat_spiral(uint32_t turns);
 // A cylinder of radius 1 as tools write it: sides of two triangles each, and caps that are fans around a
 // vertex of the rim.
 Soup closed_cylinder(uint32_t sides, double height);
