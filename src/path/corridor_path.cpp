@@ -249,7 +249,7 @@ double CorridorPath::shortest_length() {
 // paths of different ways meet inside of the edge. Then the path is longer than the distance of the source,
 // and is searched again with distances of points inside of edges: of those around the strip, then of all that
 // a shortest path can cross. At last it is searched by the shortest ways over these edges from both ends. The
-// path stays as it is where no search finds a shorter one. All but what is around the strip takes up to some
+// path stays as it is where no search finds a shorter one. That last one takes up to some
 // seconds.
 void CorridorPath::make_shortest(Effort effort, Strip& strip, StripPath& path) {
     constexpr uint32_t FEW_POINTS = 7, MANY_POINTS = 31;

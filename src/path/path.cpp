@@ -189,7 +189,7 @@ StripWay PathFinder::find_way(PathQuality quality) {
 }
 
 // The length of a straight path or, if the pair is known to be shorter, of a shortest one in the corridor.
-// Nothing where that is too large.
+// Nothing where the corridor is too large. Of the pair more is known than what its ends see would tell.
 std::optional<double> PathFinder::find_length(double known) {
     const StripWay way = find_straight(prepared_as(source_, false), prepared_as(target_, false));
     const double length = longest_shortest(known);

@@ -14,8 +14,8 @@ namespace {
 // polygons (`geoidx_bench paths`, which has some along paths among them).
 constexpr uint64_t VERTICES_PER_PAIR = 5;
 
-// A target is farther than what this share of the line in space to it is longer than. Answers of vertices may
-// be a little shorter than that line.
+// No target is nearer than this share of the line in space to it. Answers of vertices may be a little shorter
+// than that line.
 constexpr double LEAST_SHARE_OF_LINE = 0.99;
 
 // Each sweep looks this many times as far as the one before, or as the nearest vertex that it left out.

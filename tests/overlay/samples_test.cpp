@@ -103,7 +103,7 @@ TEST_CASE("samples: about 64 of a border, more of one that is long for its mesh,
             const auto samples = overlay.pairs.samples.of(p);
             const uint32_t size = overlay.numbering.border_size(p);
             const double extent = std::sqrt(static_cast<double>(overlay.numbering.vertex_count()));
-            const double step = std::clamp(std::min(size / 64.0, extent / 40), 2.0, 8.0);
+            const double step = std::clamp(std::min(size / 64.0, extent / 40), 2.0, 10.0);
             if (size > 128) CHECK(samples.size() >= 56);
             if (overlay.numbering.parent[p] == 0)
                 CHECK(samples.size() <= std::max(size_t{192}, every_second(overlay, p)));
