@@ -23,19 +23,23 @@ Intake intake_of(const Mesh& mesh) {
     return intake;
 }
 
+// A point of the surface as one of the corridor.
+SurfacePoint local(const Corridor& corridor, const SurfacePoint& point) {
+    const auto found = std::ranges::find(corridor.face_of_surface, point.face);
+    return {static_cast<uint32_t>(found - corridor.face_of_surface.begin()), point.weights};
+}
+
 // The corridor as a surface and as a metric, and the ends of the path in it.
 class CorridorPath {
 public:
     CorridorPath(const Surface& surface, const Corridor& corridor, const Strip& strip)
         : whole_(surface), corridor_(corridor), part_(intake_of(corridor.mesh)),
-          solver_(ExactMetric(corridor.mesh).make_solver()), source_(local(strip.source)),
-          target_(local(strip.target)) {}
+          solver_(ExactMetric(corridor.mesh).make_solver()), source_(local(corridor, strip.source)),
+          target_(local(corridor, strip.target)) {}
 
-    double shortest_length();
     void make_shortest(Effort effort, Strip& strip, StripPath& path);
 
 private:
-    SurfacePoint local(const SurfacePoint& point) const;
     std::vector<uint32_t> edges_near(const Strip& strip) const;
     std::vector<uint32_t> edges_of_shortest(const std::vector<double>& over_vertex, double shortest) const;
     template <class Share>
@@ -61,11 +65,6 @@ private:
     std::vector<double> on_edges_; // points_per_edge_ of an edge, from its first vertex on
     std::unordered_map<uint32_t, size_t> first_point_; // there, of the edges that have any
 };
-
-SurfacePoint CorridorPath::local(const SurfacePoint& point) const {
-    const auto found = std::ranges::find(corridor_.face_of_surface, point.face);
-    return {static_cast<uint32_t>(found - corridor_.face_of_surface.begin()), point.weights};
-}
 
 void make_unique(std::vector<uint32_t>& numbers) {
     std::ranges::sort(numbers);
@@ -240,11 +239,6 @@ std::optional<Strip> CorridorPath::search_by_excess(const std::vector<uint32_t>&
     });
 }
 
-double CorridorPath::shortest_length() {
-    solve_from_target({}, 0);
-    return solver_->point_distance(0);
-}
-
 // The search places the target beyond an edge by the distances of the edge's ends. That fails where shortest
 // paths of different ways meet inside of the edge. Then the path is longer than the distance of the source,
 // and is searched again with distances of points inside of edges: of those around the strip, then of all that
@@ -279,8 +273,11 @@ void make_shortest_in_corridor(const Surface& surface, const Corridor& corridor,
     CorridorPath(surface, corridor, strip).make_shortest(effort, strip, path);
 }
 
-double shortest_length_in_corridor(const Surface& surface, const Corridor& corridor, const Strip& strip) {
-    return CorridorPath(surface, corridor, strip).shortest_length();
+double shortest_length_in_corridor(const Corridor& corridor, const Strip& strip) {
+    const auto solver = ExactMetric(corridor.mesh).make_solver();
+    const SurfacePoint source = local(corridor, strip.source), target = local(corridor, strip.target);
+    solver->solve({{}, {}, {&source, 1}, {&target, 1}});
+    return solver->point_distance(0);
 }
 
 }

@@ -11,6 +11,6 @@ void make_shortest_in_corridor(const Surface& surface, const Corridor& corridor,
                                StripPath& path);
 
 // How long a shortest path between the ends of a strip is in the corridor.
-double shortest_length_in_corridor(const Surface& surface, const Corridor& corridor, const Strip& strip);
+double shortest_length_in_corridor(const Corridor& corridor, const Strip& strip);
 
 }

@@ -196,7 +196,7 @@ std::optional<double> PathFinder::find_length(double known) {
     if (way.strip.faces.size() == 1 || way.path.length <= length) return way.path.length;
     const auto corridor = corridor_of(way.strip, length, MOST_VERTICES);
     if (!corridor) return std::nullopt;
-    return std::min(way.path.length, shortest_length_in_corridor(surface_, *corridor, way.strip));
+    return std::min(way.path.length, shortest_length_in_corridor(*corridor, way.strip));
 }
 
 SurfacePath PathFinder::find(PathQuality quality) {
