@@ -80,25 +80,40 @@ TEST_CASE("wrong pairs: around them, farther ones are found") {
     CHECK(now.wrong < before.wrong / 4);
 }
 
-// Tables are rounded to a share of the longest distances in them, of which a hole is some
-// hundred-thousandths.
-TEST_CASE("wrong pairs: of a small mesh with tiny details, many more are held") {
+// A disk of radius 1 with a hole in its middle, and so many rings of vertices close around that.
+TestMesh disk_with_tiny_hole(double hole, uint32_t rings) {
     constexpr uint32_t AROUND = 40;
     TestMesh mesh;
-    for (const double radius : {1e-5, 2e-5, 1.0})
+    for (uint32_t ring = 1; ring <= rings + 1; ++ring)
         for (uint32_t k = 0; k < AROUND; ++k) {
-            const double angle = 2 * std::numbers::pi * k / AROUND;
+            const double angle = 2 * std::numbers::pi * k / AROUND, radius = ring > rings ? 1 : hole * ring;
             mesh.add_vertex(radius * std::cos(angle), radius * std::sin(angle), 0);
         }
-    for (const uint32_t ring : {0u, AROUND})
+    for (uint32_t ring = 0; ring < rings * AROUND; ring += AROUND)
         for (uint32_t k = 0; k < AROUND; ++k) {
             const uint32_t next = (k + 1) % AROUND;
             mesh.add_triangle(ring + k, ring + AROUND + k, ring + AROUND + next);
             mesh.add_triangle(ring + k, ring + AROUND + next, ring + next);
         }
+    return mesh;
+}
+
+// Tables are rounded to a share of the longest distances in them.
+TEST_CASE("wrong pairs: of a small mesh with tiny details, many more are held") {
+    const TestMesh mesh = disk_with_tiny_hole(1e-5, 2);
     const auto index = build(mesh, default_options());
     CHECK(count_wrong(tables_only(index.get()).get(), mesh, 1).wrong > 8 * mesh.vertex_count());
     CHECK(count_wrong(index.get(), mesh, 1).wrong == 0);
+}
+
+TEST_CASE("wrong pairs: where there are too many even of the worst ones, as many as may be are held") {
+    constexpr uint64_t MOST = 32768;
+    const TestMesh mesh = disk_with_tiny_hole(1e-6, 9);
+    const auto index = build(mesh, default_options());
+    const Counts before = count_wrong(tables_only(index.get()).get(), mesh, 1),
+                 now = count_wrong(index.get(), mesh, 1);
+    CHECK(before.wrong > 2 * MOST);
+    CHECK(now.wrong <= before.wrong - MOST);
 }
 
 // Most of its fields are steep along edges as short as the bevel, by the rounding of tables.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "src/surface/surface.h"
 #include "tests/support/meshes.h"
 
@@ -11,6 +13,9 @@ inline Intake intake_of(const Soup& soup) {
     intake.mesh.positions = soup.positions;
     for (const auto& [a, b, c] : soup.triangles) intake.mesh.faces.push_back({a, b, c});
     connect(intake.mesh);
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& position : soup.positions) box.extend(position);
+    intake.bounding_box_diagonal = box.diagonal().norm();
     return intake;
 }
 
