@@ -755,20 +755,20 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * different sides, as around holes that are as small as triangles or between spikes, off by a share of the
  * triangles' edges. `surface` must be of the index's mesh, and stay open during the call only. */
 
-/* geoidx_query_sssd between points of the surface, symmetric bit for bit. Of points at vertices it gives
- * the same bits. By GEOIDX_METRIC_EXACT, points of one triangle are as far apart as the straight line
- * between them is long, and so are those of triangles that share an edge which that line crosses, unless
- * the index knows a much shorter way; so are those a few triangles apart that see each other over these,
- * unless the index knows a way that is shorter by a hundredth. Where the index says that two points are less
- * than four edges apart, by the longest edge around them or the average one of the mesh, their distance is
- * the length of a path of GEOIDX_PATH_STRAIGHT, of a shortest one in its corridor where that is shorter, or
- * of one of the ways above: of edges that are long for the distance, vertices tell little. That takes tens of
- * microseconds, on surfaces of few large triangles some hundred. It takes scratch from the global heap each
- * time, and from the index's allocator as paths do. It is given up after 2000 triangles or with a corridor of
- * more than 1000 vertices, and by GEOIDX_ENGINE_GRAPH it is not done. All other distances are to the accuracy
- * of the index. Points of triangles that share a corner are no farther apart than the way over it is long
- * and, by GEOIDX_METRIC_EXACT, than a straight line around it over the triangles between the two. +INFINITY
- * where there is no path. */
+/* geoidx_query_sssd between points of the surface, symmetric bit for bit. Of points at vertices it gives the
+ * same bits. By GEOIDX_METRIC_EXACT, points of one triangle that are not both vertices are as far apart as
+ * the straight line between them is long, and so are those of triangles that share an edge which that line
+ * crosses, unless the index knows a much shorter way; so are those a few triangles apart that see each other
+ * over these, unless the index knows a way that is shorter by a hundredth. Where the index says that two
+ * points are less than four edges apart, by the longest edge around them or the average one of the mesh,
+ * their distance is the length of a path of GEOIDX_PATH_STRAIGHT, of a shortest one in its corridor where
+ * that is shorter, or of one of the ways above: of edges that are long for the distance, vertices tell
+ * little. That takes tens of microseconds, on surfaces of few large triangles some hundred. It takes scratch
+ * from the global heap each time, and from the index's allocator as paths do. It is given up after 2000
+ * triangles or with a corridor of more than 1000 vertices, and by GEOIDX_ENGINE_GRAPH it is not done. All
+ * other distances are to the accuracy of the index. Points of triangles that share a corner are no farther
+ * apart than the way over it is long and, by GEOIDX_METRIC_EXACT, than a straight line around it over the
+ * triangles between the two. +INFINITY where there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* source,
                                                  const geoidx_surface_point* target, float* distance);
@@ -801,7 +801,8 @@ GEOIDX_API geoidx_status geoidx_query_point_within(geoidx_query* query, const ge
 
 /* geoidx_query_nearest_targets of points of the surface: few targets are asked for one by one, as by
  * geoidx_query_point_sssd, but without paths; the distances of many come from fields, as those of
- * geoidx_query_point_msad. A point of which a corner cannot be reached is not reached either. */
+ * geoidx_query_point_msad. So near targets may come in another order than by geoidx_query_point_sssd. A point
+ * of which a corner cannot be reached is not reached either. */
 GEOIDX_API geoidx_status geoidx_query_point_nearest_targets(
     geoidx_query* query, const geoidx_surface* surface, const geoidx_surface_point* source,
     const geoidx_surface_point* targets, uint32_t target_count, uint32_t* positions, float* distances,

@@ -39,7 +39,7 @@ _LIKELY_COUNT = 1024
 class Query(NearPoints):
     """One thread's scratch for queries on one index: they do not lock and, after the first ones, do not allocate.
 
-    Paths do, and so do distances of near points, which are lengths of paths. Made by `Index.query`. A call while
+    Paths allocate, and so do distances of near points, which are lengths of paths. Made by `Index.query`. A call while
     another thread's is under way is a RuntimeError. Keeps what it needs of the index, which may be closed before it.
     """
 
