@@ -52,11 +52,12 @@ float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
     return static_cast<float>(distance_over(second, from_vertices));
 }
 
-// Lowers point_field_ to the distances from one point. Where the engine does not answer from it, those from
+// Fills point_field_ with the distances from one point. Where the engine does not answer from it, those from
 // the corners of its face do. A vertex needs no distances within its faces, which metrics of edges do not
 // know.
-void Query::add_point_field(const FacePoint& point, float offset) {
+void Query::fill_point_field(const FacePoint& point, float offset) {
     const uint32_t count = index_.numbering().vertex_count();
+    point_field_.resize(count);
     if (point.vertex != NONE || takes(point)) {
         auto& field = corner_fields_[0];
         field.resize(count);
@@ -64,7 +65,7 @@ void Query::add_point_field(const FacePoint& point, float offset) {
             std::visit([&](auto& engine) { engine.msad({&point.vertex, 1}, INFINITE, field); }, engine_);
         else
             std::get<OverlayQuery>(engine_).point_msad({&point, 1}, {}, field);
-        for (uint32_t v = 0; v < count; ++v) point_field_[v] = std::min(point_field_[v], field[v] + offset);
+        for (uint32_t v = 0; v < count; ++v) point_field_[v] = field[v] + offset;
         return;
     }
     for (size_t k = 0; k < 3; ++k) {
@@ -75,8 +76,7 @@ void Query::add_point_field(const FacePoint& point, float offset) {
     for (uint32_t v = 0; v < count; ++v) {
         const std::array from_corners{double{corner_fields_[0][v]}, double{corner_fields_[1][v]},
                                       double{corner_fields_[2][v]}};
-        const auto distance = static_cast<float>(distance_over(point, from_corners));
-        point_field_[v] = std::min(point_field_[v], distance + offset);
+        point_field_[v] = static_cast<float>(distance_over(point, from_corners)) + offset;
     }
 }
 
@@ -142,8 +142,7 @@ void Query::fill_by_fields(const PointSources& sources, bool with_nearest) {
     std::fill_n(distance_.begin(), count, INFINITE);
     if (with_nearest) std::ranges::fill(nearest_, NONE);
     for (uint32_t i = 0; i < sources.points.size(); ++i) {
-        point_field_.assign(count, INFINITE);
-        add_point_field(sources.points[i], sources.offset(i));
+        fill_point_field(sources.points[i], sources.offset(i));
         for (const KnownWay& way : sources.known_from(i))
             point_field_[way.number] = way.corrected(point_field_[way.number]);
         for (uint32_t v = 0; v < count; ++v)
@@ -161,8 +160,7 @@ void Query::prepare_end(size_t end, const FacePoint& point) {
         overlay->prepare_end(end, point);
         return;
     }
-    point_field_.assign(index_.numbering().vertex_count(), INFINITE);
-    add_point_field(point, 0);
+    fill_point_field(point, 0);
     end_fields_[end].assign(point_field_.begin(), point_field_.end());
 }
 

@@ -158,7 +158,7 @@ private:
     bool sweep_together(const PointSources& sources) const;
     float vertex_to_point(uint32_t vertex, const FacePoint& point);
     float take_offsets(const PointSources& sources);
-    void add_point_field(const FacePoint& point, float offset);
+    void fill_point_field(const FacePoint& point, float offset);
     void fill_from_points(const PointSources& sources, bool with_nearest);
     void fill_by_fields(const PointSources& sources, bool with_nearest);
     size_t fields_at_once(size_t left) const;

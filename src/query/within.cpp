@@ -49,8 +49,7 @@ std::span<const WithinSweep::Found> Query::found_in(std::span<const float> field
 
 std::span<const WithinSweep::Found> Query::numbers_within(const FacePoint& point, float radius) {
     if (takes(point)) return std::get<OverlayQuery>(engine_).point_within(point, radius);
-    point_field_.assign(index_.numbering().vertex_count(), INFINITE);
-    add_point_field(point, 0);
+    fill_point_field(point, 0);
     return found_in(point_field_, radius);
 }
 
