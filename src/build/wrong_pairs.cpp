@@ -61,7 +61,8 @@ public:
     const ErrorsByDistance& let_pass() const { return let_pass_; }
 
 private:
-    size_t most() const { return std::max(MOST_PAIRS * near_.vertex_count(), FEW_IN_ALL); }
+    size_t few_for_each() const { return MOST_PAIRS * near_.vertex_count(); }
+    size_t most() const { return std::max(few_for_each(), FEW_IN_ALL); }
 
     // What is held changes the fields of both vertices of a pair, so that those are looked at again. Returns
     // whether there are not too many pairs.
@@ -82,7 +83,7 @@ private:
     // errors than the others and take the place of none.
     void hold_steep() {
         if (held_.size() > most()) return keep_worst(most());
-        const size_t room = std::max(MOST_PAIRS * near_.vertex_count(), held_.size());
+        const size_t room = std::max(few_for_each(), held_.size());
         for (uint32_t pass = 0; pass < MOST_PASSES && held_.size() < room; ++pass) {
             if (!find(pass == 0 ? all_vertices() : vertices_with_pairs(), true)) return;
             if (held_.size() <= room) hold();

@@ -243,8 +243,7 @@ std::optional<Strip> CorridorPath::search_by_excess(const std::vector<uint32_t>&
 // paths of different ways meet inside of the edge. Then the path is longer than the distance of the source,
 // and is searched again with distances of points inside of edges: of those around the strip, then of all that
 // a shortest path can cross. At last it is searched by the shortest ways over these edges from both ends. The
-// path stays as it is where no search finds a shorter one. That last one takes up to some
-// seconds.
+// path stays as it is where no search finds a shorter one. The last one takes up to some seconds.
 void CorridorPath::make_shortest(Effort effort, Strip& strip, StripPath& path) {
     constexpr uint32_t FEW_POINTS = 7, MANY_POINTS = 31;
     // Returns whether the path is the shortest.

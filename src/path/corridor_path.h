@@ -4,9 +4,11 @@
 
 namespace geodesic {
 
-// Makes the path of a strip shorter, if it is not as short as any in the corridor, by distances of window
-// propagation, and straight on the whole surface: as short as any, or nearly always, which takes less time.
+// How often a path comes out as short as any in the corridor; nearly always takes less time.
 enum class Effort { NEARLY_ALWAYS, ALWAYS };
+
+// Makes the path of a strip as short as any in the corridor, by distances of window propagation, and straight
+// on the whole surface. Returns at once if it is that short.
 void make_shortest_in_corridor(const Surface& surface, const Corridor& corridor, Effort effort, Strip& strip,
                                StripPath& path);
 
