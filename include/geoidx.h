@@ -291,8 +291,8 @@ enum {
     GEOIDX_OPEN_BORROW = 2,
     /* What pairs need is made without labels, the distances of each vertex to one or two borders that lie
      * farther out. Pairs then take a tenth of the time to be made ready for, and a third of the memory, and
-     * each takes two to three times as long. Answers differ from those with labels by 0.01 % on average, and
-     * by 1 to 3 % at most. An index that was just built has labels. */
+     * each takes two to five times as long. Answers differ from those with labels by 0.01 % on average, and
+     * by 1 to 3 % at most, on rough terrain by up to 5 %. An index that was just built has labels. */
     GEOIDX_OPEN_NO_LABELS = 4
 };
 

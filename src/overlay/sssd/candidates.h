@@ -28,15 +28,19 @@ public:
     const uint32_t* begin() const { return samples_.data(); }
     const uint32_t* end() const { return samples_.data() + count_; }
 
+    // Whether the lengths of ways go up and down along the border, so that the shortest path may pass near
+    // none of the candidates, or beside them.
+    bool are_unsure = false;
+
 private:
     std::array<uint32_t, MOST_BY_LENGTH + 1> samples_{};
     size_t count_ = 0;
 };
 
 // Chooses candidates of a patch's border. Those by length come first, the shortest one foremost; a candidate
-// by length is no longer than `longest`, which is ways.least() and as much as ways can get shorter when they
-// are straightened.
+// by length is longer than `least`, which is ways.least(), by no more than `spacing`, the largest one of
+// samples on the way: as much as ways can get shorter when they are straightened.
 Candidates find_candidates(const OverlayIndex& index, uint32_t patch, const WaysOverSamples& ways,
-                           float longest);
+                           float least, float spacing);
 
 }

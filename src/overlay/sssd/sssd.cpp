@@ -195,10 +195,10 @@ float OverlaySssd::distance_to_border(uint32_t border_vertex, uint32_t vertex) c
 
 // Measures the path over whole borders if these are few pairs of places. Otherwise finds the ways over
 // samples. If no border has segments, all vertices are samples, and the shortest of these ways is the path.
-// Else the path is measured over all that it can cross, if the ends are near or whole borders would be some
-// pairs, and otherwise over the parts near each candidate. The way over samples is the answer, too, if it is
-// shorter than what was measured by more than rounding: the best path may need a segment or a row that is in
-// none of the measured parts.
+// Else the path is measured over all that it can cross, if the ends are near, whole borders would be some
+// pairs or candidates are unsure, and otherwise over the parts near each candidate. The way over samples is
+// the answer, too, if it is shorter than what was measured by more than rounding: the best path may need a
+// segment or a row that is in none of the measured parts.
 float OverlaySssd::meet() {
     read_label(index_, to_.ascent);
     read_label(index_, from_.ascent);
@@ -216,8 +216,8 @@ float OverlaySssd::meet() {
     if (!crosses_segments || !(least < INFINITE)) return least;
     const float near_up_to = NEAR_SPACINGS * std::max(unit(meeting_patch()), 0.5f * largest_unit());
     const bool is_near = least < near_up_to;
-    const float shortest = is_near || whole.are_some() ? measure_all_within(least, ways)
-                                                       : measure_candidates(ways, least + largest_spacing());
+    const float shortest =
+        is_near || whole.are_some() ? measure_all_within(least, ways) : measure_candidates(ways, least);
     return shortest <= least * (1 + SAMPLES_ROUNDING) ? shortest : least;
 }
 
@@ -237,11 +237,14 @@ float OverlaySssd::measure_all_within(float length, const WaysOverSamples& ways)
     return measure(place);
 }
 
-// Measures the candidates whose ways over samples are up to so long.
-float OverlaySssd::measure_candidates(const WaysOverSamples& ways, float longest) {
+// Measures the candidates of a pair whose shortest way over samples has this length, or all that a path can
+// cross if they are unsure.
+float OverlaySssd::measure_candidates(const WaysOverSamples& ways, float least) {
     const uint32_t patch = meeting_patch();
+    const Candidates candidates = find_candidates(index_, patch, ways, least, largest_spacing());
+    if (candidates.are_unsure) return measure_all_within(least, ways);
     float shortest = INFINITE;
-    for (const uint32_t sample : find_candidates(index_, patch, ways, longest)) {
+    for (const uint32_t sample : candidates) {
         const auto length = [&](uint32_t over) { return lengths_[over]; };
         take_parts(sample, part_near(index_, patch, ways_near(index_, patch, sample, length)));
         shortest = std::min(shortest, follow(shortest));

@@ -61,7 +61,7 @@ private:
     float climb_and_meet(const PathEnd& to, const PathEnd& from, uint32_t top);
     float meet();
     float measure_all_within(float length, const WaysOverSamples& ways);
-    float measure_candidates(const WaysOverSamples& ways, float longest);
+    float measure_candidates(const WaysOverSamples& ways, float least);
     WholeHops whole_hops() const;
     float distance_from_top(uint32_t place) const;
     std::span<const float> sample_from();

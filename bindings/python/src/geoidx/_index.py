@@ -172,9 +172,9 @@ class Index(Closable):
             15 ms each time for 40,000 vertices; where only fields are asked for, it is never made and takes no memory.
         labels: makes labels a part of what distances between two vertices need: the distances of each vertex to one
             or two borders that lie farther out. Without labels all of this takes a third of the memory and a tenth of
-            the time to be made, and each distance between two vertices takes two to three times as long and differs by
-            0.01 % or so. Fields do not need labels and stay the same bits. An index that was just built has
-            labels.
+            the time to be made, and each distance between two vertices takes two to five times as long. It differs by
+            0.01 % on average, and by 1 to 3 % at most, on rough terrain by up to 5 %. Fields do not need labels and
+            stay the same bits. An index that was just built has labels.
         threads: that decode tables. 0: one per processor.
         max_vertices: the most vertices that the index may have, else LimitError. 0: any number.
         max_memory: the most bytes that the decoded sections of the file may take, and the most that the index with its
