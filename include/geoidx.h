@@ -259,7 +259,7 @@ typedef struct geoidx_build_options {
     /* GEOIDX_ENGINE_OVERLAY with GEOIDX_METRIC_EXACT, delta 0 and no edge_lengths; not used otherwise: the
      * mean error, 0 .. 1, that the index is to have at most. Scans have less from the start. Where it is
      * larger, as on meshes of large triangles and on rough surfaces, edges between patches are cut in halves
-     * and the tables are made anew, up to three times, as long as the error becomes smaller and table entries
+     * and the tables are made anew, up to five times, as long as the error becomes smaller and table entries
      * stay below two and a half times their number without; so the error may also stay larger. What is cut
      * there are *added vertices*: they have no id and are in no answer. Default 0.0005, which is 0.05 %.
      * 0: none. */

@@ -130,10 +130,12 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     const Hierarchy hierarchy =
         build_hierarchy(surface, hierarchy_options(mesh, intake, surface, options), workers);
     Filling filling(intake, options, about, index);
-    StoredIndex stored = filling.fill({surface, hierarchy}, workers);
+    std::optional<MeasuredTables> measured;
+    StoredIndex stored =
+        filling.fill({surface, hierarchy}, workers, may_add_vertices(options) ? &measured : nullptr);
     if (may_add_vertices(options))
         Rounds(options, filling_progress, filling, index)
-            .run({surface, hierarchy}, *metric, std::move(stored));
+            .run({surface, hierarchy}, *metric, std::move(stored), std::move(measured));
     Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
     std::optional<ErrorsByDistance> let_pass;
     if (filling.near_distances()) {

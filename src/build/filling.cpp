@@ -35,13 +35,14 @@ Filling::Filling(const Intake& intake, const geoidx_build_options& options, cons
         near_.emplace(intake.mesh.vertex_count(), compared_around(intake.mesh.vertex_count()));
 }
 
-StoredIndex Filling::fill(const SplitSurface& surface, Workers& workers) {
+StoredIndex Filling::fill(const SplitSurface& surface, Workers& workers,
+                          std::optional<MeasuredTables>* measured) {
     StoredIndex stored;
     stored.description = about_;
     workers.begin_stage("borders", 0.06);
     const auto vertex_of_number = lay_out_vertices(surface, workers, stored);
     workers.begin_stage("tables", options_.engine == GEOIDX_ENGINE_OVERLAY ? 0.88 : TABLES_END);
-    fill_tables(surface, vertex_of_number, workers, stored);
+    fill_tables(surface, vertex_of_number, workers, stored, measured);
     workers.begin_stage("calibration", 0.95);
     if (crosses_between_vertices(about_))
         calibrate(fields(calibration_, CALIBRATION_SEED, workers), vertex_of_number, workers, stored);
@@ -78,12 +79,12 @@ std::vector<uint32_t> Filling::lay_out_vertices(const SplitSurface& surface, Wor
 }
 
 void Filling::fill_tables(const SplitSurface& surface, std::span<const uint32_t> vertex_of_number,
-                          Workers& workers, StoredIndex& stored) {
+                          Workers& workers, StoredIndex& stored, std::optional<MeasuredTables>* measured) {
     if (options_.engine == GEOIDX_ENGINE_GRAPH) return fill_graph_tables(vertex_of_number, workers, stored);
     const bool unfold = (about_.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0;
     fill_overlay_tables(surface.mesh, surface.hierarchy.leaf_of_face, vertex_of_number,
                         {options_.exact_vertices, options_.rounding, unfold, TABLES_END}, workers, stored,
-                        near_ ? &*near_ : nullptr);
+                        near_ ? &*near_ : nullptr, measured);
 }
 
 const ExactFields& Filling::fields(std::optional<ExactFields>& fields, uint64_t seed,

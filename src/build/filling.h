@@ -7,6 +7,7 @@
 #include "src/index/stored.h"
 #include "src/mesh/intake.h"
 #include "src/partition/hierarchy.h"
+#include "src/tables/measured_tables.h"
 #include "src/tables/near_distances.h"
 
 namespace geodesic {
@@ -27,7 +28,8 @@ public:
             Index& index);
 
     // From the borders to the measured index, which is prepared, too. The workers' metric is of this mesh.
-    StoredIndex fill(const SplitSurface& surface, Workers& workers);
+    // For `measured` see fill_overlay_tables().
+    StoredIndex fill(const SplitSurface& surface, Workers& workers, std::optional<MeasuredTables>* measured);
 
     // What was solved for fill(): first the fields that the error was measured by, then those that the index
     // was calibrated by, if it was.
@@ -43,7 +45,7 @@ private:
     std::vector<uint32_t> lay_out_vertices(const SplitSurface& surface, Workers& workers,
                                            StoredIndex& stored) const;
     void fill_tables(const SplitSurface& surface, std::span<const uint32_t> vertex_of_number,
-                     Workers& workers, StoredIndex& stored);
+                     Workers& workers, StoredIndex& stored, std::optional<MeasuredTables>* measured);
     const ExactFields& fields(std::optional<ExactFields>& fields, uint64_t seed, Workers& workers) const;
 
     const Intake& intake_;

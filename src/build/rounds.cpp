@@ -13,7 +13,7 @@ namespace geodesic {
 
 namespace {
 
-constexpr uint32_t MOST_ROUNDS = 3; // which leave eighths of an edge
+constexpr uint32_t MOST_ROUNDS = 5; // which leave 32nds of an edge
 
 // How many times the table entries of the index without added vertices there may be, in halves. Packed files
 // then grow to twice their size or little more, since positions and ids do not grow with the tables.
@@ -70,7 +70,8 @@ ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, d
     };
 }
 
-void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex filled) {
+void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex filled,
+                 std::optional<MeasuredTables> measured) {
     vertex_count_ = surface.mesh.vertex_count();
     most_entries_ = table_entries(index_) * MOST_GROWTH_IN_HALVES / 2;
     std::optional<FinerSurface> finer; // of the latest round, with its metric
@@ -87,7 +88,7 @@ void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex 
         Workers workers(*finer_metric, options_.threads,
                         part_of_progress(progress_, end_of_choosing(i), begin_of_round(i + 1)));
         auto again = unless_over_limit([&] {
-            return filling_.fill({finer->mesh, finer->hierarchy}, workers);
+            return filling_.fill({finer->mesh, finer->hierarchy}, workers, &measured);
         });
         is_best = again && again->description.error.mean < filled.description.error.mean;
         if (!is_best) break;

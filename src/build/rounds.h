@@ -14,8 +14,8 @@ inline constexpr double FIRST_FILLING_END = 0.7;
 ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, double end);
 
 // Where answers are less exact than the options ask for, vertices are added to the borders of patches and the
-// index is filled again. This is done in rounds until the error is small enough, does not become smaller, or
-// the index would become too large.
+// index is filled again. This is done in up to five rounds, until the error is small enough or does not
+// become smaller, or until there is nothing to cut or no room for more.
 class Rounds {
 public:
     Rounds(const geoidx_build_options& options, const ProgressFunction& progress, Filling& filling,
@@ -23,8 +23,10 @@ public:
         : options_(options), progress_(progress), filling_(filling), index_(index) {}
 
     // `filled` is what the filling made of this surface, which has no added vertices, and what the index was
-    // prepared from. Afterwards the index is the one with the smallest error of all that were tried.
-    void run(const SplitSurface& surface, const Metric& metric, StoredIndex filled);
+    // prepared from; `measured` is what it measured for that. Afterwards the index is the one with the
+    // smallest error of all that were tried.
+    void run(const SplitSurface& surface, const Metric& metric, StoredIndex filled,
+             std::optional<MeasuredTables> measured);
 
 private:
     std::optional<FinerSurface> finer_surface(const SplitSurface& surface, double error,

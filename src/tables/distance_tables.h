@@ -9,6 +9,7 @@ namespace geodesic {
 
 // The distances of the overlay engine's tables while these are built, before they become codes.
 struct DistanceTables {
+    DistanceTables() = default;
     explicit DistanceTables(const Numbering& numbering);
 
     // overlay[p][i * overlay_size(p) + j] is the distance of the overlay positions i and j of the inner patch

@@ -33,9 +33,6 @@ public:
     // different vertices at once.
     void take(uint32_t vertex, const FieldSolver& solver);
 
-    // Whether anything has been taken for a vertex.
-    bool has(uint32_t vertex) const { return !around_[vertex].near.empty(); }
-
     // The vertices that are near this one and not at the same place, in no particular order.
     std::span<const Near> of(uint32_t vertex) const { return around_[vertex].near; }
     // All vertices that are nearer than this are among them.

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "src/index/stored.h"
 #include "src/mesh/mesh.h"
 #include "src/metric/workers.h"
+#include "src/tables/measured_tables.h"
 #include "src/tables/near_distances.h"
 
 namespace geodesic {
@@ -21,9 +23,11 @@ struct OverlayOptions {
 // larger patches are put together from their children's tables, and then lowered by paths that leave the
 // patch. Filling takes 4 bytes of memory for each table entry, and 4 more for each entry of one table at a
 // time. vertex_of_number gives the mesh vertex of each number. Unless `near` is NULL, it takes all distances
-// that it has room for.
+// that it has room for. Unless `measured` is NULL, what it holds is not measured again, and then it takes
+// what is measured for this mesh, which is another 4 bytes for each entry of a measured table.
 void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
                          std::span<const uint32_t> vertex_of_number, const OverlayOptions& options,
-                         Workers& workers, StoredIndex& stored, NearDistances* near);
+                         Workers& workers, StoredIndex& stored, NearDistances* near,
+                         std::optional<MeasuredTables>* measured);
 
 }
