@@ -1,20 +1,10 @@
 // How planes are cut into triangles changes no distance, so that it must not change how exact answers are.
 #include "tests/build/errors.h"
+#include "tests/build/test_mesh_of.h"
 #include "tests/support/drilled_plate.h"
 #include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
-
-namespace {
-
-TestMesh test_mesh_of(const Soup& soup) {
-    TestMesh mesh;
-    for (const auto& p : soup.positions) mesh.add_vertex(p.x(), p.y(), p.z());
-    for (const auto& [a, b, c] : soup.triangles) mesh.add_triangle(a, b, c);
-    return mesh;
-}
-
-}
 
 TEST_CASE("flat faces: a plate that is cut into slivers is answered nearly as exactly as any") {
     const TestMesh plate = test_mesh_of(drilled_plate(smaller(4, 3), 20, 0.02));

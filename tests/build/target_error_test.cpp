@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tests/build/errors.h"
+#include "tests/build/test_mesh_of.h"
 #include "tests/capi/refusals.h"
 #include "tests/support/edge_lengths.h"
 #include "tests/support/sanitized.h"
@@ -94,6 +95,16 @@ TEST_CASE("target error: errors become smaller from sources that the builder did
         CHECK(after.mean < 0.5 * before.mean);
         CHECK(after.max < before.max);
     }
+}
+
+// Its two faces are cut by chords as long as the coin is wide, and its rim has short edges.
+TEST_CASE("target error: is reached on a coin" * doctest::skip(SANITIZED)) {
+    const TestMesh coin = test_mesh_of(closed_cylinder(250, 0.02));
+    const geoidx_info before = info_of(build(coin, options_with(0)).get());
+    const geoidx_info after = info_of(build(coin, options_with(0.0005)).get());
+    REQUIRE(before.error_mean > 0.0007);
+    CHECK(after.added_vertex_count > 0);
+    CHECK(after.error_mean <= 0.0005);
 }
 
 TEST_CASE("target error: what is exact enough stays as it is" * doctest::skip(SANITIZED)) {

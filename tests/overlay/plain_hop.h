@@ -90,11 +90,13 @@ inline std::vector<std::vector<float>> middle_codes(const StoredBorder& border, 
 // it: the steps themselves, the distances of middles and their codes. All else is in double precision.
 class PlainHop {
 public:
-    PlainHop(const StoredBorder& border, std::vector<float> distances, float quantum)
+    // The index has so many vertices.
+    PlainHop(const StoredBorder& border, std::vector<float> distances, float quantum, uint32_t vertex_count)
         : border_(border), distances_(std::move(distances)), quantum_(quantum) {
+        const double near_segments = std::clamp(10000.0 / vertex_count, 5.0, 20.0);
         for (uint32_t k = 0; k < border.size(); ++k)
             if (border.end[k] != NONE && distances_[k] < INFINITE)
-                near_radius_ = std::max(near_radius_, 5 * double{border.length[k]});
+                near_radius_ = std::max(near_radius_, near_segments * double{border.length[k]});
         for (uint32_t k = 0; k < border.size(); ++k) {
             middles_.push_back(middle(k));
             least_ = std::min(least_, distances_[k]);

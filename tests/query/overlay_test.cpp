@@ -349,6 +349,28 @@ TEST_CASE("overlay: straight lines on a plane, from everywhere to everywhere" * 
     }
 }
 
+// A plane that is folded into steps: distances along it stay those of the plane.
+TEST_CASE("overlay: on a small staircase, distances of the plane that it is folded from") {
+    constexpr uint32_t STEPS = 40, WIDTH = 10;
+    const TestMesh plane = grid(STEPS, WIDTH);
+    TestMesh stairs = plane;
+    for (size_t i = 0; i < stairs.positions.size(); i += 3) {
+        const double along = plane.positions[i];
+        stairs.positions[i] = std::ceil(along / 2);
+        stairs.positions[i + 2] = std::floor(along / 2);
+    }
+    const auto index = build(stairs, default_options());
+    Differences errors;
+    for (uint32_t source = 0; source < plane.vertex_count(); source += 7) {
+        const auto field = msad(index.get(), source, plane.vertex_count());
+        for (uint32_t target = 0; target < plane.vertex_count(); ++target)
+            errors.add(double{field[target]}, plane.straight(source, target));
+    }
+    CHECK(errors.reached_wrongly == 0);
+    CHECK(errors.mean() < 1e-4);
+    CHECK(errors.largest < 5e-3);
+}
+
 // The same distances, told to be locally Euclidean or not.
 TEST_CASE("overlay: only a metric that unfolds crosses borders between vertices" * doctest::skip(SANITIZED)) {
     const TestMesh mesh = grid(40, 40, 0.25);

@@ -26,6 +26,7 @@ class Border:
         self.second = numpy.where(has, index.segment_end[patch], 0).astype(int)
         self.length = numpy.where(has, index.segment_length[patch], f("nan")).astype(f)
         self.longest = numpy.max(self.length[has], initial=f(0))
+        self.near_segments = min(max(f(10000) / f(index.vertex_count), f(5)), f(20))
         before = numpy.full(size, -1)
         before[self.second[has]] = numpy.flatnonzero(has)
         after = numpy.where(has, self.second, -1)
@@ -37,7 +38,7 @@ class Border:
     def reach(self, source):
         """Up to which distance all segments count: of those that begin where the source is known."""
         lengths = self.length[source < INFINITE]
-        return f(5) * numpy.max(lengths[~numpy.isnan(lengths)], initial=f(0))
+        return self.near_segments * numpy.max(lengths[~numpy.isnan(lengths)], initial=f(0))
 
 
 def root(square, length):

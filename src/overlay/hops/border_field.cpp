@@ -5,7 +5,7 @@
 namespace geodesic {
 
 BorderField::BorderField(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : kernels_(runnable_kernels().back()),
+    : kernels_(runnable_kernels().back()), near_segments_(index.near_segments),
       distance_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, memory),
       code_(distance_.size(), memory), foot_(distance_.size(), memory), height_(distance_.size(), memory) {}
 

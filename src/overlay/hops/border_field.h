@@ -19,7 +19,7 @@ public:
     // these places to the result. `quantum` is that of the rows that will be added.
     std::span<float> begin(size_t places, const RingSegments& segments, const int8_t* is_own, float quantum) {
         border_ = {places,       code_.data(),   distance_.data(), segments.length, segments.half_inverse,
-                   foot_.data(), height_.data(), quantum};
+                   foot_.data(), height_.data(), quantum,          near_segments_};
         is_own_ = is_own;
         return std::span(distance_).first(places);
     }
@@ -43,6 +43,7 @@ public:
 
 private:
     const Kernels& kernels_;
+    const float near_segments_;
     BorderFromSource border_{};
     const int8_t* is_own_ = nullptr;
     NearRange range_{};

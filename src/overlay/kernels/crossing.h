@@ -28,7 +28,7 @@ template <size_t BYTES>
         lower(nearest, distance);
         lower<Floats<BYTES>>(shortest, distance < INFINITE ? -length : shortest);
     }
-    range = {least_of<BYTES>(nearest), near_radius(-least_of<BYTES>(shortest)), 1, 0};
+    range = {least_of<BYTES>(nearest), border.near_segments * -least_of<BYTES>(shortest), 1, 0};
     if (range.nearest > range.reach) return;
     const auto is_far = [&](size_t k) { return border.distance[k] > range.reach; };
     for (range.first = 0; is_far(range.first);) ++range.first;

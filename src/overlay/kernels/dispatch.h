@@ -6,6 +6,7 @@
 #include <span>
 
 #include "src/index/face_point.h"
+#include "src/overlay/kernels/near.h"
 #include "src/overlay/tables/codes.h"
 #include "src/overlay/tables/tables.h"
 
@@ -38,6 +39,7 @@ struct BorderFromSource {
     const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
     const float *foot, *height;         // of the source, in the plane of the segment
     float quantum;                      // of the rows
+    float near_segments = NEAR_SEGMENTS;
 };
 
 // The part of a border that is near to the source.
