@@ -247,7 +247,7 @@ TEST_CASE("border parts: ways over several ranges are those over the whole borde
         const BorderPart whole(whole_border(rings, leaf)), above(whole_border(rings, parent));
         float nearest = INFINITE;
         whole.for_each_place([&](uint32_t k) { nearest = std::min(nearest, ascent.first_row(k)); });
-        if (nearest <= overlay.near_segments * overlay.longest_segment[leaf]) return;
+        if (nearest <= near_segments(numbering.vertex_count()) * overlay.longest_segment[leaf]) return;
         BorderPart part;
         for (uint32_t k = rings.begin[leaf]; k + 12 < rings.begin[leaf + 1];
              k += 20 + static_cast<uint32_t>(random() % 5))

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "src/overlay/kernels/near.h"
+
 namespace geodesic {
 
 BorderField::BorderField(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : kernels_(runnable_kernels().back()), near_segments_(index.near_segments),
+    : kernels_(runnable_kernels().back()), near_segments_(near_segments(index.numbering.vertex_count())),
       distance_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, memory),
       code_(distance_.size(), memory), foot_(distance_.size(), memory), height_(distance_.size(), memory) {}
 

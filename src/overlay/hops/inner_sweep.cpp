@@ -56,7 +56,7 @@ void InnerSweep::cross_to(float* inside) {
     (bounded         ? kernels_.sweep_bounded
      : sources_ == 1 ? kernels_.sweep
                      : kernels_.sweep_each)(border_, codes_, rows, inside);
-    const float near = index_.near_segments * index_.longest_segment[patch_];
+    const float near = near_segments(numbering_.vertex_count()) * index_.longest_segment[patch_];
     for (size_t i = 0; i < sources_; ++i)
         if (nearest_[i] <= near) cross_near(i, inside);
 }

@@ -9,7 +9,6 @@
 #include "format/error.h"
 #include "geoidx.h"
 #include "src/index/section_tags.h"
-#include "src/overlay/kernels/near.h"
 #include "src/overlay/prepare/bounds.h"
 #include "src/overlay/prepare/middles.h"
 #include "src/overlay/prepare/proportion.h"
@@ -188,7 +187,6 @@ void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
     choose_large_overlays(index);
     require_proportion(index);
     measure_segments(index);
-    index.near_segments = near_segments(index.numbering.vertex_count());
     measure_middle_strides(index);
     lay_out_hop_tables(index);
     if (stored.description.codec == GEOIDX_CODEC_MAPPED)

@@ -200,7 +200,6 @@ struct OverlayIndex {
     Array<float> quantum; // per patch: the distance of one step of its codes
     Array<uint8_t> shift; // per patch: its stored codes are multiples of 2^shift; only files need it
     Rings rings;
-    float near_segments = 0;      // see kernels/near.h
     Array<float> longest_segment; // per patch: length of the longest segment of its border, or 0
     Array<uint8_t> is_large;      // per inner patch: whether its owned table has each distance once
     HopTables hops;
