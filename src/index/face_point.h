@@ -14,7 +14,8 @@ namespace geodesic {
 // the least case the polygon is the face itself.
 struct FacePoint {
     // Where edges have several faces behind them, there is an edge for each of these, up to MOST_BEHIND.
-    static constexpr size_t MOST_VERTICES = 64, MOST_BEHIND = 4, MOST_EDGES = MOST_VERTICES + 2 * MOST_BEHIND;
+    static constexpr size_t MOST_VERTICES = 128, MOST_BEHIND = 4,
+                            MOST_EDGES = MOST_VERTICES + 2 * MOST_BEHIND;
 
     // An edge that ways may cross, in a plane of its own: the first end is at 0, the second one at (length,
     // 0), and the point at (foot, height). Ways may cross it from `seen_from` to `seen_to`.
@@ -31,6 +32,12 @@ struct FacePoint {
     std::array<Edge, MOST_EDGES> edges;
 
     std::array<uint32_t, 3> corners() const { return {numbers[0], numbers[1], numbers[2]}; }
+};
+
+// A vertex between the ends of an edge, and how far it is from the first end.
+struct VertexBetween {
+    uint32_t number;
+    double along;
 };
 
 // A point with these weights on a face with these lengths of edges. Edge k is opposite to corner k, and leads

@@ -6,6 +6,7 @@
 #include "format/error.h"
 #include "geoidx.h"
 #include "src/overlay/fields/point_ways.h"
+#include "src/points/leaf_of_face.h"
 #include "src/points/seen_faces.h"
 #include "src/surface/indexed_faces.h"
 
@@ -13,40 +14,17 @@ namespace geodesic {
 
 namespace {
 
-// A point by the corners of its face, which is one of the index or one of the surface.
-struct CornerPoint {
-    bool is_of_index;
-    uint32_t face;
-    std::array<uint32_t, 3> corners;
+struct PointOfFace {
+    AnyFace face;
     std::array<double, 3> weights;
 };
 
 // As a point of the faces that the index was made on. At a vertex, one face is as good as another.
-CornerPoint unfolded_point(const Surface& surface, const SurfacePoint& point) {
+PointOfFace unfolded_point(const Surface& surface, const SurfacePoint& point) {
     if (vertex_at(surface, point) == NONE)
         if (const auto indexed = indexed_point(surface, point))
-            return {true, indexed->face, indexed_corners(surface, indexed->face), indexed->weights};
-    return {false, point.face, surface.faces[point.face], point.weights};
-}
-
-// Beyond the edge opposite to each corner of a face, the vertex that is no end of that edge, or NONE where
-// the surface ends; any one of several.
-std::array<uint32_t, 3> vertices_beyond(const Surface& surface, const CornerPoint& point) {
-    std::array<uint32_t, 3> beyond{NONE, NONE, NONE};
-    for (size_t k = 0; k < 3; ++k) {
-        const uint32_t a = point.corners[(k + 1) % 3], b = point.corners[(k + 2) % 3];
-        const auto take = [&](const std::array<uint32_t, 3>& corners) {
-            for (const uint32_t vertex : corners)
-                if (vertex != a && vertex != b) beyond[k] = vertex;
-        };
-        if (point.is_of_index)
-            for_each_indexed_face_beyond(surface, point.face, a, b,
-                                         [&](uint32_t other) { take(indexed_corners(surface, other)); });
-        else
-            for_each_face_beyond(surface, point.face, a, b,
-                                 [&](uint32_t other) { take(surface.faces[other]); });
-    }
-    return beyond;
+            return {{true, indexed->face}, indexed->weights};
+    return {{false, point.face}, point.weights};
 }
 
 class FacesOfLeaf final : public KnownFaces {
@@ -60,6 +38,11 @@ public:
     }
     bool go_on(uint32_t a, uint32_t b, double length) const override {
         return !is_on_border(overlay_, leaf_, a, b, length);
+    }
+    size_t find_between(uint32_t a, uint32_t b, double length,
+                        std::span<VertexBetween> found) const override {
+        const size_t count = find_on_border(overlay_, leaf_, a, b, length, found).value_or(0);
+        return count <= found.size() ? count : 0;
     }
 
 private:
@@ -100,25 +83,22 @@ void require_face_costs(const Index& index, const Surface& surface) {
 
 FacePoint face_point_on(const Index& index, const Surface& surface, const SurfacePoint& point, bool unfolds,
                         double cost) {
-    const CornerPoint at = unfolds ? unfolded_point(surface, point)
-                                   : CornerPoint{false, point.face, surface.faces[point.face], point.weights};
-    const auto& corners = at.corners;
-    const auto beyond = vertices_beyond(surface, at);
+    const PointOfFace at =
+        unfolds ? unfolded_point(surface, point) : PointOfFace{{false, point.face}, point.weights};
+    const auto corners = corners_of(surface, at.face);
     std::array<bool, 3> crosses;
-    std::array<uint32_t, 3> beside;
     std::array<uint32_t, 3> numbers;
     std::array<double, 3> lengths = edge_lengths(surface, corners);
     for (size_t k = 0; k < 3; ++k) {
         numbers[k] = number_of(index, surface, corners[k]);
-        crosses[k] = unfolds && beyond[k] != NONE;
-        beside[k] = beyond[k] == NONE ? NONE : number_of(index, surface, beyond[k]);
+        crosses[k] = unfolds && has_face_beyond(surface, at.face, corners[(k + 1) % 3], corners[(k + 2) % 3]);
         lengths[k] *= cost;
     }
     if (std::ranges::find(numbers, NONE) != numbers.end())
         refuse_argument("the surface has a triangle that the index does not: they differ in weld_tolerance");
     FacePoint found = face_point(numbers, lengths, at.weights, crosses);
-    if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine))
-        found.leaf = leaf_of_face(*overlay, numbers, lengths, beside);
+    if (std::holds_alternative<OverlayIndex>(index.engine))
+        found.leaf = leaf_of_face(index, surface, at.face);
     return found;
 }
 

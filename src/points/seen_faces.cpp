@@ -25,6 +25,9 @@ bool is_in_angle(const Vector2d& right, const Vector2d& direction, const Vector2
     return cross(right, direction) >= 0 && cross(direction, left) >= 0;
 }
 
+// Where a border is cut by added vertices, an edge has up to 31 of them.
+constexpr size_t MOST_BETWEEN = 64;
+
 // An end of an edge of the polygon.
 struct End : PlacedVertex {
     uint32_t slot; // among the vertices of the polygon
@@ -68,6 +71,7 @@ class AllFaces final : public KnownFaces {
 public:
     uint32_t number_of(uint32_t vertex) const override { return vertex; }
     bool go_on(uint32_t, uint32_t, double) const override { return true; }
+    size_t find_between(uint32_t, uint32_t, double, std::span<VertexBetween>) const override { return 0; }
 };
 
 class Polygon {
@@ -110,18 +114,10 @@ public:
     // An edge has no length where vertices are at one position.
     void finish() {
         point_.edge_count = 0;
-        for (const Edge& edge : std::span(edges_).first(count_)) {
-            const double length = edge.along().norm();
-            if (!(length > 0)) continue;
-            const Vector2d along = edge.along() / length;
-            point_.edges[point_.edge_count++] = {edge.first.slot,
-                                                 edge.second.slot,
-                                                 length,
-                                                 -along.dot(edge.first.at),
-                                                 std::max(cross(edge.first.at, along), 0.0),
-                                                 edge.right.is_end ? 0 : edge.met_in(edge.right.direction),
-                                                 edge.left.is_end ? length
-                                                                  : edge.met_in(edge.left.direction)};
+        for (size_t left = count_; left > 0; --left) {
+            const Edge& edge = edges_[count_ - left];
+            if (const double length = edge.along().norm(); length > 0)
+                add_parts(whole_edge(edge, length), left);
         }
     }
 
@@ -184,6 +180,55 @@ private:
         if (sees_second) add(face, third, edge.second, right, edge.left);
         note(face, edge, third);
         return true;
+    }
+
+    static FacePoint::Edge whole_edge(const Edge& edge, double length) {
+        const Vector2d along = edge.along() / length;
+        return {edge.first.slot,
+                edge.second.slot,
+                length,
+                -along.dot(edge.first.at),
+                std::max(cross(edge.first.at, along), 0.0),
+                edge.right.is_end ? 0 : edge.met_in(edge.right.direction),
+                edge.left.is_end ? length : edge.met_in(edge.left.direction)};
+    }
+
+    // Adds an edge of the polygon in the parts into which the vertices between its ends divide it. Where
+    // there is no room for all of these, it takes only every second one, or every third one, and so on. Of
+    // the polygon, `edges_left` edges are not added yet, this one among them.
+    void add_parts(const FacePoint::Edge& whole, size_t edges_left) {
+        std::array<VertexBetween, MOST_BETWEEN> between;
+        const size_t count = known_.find_between(point_.numbers[whole.first], point_.numbers[whole.second],
+                                                 whole.length, between);
+        const size_t room = std::min(FacePoint::MOST_VERTICES - point_.vertex_count,
+                                     FacePoint::MOST_EDGES - point_.edge_count - edges_left);
+        const size_t step = count / (room + 1) + 1;
+        uint32_t first = whole.first;
+        double begin = 0;
+        for (size_t i = step - 1; i < count; i += step) {
+            const uint32_t second = add_between(whole, between[i]);
+            add_part(whole, first, second, begin, between[i].along);
+            first = second;
+            begin = between[i].along;
+        }
+        add_part(whole, first, whole.second, begin, whole.length);
+    }
+
+    // Returns the slot of a vertex that cuts an edge.
+    uint32_t add_between(const FacePoint::Edge& whole, const VertexBetween& vertex) {
+        const bool is_seen = whole.seen_from <= vertex.along && vertex.along <= whole.seen_to;
+        const uint32_t slot = point_.vertex_count++;
+        point_.numbers[slot] = vertex.number;
+        point_.straight[slot] = is_seen ? hypotenuse(vertex.along - whole.foot, whole.height) : UNREACHABLE;
+        return slot;
+    }
+
+    // What the point sees of an edge between two distances from its first end, if anything.
+    void add_part(const FacePoint::Edge& whole, uint32_t first, uint32_t second, double begin, double end) {
+        const double from = std::max(whole.seen_from, begin), to = std::min(whole.seen_to, end);
+        if (from <= to)
+            point_.edges[point_.edge_count++] = {first,        second,       end - begin, whole.foot - begin,
+                                                 whole.height, from - begin, to - begin};
     }
 
     // The corner of the face behind an edge that is no end of it.
@@ -265,7 +310,7 @@ bool has_long_edges(const Surface& surface) {
 
 size_t vertices_of_polygon(const Surface& surface) {
     constexpr double FEW_EDGES_ACROSS = 5;
-    if (surface.bounding_box_diagonal < FEW_EDGES_ACROSS * surface.average_edge) return 64;
+    if (surface.bounding_box_diagonal < FEW_EDGES_ACROSS * surface.average_edge) return 96;
     return has_long_edges(surface) ? 32 : 16;
 }
 

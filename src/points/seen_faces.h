@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <Eigen/Core>
 
@@ -28,20 +29,25 @@ struct SeenFaces {
     double straight_to(const Surface& surface, const SurfacePoint& point) const;
 };
 
-// What an index knows of the faces of a surface.
+// What an index knows of the faces of a surface. Edges are given by the numbers of their ends.
 class KnownFaces {
 public:
     // The number of a vertex, or NONE where distances from it are not known.
     virtual uint32_t number_of(uint32_t vertex) const = 0;
-    // Whether the face behind an edge is known, too, by the numbers of the ends of the edge.
+    // Whether the face behind an edge is known, too.
     virtual bool go_on(uint32_t a, uint32_t b, double length) const = 0;
+    // Writes the vertices that the index has between the ends of an edge, from the first end on, and returns
+    // how many there are: none where `found` has no room for all.
+    virtual size_t find_between(uint32_t a, uint32_t b, double length,
+                                std::span<VertexBetween> found) const = 0;
 
 protected:
     ~KnownFaces() = default;
 };
 
 // Unfolds faces around a point, those behind the widest edges first, until its polygon has `most` vertices.
-// `point` comes as the polygon of its face alone, which `at` is a point of.
+// Then cuts the polygon's edges at the vertices that are known between their ends, as far as there is room
+// for them. `point` comes as the polygon of its face alone, which `at` is a point of.
 void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, size_t most,
                  FacePoint& point, SeenFaces& seen);
 

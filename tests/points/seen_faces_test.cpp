@@ -2,10 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/points/seen_faces.h"
-#include "src/surface/indexed_faces.h"
 #include "src/surface/nearby.h"
 #include "tests/path/path_cases.h"
+#include "tests/points/polygons.h"
 #include "tests/support/drilled_plate.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/surfaces.h"
@@ -15,13 +14,8 @@ using namespace geodesic::test;
 
 namespace {
 
-struct All : KnownFaces {
-    uint32_t number_of(uint32_t vertex) const override { return vertex; }
-    bool go_on(uint32_t, uint32_t, double) const override { return true; }
-};
-
 // But not every third vertex, unless it is a corner.
-struct Some final : All {
+struct Some final : AllKnown {
     explicit Some(const std::array<uint32_t, 3>& corners) : corners(corners) {}
     bool is_known(uint32_t vertex) const {
         return vertex % 3 != 0 || std::ranges::find(corners, vertex) != corners.end();
@@ -30,7 +24,7 @@ struct Some final : All {
     std::array<uint32_t, 3> corners;
 };
 
-struct Nothing final : All {
+struct Nothing final : AllKnown {
     bool go_on(uint32_t, uint32_t, double) const override { return false; }
 };
 
@@ -38,36 +32,6 @@ Surface surface_of_flipped(const Soup& soup) {
     Intake intake = intake_of(soup);
     FlatFaces flat(intake.mesh);
     return Surface(std::move(intake), {}, std::move(flat));
-}
-
-// Within a face, or on an edge.
-SurfacePoint random_point(const Surface& surface, std::mt19937_64& random, size_t turn) {
-    SurfacePoint point{static_cast<uint32_t>(random() % surface.face_count()), {}};
-    for (double& weight : point.weights) weight = uniform(random, 0.05, 1);
-    if (turn % 3 == 2) point.weights[random() % 3] = 0;
-    const double sum = point.weights[0] + point.weights[1] + point.weights[2];
-    for (double& weight : point.weights) weight /= sum;
-    return point;
-}
-
-struct Seen {
-    FacePoint alone, point;
-    SeenFaces faces;
-};
-
-// `at` is a point of the faces that an index has.
-Seen look(const Surface& surface, const SurfacePoint& at, const KnownFaces& known = All(),
-          size_t most = FacePoint::MOST_VERTICES) {
-    const auto& corners = indexed_corners(surface, at.face);
-    std::array<bool, 3> crosses{};
-    for (size_t k = 0; k < 3; ++k) {
-        const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
-        for_each_indexed_face_beyond(surface, at.face, a, b, [&](uint32_t) { crosses[k] = true; });
-    }
-    Seen seen{face_point(corners, edge_lengths(surface, corners), at.weights, crosses), {}, {}};
-    seen.point = seen.alone;
-    see_farther(surface, at, known, most, seen.point, seen.faces);
-    return seen;
 }
 
 // Heights at random, so that most edges are ridges or valleys.
@@ -98,14 +62,6 @@ Soup panels(std::initializer_list<double> turns) {
     return soup;
 }
 
-double angle_seen(const FacePoint& point) {
-    double sum = 0;
-    for (const FacePoint::Edge& edge : std::span(point.edges).first(point.edge_count))
-        sum += std::atan2(edge.seen_to - edge.foot, edge.height) -
-               std::atan2(edge.seen_from - edge.foot, edge.height);
-    return sum;
-}
-
 std::vector<double> distances_of(const FacePoint& point, const std::function<double(uint32_t)>& distance) {
     std::vector<double> distances;
     for (uint32_t k = 0; k < point.vertex_count; ++k) distances.push_back(distance(point.numbers[k]));
@@ -121,7 +77,7 @@ TEST_CASE("seen faces: in a plane everything is where it is") {
     for (size_t i = 0; i < 300; ++i) {
         CAPTURE(i);
         const SurfacePoint at = random_point(surface, random, i);
-        const Seen seen = look(surface, at);
+        const Polygon seen = look(surface, at);
         const Eigen::Vector3d origin = position_of(surface, at);
         for (uint32_t k = 0; k < seen.point.vertex_count; ++k)
             if (seen.point.straight[k] < UNREACHABLE)
@@ -157,7 +113,7 @@ TEST_CASE("seen faces: the polygon goes all around, has room for more, and ends 
     for (size_t i = 0; i < 200; ++i) {
         CAPTURE(i);
         const size_t most = i % 2 == 0 ? 16 : FacePoint::MOST_VERTICES;
-        const Seen seen = look(surface, random_point(surface, random, i), All(), most);
+        const Polygon seen = look(surface, random_point(surface, random, i), AllKnown(), most);
         CHECK(angle_seen(seen.point) == doctest::Approx(2 * std::numbers::pi));
         CHECK(seen.point.vertex_count == most);
         const double on_sheet = angle_seen(look(sheet, random_point(sheet, random, i)).point);
@@ -191,7 +147,7 @@ TEST_CASE("seen faces: over edges of several faces all of these are seen, as if 
             ++seen_in[panel];
         }
         // The polygon has vertices of all panels.
-        const Seen polygon = look(surface, at, All(), 32);
+        const Polygon polygon = look(surface, at, AllKnown(), 32);
         std::array<uint32_t, 4> vertices{};
         for (uint32_t k = 0; k < polygon.point.vertex_count; ++k)
             if (polygon.point.numbers[k] > 6) ++vertices[(polygon.point.numbers[k] - 7) / (3 * 7)];
@@ -238,7 +194,7 @@ TEST_CASE("seen faces: edges of many faces end what is seen, and may be all that
     std::mt19937_64 random(6);
     for (size_t i = 0; i < 100; ++i)
         for (const size_t most : {size_t{16}, size_t{32}, FacePoint::MOST_VERTICES}) {
-            const Seen seen = look(surface, random_point(surface, random, i), All(), most);
+            const Polygon seen = look(surface, random_point(surface, random, i), AllKnown(), most);
             CHECK(seen.point.vertex_count > 8);
             CHECK(seen.point.vertex_count <= most);
             CHECK(seen.point.edge_count <= FacePoint::MOST_EDGES);
@@ -252,7 +208,7 @@ TEST_CASE("seen faces: nothing is seen that is not known") {
         CAPTURE(i);
         const SurfacePoint at = random_point(surface, random, i);
         const Some some(surface.faces[at.face]);
-        const Seen seen = look(surface, at, some);
+        const Polygon seen = look(surface, at, some);
         for (uint32_t k = 0; k < seen.point.vertex_count; ++k) CHECK(some.is_known(seen.point.numbers[k]));
         CHECK(look(surface, at, Nothing()).point.vertex_count == 3);
     }
@@ -270,7 +226,7 @@ TEST_CASE("seen faces: of planes that are cut into slivers the flipped faces are
         const auto at = indexed_point(surface, on_mesh);
         REQUIRE(at);
         const Eigen::Vector3d origin = position_of(surface, on_mesh);
-        const Seen seen = look(surface, *at, All(), MOST);
+        const Polygon seen = look(surface, *at, AllKnown(), MOST);
         CHECK(seen.point.vertex_count == MOST);
         CHECK(angle_seen(seen.point) == doctest::Approx(2 * std::numbers::pi));
         if (!surface.flat_faces.has(on_mesh.face)) continue;
@@ -308,7 +264,7 @@ TEST_CASE("seen faces: on rough surfaces a polygon tells far more than its face"
             CAPTURE(i);
             const SurfacePoint at = ::random_point(surface, random, i);
             geoidx_surface_point source{at.face, 0, {at.weights[0], at.weights[1], at.weights[2]}};
-            const Seen seen = look(surface, at);
+            const Polygon seen = look(surface, at);
             const auto exact = on.exact_field(source);
             std::vector<std::vector<double>> from(seen.point.vertex_count);
             for (uint32_t k = 0; k < seen.point.vertex_count; ++k)

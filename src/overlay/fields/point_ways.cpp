@@ -40,50 +40,28 @@ bool are_in_leaf(const Numbering& numbering, uint32_t leaf, const std::array<uin
 }
 
 // Segments from one end to the other that are no longer than the edge together lie on it.
-bool is_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b, double length) {
+std::optional<size_t> find_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b,
+                                     double length, std::span<VertexBetween> found) {
     constexpr double ROUNDING = 1e-6;
     const Numbering& numbering = index.numbering;
     const Rings& rings = index.rings;
-    if (!numbering.is_border(a) || !numbering.is_border(b)) return false;
+    if (!numbering.is_border(a) || !numbering.is_border(b)) return std::nullopt;
     const uint32_t position = numbering.border_position(leaf, a);
-    if (position == NONE) return false;
+    if (position == NONE) return std::nullopt;
     for (const int step : {1, -1}) {
-        double left = length * (1 + ROUNDING);
+        double along = 0;
         uint32_t place = own_place(rings, numbering, leaf, position);
-        for (;;) {
+        for (size_t count = 0;; ++count) {
             const uint32_t next = step > 0 ? place + 1 : place - 1;
-            left -= double{rings.segment_length[std::min(place, next)]};
-            if (!(left >= 0)) break; // also at a gap
-            if (rings.vertex[next] == b) return true;
+            along += double{rings.segment_length[std::min(place, next)]};
+            if (!(along <= length * (1 + ROUNDING))) break; // also at a gap
+            if (rings.vertex[next] == b) return count;
             if (rings.vertex[next] == a) break; // all around
+            if (count < found.size()) found[count] = {rings.vertex[next], along};
             place = own_place(rings, numbering, leaf, rings.position[next]);
         }
     }
-    return false;
-}
-
-uint32_t leaf_of_face(const OverlayIndex& index, const std::array<uint32_t, 3>& corners,
-                      const std::array<double, 3>& edge_length, const std::array<uint32_t, 3>& beside) {
-    const Numbering& numbering = index.numbering;
-    for (const uint32_t corner : corners)
-        if (!numbering.is_border(corner)) {
-            const uint32_t leaf = numbering.leaf_of(corner);
-            return are_in_leaf(numbering, leaf, corners) ? leaf : NONE;
-        }
-    const auto is_joined = [&](uint32_t leaf) {
-        for (size_t k = 0; k < 3; ++k)
-            if (beside[k] != NONE && !is_in_leaf(numbering, leaf, beside[k]) &&
-                !is_on_border(index, leaf, corners[(k + 1) % 3], corners[(k + 2) % 3], edge_length[k]))
-                return false;
-        return true;
-    };
-    uint32_t any = NONE;
-    for (const PatchPosition& at : numbering.borders_of(corners[0])) {
-        if (at.patch < numbering.first_leaf() || !are_in_leaf(numbering, at.patch, corners)) continue;
-        if (is_joined(at.patch)) return at.patch;
-        if (any == NONE) any = at.patch;
-    }
-    return any;
+    return std::nullopt;
 }
 
 float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory_resource>
+#include <optional>
 #include <span>
 
 #include "src/index/face_point.h"
@@ -29,16 +30,15 @@ bool is_in_leaf(const Numbering& numbering, uint32_t leaf, uint32_t number);
 // Whether all corners of a face are.
 bool are_in_leaf(const Numbering& numbering, uint32_t leaf, const std::array<uint32_t, 3>& corners);
 
-// Whether the edge between two vertices runs along the border of a leaf. It may be cut into several segments
-// by added vertices.
-bool is_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b, double length);
+// Where the edge between two vertices runs along the border of a leaf, counts the added vertices that cut it
+// there, and writes the first ones of them, from `a` on, as far as there is room. Nothing if it does not.
+std::optional<size_t> find_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b,
+                                     double length, std::span<VertexBetween> found);
 
-// A leaf with all three corners of a face inside of it or on its border, or NONE: where added vertices have
-// cut the face, or pruning has taken corners from borders, there may be none. Where several leaves have all
-// corners, that one is asked for which the face lies in: it also has the vertices beside the face, but for
-// those behind its border. beside[k] is the vertex of another face at the edge opposite to corner k, or NONE.
-uint32_t leaf_of_face(const OverlayIndex& index, const std::array<uint32_t, 3>& corners,
-                      const std::array<double, 3>& edge_length, const std::array<uint32_t, 3>& beside);
+// Whether the edge runs along the border.
+inline bool is_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b, double length) {
+    return find_on_border(index, leaf, a, b, length, {}).has_value();
+}
 
 // The distance of two such vertices, by the tables.
 float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b);
