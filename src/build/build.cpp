@@ -134,7 +134,7 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     StoredIndex stored =
         filling.fill({surface, hierarchy}, workers, may_add_vertices(options) ? &measured : nullptr);
     if (may_add_vertices(options))
-        Rounds(options, filling_progress, filling, index)
+        Rounds(intake, options, filling_progress, filling, index)
             .run({surface, hierarchy}, *metric, std::move(stored), std::move(measured));
     Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
     std::optional<ErrorsByDistance> let_pass;

@@ -8,6 +8,7 @@
 #include "src/build/errors_by_distance.h"
 #include "src/metric/window_propagation.h"
 #include "src/partition/random.h"
+#include "src/points/seen_faces.h"
 
 namespace geodesic {
 
@@ -72,16 +73,16 @@ ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, d
 
 void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex filled,
                  std::optional<MeasuredTables> measured) {
-    vertex_count_ = surface.mesh.vertex_count();
     most_entries_ = table_entries(index_) * MOST_GROWTH_IN_HALVES / 2;
+    double error = first_error(metric);
     std::optional<FinerSurface> finer; // of the latest round, with its metric
     std::unique_ptr<const Metric> finer_metric;
     bool is_best = true; // what the index is prepared from
-    for (uint32_t i = 0; i < MOST_ROUNDS && filled.description.error.mean > options_.target_error; ++i) {
+    for (uint32_t i = 0; i < MOST_ROUNDS && error > options_.target_error; ++i) {
         const SplitSurface latest = finer ? SplitSurface{finer->mesh, finer->hierarchy} : surface;
         Workers choosing(finer ? *finer_metric : metric, options_.threads,
                          part_of_progress(progress_, begin_of_round(i), end_of_choosing(i)));
-        auto next = finer_surface(latest, filled.description.error.mean, choosing);
+        auto next = finer_surface(latest, error, choosing);
         if (!next) break;
         finer = std::move(next);
         finer_metric = std::make_unique<ExactMetric>(finer->mesh);
@@ -90,12 +91,32 @@ void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex 
         auto again = unless_over_limit([&] {
             return filling_.fill({finer->mesh, finer->hierarchy}, workers, &measured);
         });
-        is_best = again && again->description.error.mean < filled.description.error.mean;
+        const double error_now = again ? error_of_index(workers) : error;
+        is_best = error_now < error;
         if (!is_best) break;
         filled = std::move(*again);
+        error = error_now;
     }
     if (!is_best) prepare(filled, index_);
     if (progress_ && !progress_(1, "accuracy")) throw_cancelled();
+}
+
+// Points are asked where edges are long: on scans they are as exact as vertices.
+double Rounds::first_error(const Metric& metric) {
+    if (!has_long_edges(intake_.bounding_box_diagonal, mean_edge(intake_.mesh)))
+        return index_.description.error.mean;
+    constexpr uint64_t POINT_SEED = 0x706F696E7473;
+    Workers workers(metric, options_.threads,
+                    part_of_progress(progress_, FIRST_FILLING_END, FIRST_FILLING_END));
+    workers.begin_stage("accuracy", 1);
+    of_points_.emplace(intake_, options_.seed ^ POINT_SEED, workers);
+    return error_of_index(workers);
+}
+
+// The larger one of the mean errors of fields from vertices and from points.
+double Rounds::error_of_index(Workers& workers) const {
+    const double of_vertices = index_.description.error.mean;
+    return of_points_ ? std::max(of_vertices, of_points_->mean(index_, workers)) : of_vertices;
 }
 
 // Nothing if there is no edge that would make paths more exact, or no room for more table entries.
@@ -103,7 +124,7 @@ std::optional<FinerSurface> Rounds::finer_surface(const SplitSurface& surface, d
                                                   Workers& workers) const {
     workers.begin_stage("finer borders", 1);
     if (!can_be_cut(surface.mesh)) return std::nullopt;
-    const auto sources = choosing_sources(options_.seed, vertex_count_);
+    const auto sources = choosing_sources(options_.seed, intake_.mesh.vertex_count());
     const double too_short = too_short_beside(index_.description.bounding_box_diagonal);
     const auto edges =
         border_edges(surface.mesh, surface.hierarchy.leaf_of_face, sources, too_short, workers);

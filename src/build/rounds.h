@@ -4,6 +4,7 @@
 
 #include "src/build/filling.h"
 #include "src/build/finer_borders.h"
+#include "src/build/point_errors.h"
 
 namespace geodesic {
 
@@ -18,9 +19,9 @@ ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, d
 // become smaller, or until there is nothing to cut or no room for more.
 class Rounds {
 public:
-    Rounds(const geoidx_build_options& options, const ProgressFunction& progress, Filling& filling,
-           Index& index)
-        : options_(options), progress_(progress), filling_(filling), index_(index) {}
+    Rounds(const Intake& intake, const geoidx_build_options& options, const ProgressFunction& progress,
+           Filling& filling, Index& index)
+        : intake_(intake), options_(options), progress_(progress), filling_(filling), index_(index) {}
 
     // `filled` is what the filling made of this surface, which has no added vertices, and what the index was
     // prepared from; `measured` is what it measured for that. Afterwards the index is the one with the
@@ -29,17 +30,20 @@ public:
              std::optional<MeasuredTables> measured);
 
 private:
+    double first_error(const Metric& metric);
+    double error_of_index(Workers& workers) const;
     std::optional<FinerSurface> finer_surface(const SplitSurface& surface, double error,
                                               Workers& workers) const;
     std::optional<FinerSurface> cut_what_fits(const SplitSurface& surface, std::span<const BorderEdge> edges,
                                               Workers& workers) const;
     bool fits(const FinerSurface& surface, Workers& workers) const;
 
+    const Intake& intake_;
     const geoidx_build_options& options_;
     const ProgressFunction& progress_;
     Filling& filling_;
     Index& index_;
-    uint32_t vertex_count_ = 0; // without added vertices
+    std::optional<PointErrors> of_points_; // where edges are so long that points are less exact than vertices
     uint64_t most_entries_ = 0;
 };
 

@@ -303,9 +303,9 @@ SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t mos
     return around;
 }
 
-bool has_long_edges(const Surface& surface) {
+bool has_long_edges(double bounding_box_diagonal, double average_edge) {
     constexpr double SOME_EDGES_ACROSS = 48;
-    return surface.bounding_box_diagonal < SOME_EDGES_ACROSS * surface.average_edge;
+    return bounding_box_diagonal < SOME_EDGES_ACROSS * average_edge;
 }
 
 size_t vertices_of_polygon(const Surface& surface) {

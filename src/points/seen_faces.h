@@ -65,10 +65,13 @@ struct SeenAround {
 SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t most);
 
 // Whether edges are long for the whole surface.
-bool has_long_edges(const Surface& surface);
+bool has_long_edges(double bounding_box_diagonal, double average_edge);
+inline bool has_long_edges(const Surface& surface) {
+    return has_long_edges(surface.bounding_box_diagonal, surface.average_edge);
+}
 
-// How many vertices a polygon has on a surface, at most FacePoint::MOST_VERTICES. What it does not tell is a
-// share of an edge's length, so that it has more where edges are long for the whole surface.
+// How many vertices a polygon has on a surface, but for those between the ends of its edges. What it does not
+// tell is a share of an edge's length, so that it has more where edges are long for the whole surface.
 size_t vertices_of_polygon(const Surface& surface);
 
 }

@@ -130,6 +130,38 @@ TEST_CASE("points: on cylinders whose caps have no vertex inside") {
     }
 }
 
+// Fields from its vertices are exact enough without.
+TEST_CASE("points: vertices are added where fields from points are less exact than asked for" *
+          doctest::skip(SANITIZED)) {
+    const Soup column = closed_cylinder(256, 20);
+    const auto mean_of_fields = [](const PathCase& on) {
+        std::vector<geoidx_surface_point> vertices;
+        for (uint32_t id = 0; id < on.soup.vertex_count(); ++id) vertices.push_back(on.at_vertex(id));
+        std::mt19937_64 random(8);
+        MeanError error;
+        for (size_t i = 0; i < 60; ++i) {
+            const auto source = random_point(on.soup, random, 0);
+            const auto answers = field(on, {&source, 1});
+            std::vector<double> exact(vertices.size());
+            require_success(geoidx_solver_point_distances(on.solver.get(), &source, 1, vertices.data(),
+                                                          static_cast<uint32_t>(vertices.size()),
+                                                          exact.data()));
+            for (size_t v = 0; v < vertices.size(); ++v) error.add(double{answers[v]}, exact[v]);
+        }
+        return error.mean();
+    };
+    auto options = default_options();
+    const double target = options.target_error;
+    const PathCase as_asked(column, options);
+    options.target_error = 0;
+    const PathCase without(column, options);
+    const double error_without = mean_of_fields(without);
+    REQUIRE(info_of(without.index.get()).error_mean < target);
+    REQUIRE(error_without > 2 * target);
+    CHECK(info_of(as_asked.index.get()).added_vertex_count > 0);
+    CHECK(mean_of_fields(as_asked) < 0.5 * error_without);
+}
+
 // Its faces lie over each other, so that a position does not tell where a point is.
 TEST_CASE("points: on a plane that covers itself, as the metric says") {
     for (const Soup& soup : {flat_fan(2), flat_spiral(3)}) {

@@ -1,0 +1,90 @@
+#include "src/build/point_errors.h"
+
+#include <algorithm>
+#include <memory_resource>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "src/build/errors_by_distance.h"
+#include "src/partition/random.h"
+#include "src/points/point_queries.h"
+#include "src/surface/indexed_faces.h"
+
+namespace geodesic {
+
+namespace {
+
+// 0 .. 1, without 1.
+double share(Random& random) { return static_cast<double>(random.next() >> 11) * 0x1p-53; }
+
+// Per face, the area of all faces up to it.
+std::vector<double> areas_up_to(const Surface& surface) {
+    std::vector<double> areas;
+    double sum = 0;
+    for (const auto& [a, b, c] : surface.faces) {
+        const Eigen::Vector3d to_b = surface.positions[b] - surface.positions[a],
+                              to_c = surface.positions[c] - surface.positions[a];
+        sum += to_b.cross(to_c).norm() / 2;
+        areas.push_back(sum);
+    }
+    return areas;
+}
+
+// As likely in one place of the surface as in another.
+SurfacePoint random_point(const std::vector<double>& areas, Random& random) {
+    const auto after = std::ranges::upper_bound(areas, share(random) * areas.back());
+    const auto face = std::min<ptrdiff_t>(after - areas.begin(), std::ssize(areas) - 1);
+    double second = share(random), third = share(random);
+    if (second + third > 1) {
+        second = 1 - second;
+        third = 1 - third;
+    }
+    return {static_cast<uint32_t>(face), {1 - second - third, second, third}};
+}
+
+// Few vertices make a field short, and need more of them.
+uint32_t point_count(uint32_t vertex_count) {
+    constexpr uint32_t FEWEST = 20, MOST = 100, VERTICES_IN_ALL = 1 << 18;
+    return std::clamp(VERTICES_IN_ALL / vertex_count, FEWEST, MOST);
+}
+
+}
+
+PointErrors::PointErrors(const Intake& intake, uint64_t seed, Workers& workers)
+    : surface_(Intake(intake), {}, FlatFaces(intake.mesh)) {
+    choose_points(seed);
+    distances_.resize(points_.size());
+    workers.run(points_.size(), [&](FieldSolver& solver, size_t i) {
+        const SurfacePoint of_index = *indexed_point(surface_, points_[i]);
+        solver.solve({{}, {}, {&of_index, 1}, {}});
+        for (uint32_t v = 0; v < surface_.vertex_count(); ++v) distances_[i].push_back(solver.distance(v));
+    });
+}
+
+// Leaves out those of which rounding hides where the index has them.
+void PointErrors::choose_points(uint64_t seed) {
+    const std::vector<double> areas = areas_up_to(surface_);
+    Random random(seed);
+    for (uint32_t left = point_count(surface_.vertex_count()); left > 0; --left)
+        if (const SurfacePoint point = random_point(areas, random); indexed_point(surface_, point))
+            points_.push_back(point);
+}
+
+double PointErrors::mean(const Index& index, Workers& workers) const {
+    const double too_short = too_short_beside(surface_.bounding_box_diagonal);
+    std::vector<ErrorSum> errors(points_.size());
+    workers.run(points_.size(), [&](FieldSolver&, size_t i) {
+        Query query(index, std::pmr::get_default_resource());
+        std::vector<float> answers(index.description.id_count);
+        PointQueries(index, query, surface_).msad({&points_[i], 1}, {}, answers);
+        for (uint32_t v = 0; v < surface_.vertex_count(); ++v)
+            if (const double exact = distances_[i][v]; has_relative_error(exact, too_short))
+                errors[i].add(relative_error(exact, answers[surface_.id_of_vertex[v]]));
+    });
+    ErrorSum all;
+    for (const ErrorSum& of_point : errors) all.add(of_point);
+    return all.mean();
+}
+
+}

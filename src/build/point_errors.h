@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/mesh/intake.h"
+#include "src/metric/workers.h"
+#include "src/query/index.h"
+#include "src/surface/surface.h"
+
+namespace geodesic {
+
+// Compares fields from random points within faces with the metric. Where edges are long, they are less exact
+// than fields from vertices. Each index on the same surface is compared with the same distances.
+class PointErrors {
+public:
+    // The metric of the workers is the exact one of the faces that the index is made on.
+    PointErrors(const Intake& intake, uint64_t seed, Workers& workers);
+
+    // The mean of the relative errors of MSAD from each of the points alone.
+    double mean(const Index& index, Workers& workers) const;
+
+private:
+    void choose_points(uint64_t seed);
+
+    Surface surface_;
+    std::vector<SurfacePoint> points_;
+    std::vector<std::vector<double>> distances_; // by the metric: of each point, per vertex
+};
+
+}
