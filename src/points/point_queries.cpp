@@ -8,6 +8,7 @@
 
 #include "format/error.h"
 #include "geoidx.h"
+#include "src/base/rounded.h"
 #include "src/surface/indexed_faces.h"
 #include "src/surface/nearby.h"
 
@@ -24,13 +25,20 @@ SeenAround see_around_any_leaf(const Surface& surface, const SurfacePoint& point
     return indexed ? see_around(surface, *indexed, NEAR_VERTICES) : SeenAround();
 }
 
-// Of the ways from one source, which begin at `begin`, keeps one to each vertex, by numbers.
-void keep_shortest(std::vector<Query::KnownWay>& ways, size_t begin) {
+// Makes one of all ways from one source, which begin at `begin`, to the same vertex. Keeps them by numbers.
+void merge_ways(std::vector<Query::KnownWay>& ways, size_t begin) {
     const auto first = ways.begin() + static_cast<std::ptrdiff_t>(begin);
-    std::ranges::sort(first, ways.end(), {},
-                      [](const auto& way) { return std::pair(way.number, way.length); });
-    const auto is_same = [](const auto& a, const auto& b) { return a.number == b.number; };
-    ways.erase(std::unique(first, ways.end(), is_same), ways.end());
+    std::ranges::sort(first, ways.end(), {}, &Query::KnownWay::number);
+    auto end = first; // of what is merged
+    for (const Query::KnownWay& way : std::ranges::subrange(first, ways.end())) {
+        if (end == first || end[-1].number != way.number) {
+            *end++ = way;
+            continue;
+        }
+        end[-1].length = std::min(end[-1].length, way.length);
+        end[-1].least = std::max(end[-1].least, way.least);
+    }
+    ways.erase(end, ways.end());
 }
 
 // Of the faces that a point lies in.
@@ -191,6 +199,25 @@ void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position,
     for (uint32_t k = 0; k < around.vertex_count; ++k) add_way(around.vertices[k], around.straight[k]);
 }
 
+// Tables have measured pairs wrong, and so has a field whatever it makes of them. A point is as far from one
+// of the pair as the other one is, but for how far that is from the point, and for what a pair is rounded by.
+void PointQueries::add_measured_ways(const FacePoint& point, uint32_t position, float offset,
+                                     std::vector<Query::KnownWay>& known) const {
+    constexpr size_t MOST_PAIRS = 512;
+    const auto* const overlay = std::get_if<OverlayIndex>(&index_.engine);
+    if (!overlay) return;
+    const size_t most = known.size() + MOST_PAIRS;
+    for (uint32_t k = 0; k < point.vertex_count; ++k) {
+        if (point.straight[k] == UNREACHABLE) continue;
+        for (const auto& [other, distance] : overlay->measured.of(point.numbers[k])) {
+            if (known.size() == most) return;
+            const auto apart = static_cast<float>(point.straight[k] + ROUNDING * double{distance});
+            known.push_back(
+                {position, other, offset + (distance + apart), offset + std::max(distance - apart, 0.f)});
+        }
+    }
+}
+
 PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> points,
                                                std::span<const float> offsets) const {
     Sources sources{{}, offsets, {}};
@@ -199,11 +226,13 @@ PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> poi
         const float offset = offsets.empty() ? 0 : offsets[i];
         const size_t begin = sources.known.size();
         const FacePoint& point = sources.points.emplace_back(view_of(points[i]).point);
-        if (point.vertex == NONE)
+        if (point.vertex == NONE) {
             add_known_ways(points[i], i, offset, sources.known);
-        else
+            add_measured_ways(point, i, offset, sources.known);
+        } else {
             sources.known.push_back({i, point.vertex, offset, offset});
-        keep_shortest(sources.known, begin);
+        }
+        merge_ways(sources.known, begin);
     }
     return sources;
 }

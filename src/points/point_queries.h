@@ -68,6 +68,8 @@ private:
     Sources sources_of(std::span<const SurfacePoint> points, std::span<const float> offsets) const;
     void add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
                         std::vector<Query::KnownWay>& known) const;
+    void add_measured_ways(const FacePoint& point, uint32_t position, float offset,
+                           std::vector<Query::KnownWay>& known) const;
     KnownWays known_ways(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
                          const PointView& to, float distance) const;
     double way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const;

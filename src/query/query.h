@@ -67,12 +67,12 @@ public:
     float point_sssd(const FacePoint& source, const FacePoint& target);
 
     // What is known of the distance from a source, by its position, to a vertex, by its number: it is no
-    // longer than a way, if one is known, and no shorter than the line in space.
+    // longer than a way, if one is known, and no shorter than the line in space or another bound.
     struct KnownWay {
         uint32_t source, number;
-        float length, chord; // both with the offset of the source
+        float length, least; // both with the offset of the source
 
-        float corrected(float distance) const { return std::min(std::max(distance, chord), length); }
+        float corrected(float distance) const { return std::min(std::max(distance, least), length); }
     };
     // Points as sources. How far a vertex is, is the least of offset(i) + the distance from points[i].
     struct PointSources {

@@ -4,12 +4,15 @@
 #include <numbers>
 #include <set>
 
+#include "src/base/rounded.h"
+#include "src/capi/handles.h"
 #include "tests/capi/refusals.h"
 #include "tests/path/path_cases.h"
 #include "tests/points/point_cases.h"
 #include "tests/support/drilled_plate.h"
 #include "tests/support/sanitized.h"
 
+using namespace geodesic;
 using namespace geodesic::test;
 
 namespace {
@@ -443,6 +446,31 @@ TEST_CASE("points: fields from one point are no shorter than the line in space t
             }
         }
     }
+}
+
+TEST_CASE("points: near a vertex they are about as far from the others of its measured pairs as it is") {
+    Soup soup = grid(40, 40, 40, 40);
+    std::mt19937_64 random(5);
+    raise_at_random(soup, random);
+    const PathCase on(soup, path_options());
+    const Index& index = on.index->index;
+    const MeasuredPairs& pairs = std::get<OverlayIndex>(index.engine).measured;
+    const auto around = triangles_around_vertices(soup);
+    size_t count = 0;
+    for (uint32_t id = 0; id < soup.vertex_count(); ++id) {
+        const auto source = point_near(soup, random, id, around[id].front(), 1e-3);
+        const double away = (on.position(source) - soup.positions[id]).norm();
+        const float offset = 0.5f;
+        const auto distances = field(on, {&source, 1}, &offset);
+        for (const auto& [number, distance] : pairs.of(index.number_of_id[id])) {
+            const auto other = static_cast<size_t>(std::ranges::find(index.number_of_id, number) -
+                                                   index.number_of_id.begin());
+            CHECK(std::abs(double{distances[other]} - double{offset} - double{distance}) <
+                  away + 1.001 * ROUNDING * double{distance});
+            ++count;
+        }
+    }
+    CHECK(count > 50);
 }
 
 TEST_CASE("points: bad input is refused by name") {
