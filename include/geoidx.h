@@ -260,9 +260,10 @@ typedef struct geoidx_build_options {
      * mean error, 0 .. 1, that the index is to have at most. Scans have less from the start. Where it is
      * larger, as on meshes of large triangles and on rough surfaces, edges between patches are cut in halves
      * and the tables are made anew, up to five times, as long as the error becomes smaller and table entries
-     * stay below two and a half times their number without; so the error may also stay larger. What is cut
-     * there are *added vertices*: they have no id and are in no answer. Default 0.0005, which is 0.05 %.
-     * 0: none. */
+     * stay below two and a half times their number without; so the error may also stay larger. Where edges
+     * are long for the whole surface, the error of fields from points within triangles counts, too, which the
+     * index does not state. What is cut there are *added vertices*: they have no id and are in no answer.
+     * Default 0.0005, which is 0.05 %. 0: none. */
     double target_error;
     /* 1: the index keeps the mesh, bit for bit, so that its file alone is enough for points of the surface
      * and for paths: see geoidx_surface_of_index. It takes some 20 bytes a vertex of a closed mesh with
@@ -750,7 +751,7 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * GEOIDX_METRIC_EXACT without edge_lengths and of GEOIDX_METRIC_EDGES without edge costs; with another metric
  * they are GEOIDX_ERROR_INVALID_ARGUMENT. By GEOIDX_METRIC_EDGES a way leads from a point straight to the
  * corners of the triangle that it is given on, and along edges from there. By GEOIDX_METRIC_EXACT distances
- * come from those of up to 64 vertices around the point, by GEOIDX_ENGINE_GRAPH of the three corners,
+ * come from those of up to 128 vertices around the point, by GEOIDX_ENGINE_GRAPH of the three corners,
  * unfolded over the triangles between: to the accuracy of the index, but where these are reached from
  * different sides, as around holes that are as small as triangles or between spikes, off by a share of the
  * triangles' edges. `surface` must be of the index's mesh, and stay open during the call only. */

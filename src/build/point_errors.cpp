@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <memory_resource>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 #include "src/build/errors_by_distance.h"
+#include "src/build/relative_errors.h"
 #include "src/partition/random.h"
 #include "src/points/point_queries.h"
 #include "src/surface/indexed_faces.h"
@@ -71,20 +73,20 @@ void PointErrors::choose_points(uint64_t seed) {
             points_.push_back(point);
 }
 
-double PointErrors::mean(const Index& index, Workers& workers) const {
+MeasuredError PointErrors::measure(const Index& index, Workers& workers) const {
     const double too_short = too_short_beside(surface_.bounding_box_diagonal);
-    std::vector<ErrorSum> errors(points_.size());
+    std::vector<std::vector<double>> of_point(points_.size());
     workers.run(points_.size(), [&](FieldSolver&, size_t i) {
         Query query(index, std::pmr::get_default_resource());
         std::vector<float> answers(index.description.id_count);
         PointQueries(index, query, surface_).msad({&points_[i], 1}, {}, answers);
         for (uint32_t v = 0; v < surface_.vertex_count(); ++v)
             if (const double exact = distances_[i][v]; has_relative_error(exact, too_short))
-                errors[i].add(relative_error(exact, answers[surface_.id_of_vertex[v]]));
+                of_point[i].push_back(relative_error(exact, answers[surface_.id_of_vertex[v]]));
     });
-    ErrorSum all;
-    for (const ErrorSum& of_point : errors) all.add(of_point);
-    return all.mean();
+    std::vector<double> errors;
+    for (const auto& of_one : of_point) errors.insert(errors.end(), of_one.begin(), of_one.end());
+    return summary(std::move(errors));
 }
 
 }

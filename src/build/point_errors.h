@@ -17,8 +17,8 @@ public:
     // The metric of the workers is the exact one of the faces that the index is made on.
     PointErrors(const Intake& intake, uint64_t seed, Workers& workers);
 
-    // The mean of the relative errors of MSAD from each of the points alone.
-    double mean(const Index& index, Workers& workers) const;
+    // The relative errors of MSAD from each of the points alone.
+    MeasuredError measure(const Index& index, Workers& workers) const;
 
 private:
     void choose_points(uint64_t seed);
