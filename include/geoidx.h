@@ -166,7 +166,7 @@ typedef geoidx_status (*geoidx_metric_fn)(void* user, uint32_t source, const uin
 /* Progress of a build: fraction 0 .. 1, never falling, and a short name of the stage. Return 0 to cancel.
  * Called from the thread that called geoidx_build only, at least a few times a second once the first stages
  * are over, which take some seconds a million vertices. Where vertices may be added (see target_error),
- * stages come again, and the fraction goes from 0.66 to 0.95 at once if none are. */
+ * stages come again, and the fraction goes from 0.61 to 0.85 at once if none are. */
 typedef int32_t (*geoidx_progress_fn)(void* user, float fraction, const char* stage);
 
 /* How an index answers. */
@@ -260,10 +260,10 @@ typedef struct geoidx_build_options {
      * mean error, 0 .. 1, that the index is to have at most. Scans have less from the start. Where it is
      * larger, as on meshes of large triangles and on rough surfaces, edges between patches are cut in halves
      * and the tables are made anew, up to five times, as long as the error becomes smaller and table entries
-     * stay below two and a half times their number without; so the error may also stay larger. Where edges
-     * are long for the whole surface, the error of fields from points within triangles counts, too, which the
-     * index does not state. What is cut there are *added vertices*: they have no id and are in no answer.
-     * Default 0.0005, which is 0.05 %. 0: none. */
+     * stay below two and a half times their number without; so the error may also stay larger. What is cut
+     * there are *added vertices*: they have no id and are in no answer. Where edges are long for the whole
+     * surface, fields from points within triangles are to have that mean error, too, and a p99.9 of at most
+     * forty times as much, which the index does not state. Default 0.0005, which is 0.05 %. 0: none. */
     double target_error;
     /* 1: the index keeps the mesh, bit for bit, so that its file alone is enough for points of the surface
      * and for paths: see geoidx_surface_of_index. It takes some 20 bytes a vertex of a closed mesh with

@@ -17,38 +17,30 @@ namespace geodesic {
 
 namespace {
 
-// 0 .. 1, without 1.
-double share(Random& random) { return static_cast<double>(random.next() >> 11) * 0x1p-53; }
-
-// Per face, the area of all faces up to it.
+// Per face, the area of all faces up to it, of those where edges are long.
 std::vector<double> areas_up_to(const Surface& surface) {
     std::vector<double> areas;
     double sum = 0;
-    for (const auto& [a, b, c] : surface.faces) {
+    for (uint32_t f = 0; f < surface.face_count(); ++f) {
+        const auto& [a, b, c] = surface.faces[f];
         const Eigen::Vector3d to_b = surface.positions[b] - surface.positions[a],
                               to_c = surface.positions[c] - surface.positions[a];
-        sum += to_b.cross(to_c).norm() / 2;
+        if (has_long_edges(surface, f)) sum += to_b.cross(to_c).norm() / 2;
         areas.push_back(sum);
     }
     return areas;
 }
 
-// As likely in one place of the surface as in another.
+// As likely in one place of these faces as in another.
 SurfacePoint random_point(const std::vector<double>& areas, Random& random) {
-    const auto after = std::ranges::upper_bound(areas, share(random) * areas.back());
+    const auto after = std::ranges::upper_bound(areas, random.share() * areas.back());
     const auto face = std::min<ptrdiff_t>(after - areas.begin(), std::ssize(areas) - 1);
-    double second = share(random), third = share(random);
+    double second = random.share(), third = random.share();
     if (second + third > 1) {
         second = 1 - second;
         third = 1 - third;
     }
     return {static_cast<uint32_t>(face), {1 - second - third, second, third}};
-}
-
-// Few vertices make a field short, and need more of them.
-uint32_t point_count(uint32_t vertex_count) {
-    constexpr uint32_t FEWEST = 20, MOST = 100, VERTICES_IN_ALL = 1 << 18;
-    return std::clamp(VERTICES_IN_ALL / vertex_count, FEWEST, MOST);
 }
 
 }
@@ -60,7 +52,8 @@ PointErrors::PointErrors(const Intake& intake, uint64_t seed, Workers& workers)
     workers.run(points_.size(), [&](FieldSolver& solver, size_t i) {
         const SurfacePoint of_index = *indexed_point(surface_, points_[i]);
         solver.solve({{}, {}, {&of_index, 1}, {}});
-        for (uint32_t v = 0; v < surface_.vertex_count(); ++v) distances_[i].push_back(solver.distance(v));
+        distances_[i].resize(surface_.vertex_count());
+        for (uint32_t v = 0; v < distances_[i].size(); ++v) distances_[i][v] = solver.distance(v);
     });
 }
 
@@ -68,7 +61,7 @@ PointErrors::PointErrors(const Intake& intake, uint64_t seed, Workers& workers)
 void PointErrors::choose_points(uint64_t seed) {
     const std::vector<double> areas = areas_up_to(surface_);
     Random random(seed);
-    for (uint32_t left = point_count(surface_.vertex_count()); left > 0; --left)
+    for (uint32_t left = source_count_of_rounds(surface_.vertex_count()); left > 0; --left)
         if (const SurfacePoint point = random_point(areas, random); indexed_point(surface_, point))
             points_.push_back(point);
 }
@@ -85,6 +78,7 @@ MeasuredError PointErrors::measure(const Index& index, Workers& workers) const {
                 of_point[i].push_back(relative_error(exact, answers[surface_.id_of_vertex[v]]));
     });
     std::vector<double> errors;
+    errors.reserve(points_.size() * surface_.vertex_count());
     for (const auto& of_one : of_point) errors.insert(errors.end(), of_one.begin(), of_one.end());
     return summary(std::move(errors));
 }

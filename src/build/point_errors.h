@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -10,8 +11,16 @@
 
 namespace geodesic {
 
-// Compares fields from random points within faces with the metric. Where edges are long, they are less exact
-// than fields from vertices. Each index on the same surface is compared with the same distances.
+// From how many sources rounds of added vertices look at a surface. Fields of small meshes are short, and
+// more of them together see more of all edges.
+inline uint32_t source_count_of_rounds(uint32_t vertex_count) {
+    constexpr uint32_t FEWEST = 20, MOST = 100, VERTICES_IN_ALL = 1 << 18;
+    return std::clamp(VERTICES_IN_ALL / vertex_count, FEWEST, MOST);
+}
+
+// Compares fields from random points within faces with the metric, on the parts of the surface where edges
+// are long: there, they are less exact than fields from vertices. Each index on the same surface is compared
+// with the same distances.
 class PointErrors {
 public:
     // The metric of the workers is the exact one of the faces that the index is made on.

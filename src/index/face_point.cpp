@@ -56,9 +56,11 @@ FacePoint face_point(const std::array<uint32_t, 3>& corners, const std::array<do
                      height = weights[k] * apex.height;
         point.numbers[k] = corners[k];
         point.straight[first] = hypotenuse(foot, height);
-        if (crosses[k])
+        if (crosses[k]) {
             point.edges[point.edge_count++] = {first,  second, edge_length[k], foot,
                                                height, 0,      edge_length[k]};
+            point.longest_edge = std::max(point.longest_edge, edge_length[k]);
+        }
         if (weights[k] == 1) point.vertex = corners[k];
     }
     return point;

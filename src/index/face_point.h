@@ -27,6 +27,7 @@ struct FacePoint {
     uint32_t vertex = NONE; // the number of the corner that the point is at, or NONE
     uint32_t leaf = NONE;   // a leaf whose tables have all vertices of the polygon, or NONE
     uint32_t vertex_count = 0, edge_count = 0;
+    double longest_edge = 0;                     // of the polygon; those below may be parts of its edges
     std::array<uint32_t, MOST_VERTICES> numbers; // of the vertices; the corners of the face come first
     std::array<double, MOST_VERTICES> straight;  // from each vertex to the point; infinite if it is not seen
     std::array<Edge, MOST_EDGES> edges;

@@ -21,6 +21,9 @@ public:
     // 0 .. bound - 1, bound > 0.
     uint32_t below(uint32_t bound) { return static_cast<uint32_t>(next() % bound); }
 
+    // 0 .. 1, without 1.
+    double share() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+
     template <class T>
     void shuffle(std::span<T> items) {
         for (size_t i = items.size(); i > 1; --i)

@@ -107,8 +107,8 @@ PointView view_from(const Index& index, const Surface& surface, const SurfacePoi
     PointView view(point);
     if (point.leaf == NONE || point.vertex != NONE) return view;
     if (const auto indexed = indexed_point(surface, at))
-        see_farther(surface, *indexed, FacesOfLeaf(index, surface, point.leaf), vertices_of_polygon(surface),
-                    view.point, view.seen);
+        see_farther(surface, *indexed, FacesOfLeaf(index, surface, point.leaf),
+                    vertices_of_polygon(surface, at.face), view.point, view.seen);
     return view;
 }
 

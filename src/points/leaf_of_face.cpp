@@ -7,20 +7,12 @@
 
 #include "src/overlay/fields/point_ways.h"
 #include "src/points/face_points.h"
-#include "src/surface/indexed_faces.h"
 
 namespace geodesic {
 
 namespace {
 
 using Numbers = std::array<uint32_t, 3>;
-
-template <class Use>
-void for_each_beyond(const Surface& surface, const AnyFace& face, uint32_t a, uint32_t b, const Use& use) {
-    const auto use_face = [&](uint32_t other) { use(AnyFace{face.is_of_index, other}); };
-    face.is_of_index ? for_each_indexed_face_beyond(surface, face.face, a, b, use_face)
-                     : for_each_face_beyond(surface, face.face, a, b, use_face);
-}
 
 // The faces around one, by what a leaf has of them.
 class Surroundings {
@@ -82,16 +74,18 @@ std::vector<uint32_t> leaves_with(const Numbering& numbering, const Numbers& cor
     return leaves;
 }
 
+// The first of those that have the most faces around.
+uint32_t best_of(std::span<const uint32_t> leaves, Surroundings& around) {
+    uint32_t best = NONE;
+    size_t most = 0;
+    for (const uint32_t leaf : leaves)
+        if (const size_t count = around.count_in(leaf); best == NONE || count > most) {
+            best = leaf;
+            most = count;
+        }
+    return best;
 }
 
-std::array<uint32_t, 3> corners_of(const Surface& surface, const AnyFace& face) {
-    return face.is_of_index ? indexed_corners(surface, face.face) : surface.faces[face.face];
-}
-
-bool has_face_beyond(const Surface& surface, const AnyFace& face, uint32_t a, uint32_t b) {
-    bool is_there = false;
-    for_each_beyond(surface, face, a, b, [&](const AnyFace&) { is_there = true; });
-    return is_there;
 }
 
 // Of a part of a leaf that has no vertex inside, a leaf beside it may have all vertices, too.
@@ -105,8 +99,7 @@ uint32_t leaf_of_face(const Index& index, const Surface& surface, const AnyFace&
             return are_in_leaf(numbering, leaf, corners) ? leaf : NONE;
         }
     const std::vector<uint32_t> leaves = leaves_with(numbering, corners);
-    if (leaves.size() < 2) return leaves.empty() ? NONE : leaves.front();
-    return *std::ranges::max_element(leaves, {}, [&](uint32_t leaf) { return around.count_in(leaf); });
+    return leaves.size() < 2 ? (leaves.empty() ? NONE : leaves.front()) : best_of(leaves, around);
 }
 
 }

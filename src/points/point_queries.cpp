@@ -30,7 +30,7 @@ void merge_ways(std::vector<Query::KnownWay>& ways, size_t begin) {
     const auto first = ways.begin() + static_cast<std::ptrdiff_t>(begin);
     std::ranges::sort(first, ways.end(), {}, &Query::KnownWay::number);
     auto end = first; // of what is merged
-    for (const Query::KnownWay& way : std::ranges::subrange(first, ways.end())) {
+    for (const Query::KnownWay& way : std::span(first, ways.end())) {
         if (end == first || end[-1].number != way.number) {
             *end++ = way;
             continue;
@@ -50,14 +50,8 @@ double longest_edge(const Surface& surface, const SurfacePoint& point) {
     return longest;
 }
 
-// Of the polygon of a point that is at no vertex.
-double longest_edge_around(const FacePoint& point) {
-    double longest = 0;
-    if (point.vertex != NONE) return longest;
-    for (const FacePoint::Edge& edge : std::span(point.edges).first(point.edge_count))
-        longest = std::max(longest, edge.length);
-    return longest;
-}
+// Of the polygon of a point, unless it is at a vertex.
+double longest_edge_around(const FacePoint& point) { return point.vertex == NONE ? point.longest_edge : 0; }
 
 }
 
@@ -138,9 +132,9 @@ double PointQueries::straight_way_of_near(const SurfacePoint& source, const Surf
     return std::min(seen_from(source, target), seen_from(target, source));
 }
 
-// Pairs of vertices that tables have wrong are measured; points have no such pairs, so that only the edges
-// around those that are at no vertex count. Where these are short for the mesh, its average edge does, of
-// which tables are rounded to a share. A search for a path asks for distances that the graph engine, and
+// Pairs of vertices that tables have wrong are measured; pairs of points do not use these, so that only the
+// edges around those that are at no vertex count. Where these are short for the mesh, its average edge does,
+// of which tables are rounded to a share. A search for a path asks for distances that the graph engine, and
 // points without a leaf, have by whole fields only: there, tables have to do.
 PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfacePoint& target) {
     constexpr double FEW_EDGES = 4;
@@ -199,8 +193,10 @@ void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position,
     for (uint32_t k = 0; k < around.vertex_count; ++k) add_way(around.vertices[k], around.straight[k]);
 }
 
-// Tables have measured pairs wrong, and so has a field whatever it makes of them. A point is as far from one
-// of the pair as the other one is, but for how far that is from the point, and for what a pair is rounded by.
+// Tables have measured pairs wrong, so that fields from points near one vertex of such a pair have its other
+// vertex wrong, too. What was measured differs from its distance by no more than the point is away from the
+// first vertex, and by what a pair is rounded by. So vertices that are far from the point tell little: where
+// these have very many pairs, the first ones of the polygon have to do.
 void PointQueries::add_measured_ways(const FacePoint& point, uint32_t position, float offset,
                                      std::vector<Query::KnownWay>& known) const {
     constexpr size_t MOST_PAIRS = 512;

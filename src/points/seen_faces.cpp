@@ -25,7 +25,7 @@ bool is_in_angle(const Vector2d& right, const Vector2d& direction, const Vector2
     return cross(right, direction) >= 0 && cross(direction, left) >= 0;
 }
 
-// Where a border is cut by added vertices, an edge has up to 31 of them.
+// An edge of a border has up to 31 added vertices: each of the builder's rounds cuts it in halves.
 constexpr size_t MOST_BETWEEN = 64;
 
 // An end of an edge of the polygon.
@@ -46,6 +46,7 @@ struct Side {
 // edge what lies between two directions.
 struct Edge {
     uint32_t behind; // a face on the other side of the edge; NONE if there are more than MOST_BEHIND
+    bool is_copy;    // of an edge with another face behind it
     End first, second;
     Side right, left;
 
@@ -111,14 +112,26 @@ public:
         }
     }
 
-    // An edge has no length where vertices are at one position.
+    // Nothing is unfolded behind a border, so that copies of its edges tell nothing more. An edge has no
+    // length where vertices are at one position.
     void finish() {
+        std::array<FacePoint::Edge, FacePoint::MOST_EDGES> whole;
+        size_t count = 0, between = 0;
         point_.edge_count = 0;
-        for (size_t left = count_; left > 0; --left) {
-            const Edge& edge = edges_[count_ - left];
-            if (const double length = edge.along().norm(); length > 0)
-                add_parts(whole_edge(edge, length), left);
+        point_.longest_edge = 0;
+        for (const Edge& edge : std::span(edges_).first(count_)) {
+            const double length = edge.along().norm();
+            point_.longest_edge = std::max(point_.longest_edge, length);
+            if (!(length > 0) || (edge.is_copy && !goes_on(edge))) continue;
+            whole[count] = whole_edge(edge, length);
+            between += vertices_between(whole[count++]).size();
         }
+        // Where there is no room for all vertices between the ends of edges, every second one of an edge is
+        // taken, or every third one, and so on.
+        const size_t room =
+            std::min(FacePoint::MOST_VERTICES - point_.vertex_count, FacePoint::MOST_EDGES - count);
+        const size_t step = between / (room + 1) + 1;
+        for (const FacePoint::Edge& edge : std::span(whole).first(count)) add_parts(edge, step);
     }
 
 private:
@@ -145,10 +158,12 @@ private:
             count = 1;
             behind[0] = NONE;
         }
+        bool is_copy = false;
         for (const uint32_t other : std::span(behind).first(count)) {
-            edges_[count_] = {other, first, second, right, left};
+            edges_[count_] = {other, is_copy, first, second, right, left};
             keys_[count_] = key_of(edges_[count_].width(), count_);
             ++count_;
+            is_copy = true;
         }
     }
 
@@ -157,10 +172,7 @@ private:
     bool unfold(size_t index) {
         const Edge edge = edges_[index];
         const uint32_t face = edge.behind;
-        const auto& numbers = point_.numbers;
-        if (face == NONE ||
-            !known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.along().norm()))
-            return false;
+        if (face == NONE || !goes_on(edge)) return false;
         const uint32_t apex = apex_beyond(face, edge);
         const uint32_t number = known_.number_of(apex);
         const Vector2d place = place_ahead(surface_, edge.second, edge.first, apex);
@@ -193,19 +205,19 @@ private:
                 edge.left.is_end ? length : edge.met_in(edge.left.direction)};
     }
 
-    // Adds an edge of the polygon in the parts into which the vertices between its ends divide it. Where
-    // there is no room for all of these, it takes only every second one, or every third one, and so on. Of
-    // the polygon, `edges_left` edges are not added yet, this one among them.
-    void add_parts(const FacePoint::Edge& whole, size_t edges_left) {
-        std::array<VertexBetween, MOST_BETWEEN> between;
+    // They last until the next call.
+    std::span<const VertexBetween> vertices_between(const FacePoint::Edge& whole) {
         const size_t count = known_.find_between(point_.numbers[whole.first], point_.numbers[whole.second],
-                                                 whole.length, between);
-        const size_t room = std::min(FacePoint::MOST_VERTICES - point_.vertex_count,
-                                     FacePoint::MOST_EDGES - point_.edge_count - edges_left);
-        const size_t step = count / (room + 1) + 1;
+                                                 whole.length, between_);
+        return std::span(between_).first(count);
+    }
+
+    // Adds an edge of the polygon in the parts into which every step-th vertex between its ends divides it.
+    void add_parts(const FacePoint::Edge& whole, size_t step) {
+        const auto between = vertices_between(whole);
         uint32_t first = whole.first;
         double begin = 0;
-        for (size_t i = step - 1; i < count; i += step) {
+        for (size_t i = step - 1; i < between.size(); i += step) {
             const uint32_t second = add_between(whole, between[i]);
             add_part(whole, first, second, begin, between[i].along);
             first = second;
@@ -226,9 +238,14 @@ private:
     // What the point sees of an edge between two distances from its first end, if anything.
     void add_part(const FacePoint::Edge& whole, uint32_t first, uint32_t second, double begin, double end) {
         const double from = std::max(whole.seen_from, begin), to = std::min(whole.seen_to, end);
-        if (from <= to)
+        if (from <= to && begin < end)
             point_.edges[point_.edge_count++] = {first,        second,       end - begin, whole.foot - begin,
                                                  whole.height, from - begin, to - begin};
+    }
+
+    bool goes_on(const Edge& edge) const {
+        const auto& numbers = point_.numbers;
+        return known_.go_on(numbers[edge.first.slot], numbers[edge.second.slot], edge.along().norm());
     }
 
     // The corner of the face behind an edge that is no end of it.
@@ -264,6 +281,7 @@ private:
     size_t count_ = 0;
     std::array<Edge, FacePoint::MOST_EDGES> edges_;
     std::array<uint64_t, FacePoint::MOST_EDGES> keys_; // per edge, of width 0 where it cannot be unfolded
+    std::array<VertexBetween, MOST_BETWEEN> between_;  // scratch
 };
 
 }
@@ -303,15 +321,10 @@ SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t mos
     return around;
 }
 
-bool has_long_edges(double bounding_box_diagonal, double average_edge) {
-    constexpr double SOME_EDGES_ACROSS = 48;
-    return bounding_box_diagonal < SOME_EDGES_ACROSS * average_edge;
-}
-
-size_t vertices_of_polygon(const Surface& surface) {
-    constexpr double FEW_EDGES_ACROSS = 5;
-    if (surface.bounding_box_diagonal < FEW_EDGES_ACROSS * surface.average_edge) return 96;
-    return has_long_edges(surface) ? 32 : 16;
+size_t vertices_of_polygon(const Surface& surface, uint32_t face) {
+    constexpr uint32_t FEW_EDGES_ACROSS = 5;
+    if (surface.edges_across[surface.faces[face][0]] < FEW_EDGES_ACROSS) return 96;
+    return has_long_edges(surface, face) ? 32 : 16;
 }
 
 }

@@ -37,7 +37,7 @@ public:
     // Whether the face behind an edge is known, too.
     virtual bool go_on(uint32_t a, uint32_t b, double length) const = 0;
     // Writes the vertices that the index has between the ends of an edge, from the first end on, and returns
-    // how many there are: none where `found` has no room for all.
+    // how many it wrote: all of them, or none where there is no room for all.
     virtual size_t find_between(uint32_t a, uint32_t b, double length,
                                 std::span<VertexBetween> found) const = 0;
 
@@ -45,9 +45,10 @@ protected:
     ~KnownFaces() = default;
 };
 
-// Unfolds faces around a point, those behind the widest edges first, until its polygon has `most` vertices.
-// Then cuts the polygon's edges at the vertices that are known between their ends, as far as there is room
-// for them. `point` comes as the polygon of its face alone, which `at` is a point of.
+// Unfolds faces around a point, those behind the widest edges first, until its polygon has `most` vertices,
+// which are no more than MOST_VERTICES. Then cuts the polygon's edges at the vertices that are known between
+// their ends, as far as there is room for them. `point` comes as the polygon of its face alone, which `at` is
+// a point of.
 void see_farther(const Surface& surface, const SurfacePoint& at, const KnownFaces& known, size_t most,
                  FacePoint& point, SeenFaces& seen);
 
@@ -64,14 +65,9 @@ struct SeenAround {
 // knows of it. `at` is a point of the faces of an index.
 SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t most);
 
-// Whether edges are long for the whole surface.
-bool has_long_edges(double bounding_box_diagonal, double average_edge);
-inline bool has_long_edges(const Surface& surface) {
-    return has_long_edges(surface.bounding_box_diagonal, surface.average_edge);
-}
-
-// How many vertices a polygon has on a surface, but for those between the ends of its edges. What it does not
-// tell is a share of an edge's length, so that it has more where edges are long for the whole surface.
-size_t vertices_of_polygon(const Surface& surface);
+// How many vertices the polygon of a point on a face has, but for those between the ends of its edges, for
+// which there is room for 32 at least. What it does not tell is a share of an edge's length, so that it has
+// more where edges are long for the part of the surface that the face lies in.
+size_t vertices_of_polygon(const Surface& surface, uint32_t face);
 
 }

@@ -36,6 +36,32 @@ void for_each_indexed_face_beyond(const Surface& surface, uint32_t face, uint32_
     });
 }
 
+// A face that an index was made on, or one of the surface itself.
+struct AnyFace {
+    bool is_of_index;
+    uint32_t face;
+};
+
+inline std::array<uint32_t, 3> corners_of(const Surface& surface, const AnyFace& face) {
+    return face.is_of_index ? indexed_corners(surface, face.face) : surface.faces[face.face];
+}
+
+// Calls use(face) for every other face of the same kind at the edge between two corners of a face.
+template <class Use>
+void for_each_beyond(const Surface& surface, const AnyFace& face, uint32_t a, uint32_t b, const Use& use) {
+    const auto use_face = [&](uint32_t other) { use(AnyFace{face.is_of_index, other}); };
+    if (face.is_of_index)
+        for_each_indexed_face_beyond(surface, face.face, a, b, use_face);
+    else
+        for_each_face_beyond(surface, face.face, a, b, use_face);
+}
+
+inline bool has_face_beyond(const Surface& surface, const AnyFace& face, uint32_t a, uint32_t b) {
+    bool is_there = false;
+    for_each_beyond(surface, face, a, b, [&](const AnyFace&) { is_there = true; });
+    return is_there;
+}
+
 // A point of the surface as one of these faces. Nothing where rounding hides which of several flipped faces
 // it lies in.
 inline std::optional<SurfacePoint> indexed_point(const Surface& surface, const SurfacePoint& point) {

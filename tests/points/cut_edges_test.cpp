@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "src/capi/handles.h"
@@ -21,19 +23,22 @@ namespace {
 
 // No face behind that of the point, and so many vertices between the ends of each edge. Their numbers follow
 // those of the surface's vertices.
-class CutFace final : public AllKnown {
+class CutFace : public AllKnown {
 public:
     CutFace(const Surface& surface, size_t per_edge) : per_edge_(per_edge), positions_(surface.positions) {}
 
     bool go_on(uint32_t, uint32_t, double) const override { return false; }
+    // The same whenever it is asked for an edge.
     size_t find_between(uint32_t a, uint32_t b, double length,
                         std::span<VertexBetween> found) const override {
         if (per_edge_ > found.size()) return 0;
-        for (size_t i = 0; i < per_edge_; ++i) {
+        const auto [first, is_new] =
+            first_between_.try_emplace({a, b}, static_cast<uint32_t>(positions_.size()));
+        for (uint32_t i = 0; i < per_edge_; ++i) {
             const double share =
                 std::pow(static_cast<double>(i + 1) / static_cast<double>(per_edge_ + 1), 1.2);
-            found[i] = {static_cast<uint32_t>(positions_.size()), share * length};
-            positions_.push_back((1 - share) * positions_[a] + share * positions_[b]);
+            found[i] = {first->second + i, share * length};
+            if (is_new) positions_.push_back((1 - share) * positions_[a] + share * positions_[b]);
         }
         return per_edge_;
     }
@@ -42,6 +47,7 @@ public:
 private:
     const size_t per_edge_;
     mutable std::vector<Eigen::Vector3d> positions_; // by number
+    mutable std::map<std::pair<uint32_t, uint32_t>, uint32_t> first_between_;
 };
 
 // The distance of a target that the polygon knows from where its field is the least of two, each as if from a
@@ -89,6 +95,7 @@ TEST_CASE("cut edges: the parts see what the edges see, and straight lines over 
         const FacePoint point = look(surface, at, known).point;
         CHECK(point.vertex_count == 3 + 3 * (i % 8));
         CHECK(point.edge_count == 3 + 3 * (i % 8));
+        CHECK(point.longest_edge == look(surface, at, AllKnown(), 3).point.longest_edge);
         CHECK(angle_seen(point) == doctest::Approx(2 * std::numbers::pi));
         const Eigen::Vector3d origin = position_of(surface, at);
         for (uint32_t k = 0; k < point.vertex_count; ++k)
@@ -125,18 +132,79 @@ TEST_CASE("cut edges: where a field comes from two sides, they tell more of it")
 TEST_CASE("cut edges: where there is no room for all vertices, some of each edge are taken") {
     const Surface surface = plane();
     std::mt19937_64 random(3);
-    for (const size_t per_edge : {42u, 43u, 50u, 64u}) {
+    for (const size_t per_edge : {41u, 42u, 43u, 50u, 64u}) {
         const SurfacePoint at = point_inside(surface, random);
         const CutFace known(surface, per_edge);
         const FacePoint point = look(surface, at, known).point;
         CAPTURE(per_edge);
         CHECK(point.vertex_count <= FacePoint::MOST_VERTICES);
-        CHECK(point.vertex_count > FacePoint::MOST_VERTICES / 2);
+        CHECK(point.vertex_count == 3 + 3 * (per_edge <= 41 ? per_edge : per_edge / 2));
         CHECK(angle_seen(point) == doctest::Approx(2 * std::numbers::pi));
-        std::set<uint32_t> ends;
-        for (uint32_t k = 0; k < point.edge_count; ++k) ends.insert(point.edges[k].first);
-        CHECK(ends.size() == point.vertex_count);
+        std::array<uint32_t, 3> parts{}; // the parts of an edge follow each other
+        size_t edge = 0;
+        for (uint32_t k = 0; k < point.edge_count; ++k) {
+            ++parts[edge];
+            if (point.edges[k].second < 3) ++edge;
+        }
+        for (const uint32_t count : parts) CHECK(count == point.edge_count / 3);
     }
+    // More than can be asked for are left out.
+    const SurfacePoint at = point_inside(surface, random);
+    CHECK(look(surface, at, CutFace(surface, 65)).point.vertex_count == 3);
+}
+
+// Some of the vertices between the ends of edges are not seen then, and edges that are seen in part begin or
+// end within a part.
+TEST_CASE("cut edges: behind what is unfolded, straight lines over the parts are straight, too") {
+    struct Cut final : CutFace {
+        using CutFace::CutFace;
+        bool go_on(uint32_t, uint32_t, double) const override { return true; }
+    };
+    const Surface surface = surface_of(jittered_grid(12, 3));
+    std::mt19937_64 random(4);
+    size_t hidden = 0, in_part = 0, far = 0;
+    for (size_t i = 0; i < 100; ++i) {
+        CAPTURE(i);
+        const SurfacePoint at = random_point(surface, random, i);
+        const Cut known(surface, 1 + i % 5);
+        const FacePoint point = look(surface, at, known, 16).point;
+        CHECK(angle_seen(point) == doctest::Approx(angle_seen(look(surface, at, AllKnown(), 16).point)));
+        const Eigen::Vector3d origin = position_of(surface, at);
+        for (uint32_t k = 0; k < point.vertex_count; ++k) {
+            if (point.straight[k] == UNREACHABLE)
+                ++hidden;
+            else
+                CHECK(point.straight[k] ==
+                      doctest::Approx((known.position(point.numbers[k]) - origin).norm()));
+        }
+        for (const FacePoint::Edge& edge : std::span(point.edges).first(point.edge_count))
+            in_part += edge.seen_from > 0 || edge.seen_to < edge.length;
+        for (const Eigen::Vector3d& target : surface.positions) {
+            const double straight = (target - origin).norm();
+            if (straight < 0.5) continue;
+            CHECK(distance_by(point, known, {{target, target}, {0, 0}}) ==
+                  doctest::Approx(straight).epsilon(1e-9));
+            ++far;
+        }
+    }
+    CHECK(hidden > 20);
+    CHECK(in_part > 20);
+    CHECK(far > 1000);
+}
+
+TEST_CASE("cut edges: of an edge of several faces that end what is seen, the parts are there once") {
+    Soup soup = grid(1, 1, 1, 1);
+    soup.positions.push_back({0.5, 0.5, 1});
+    soup.positions.push_back({0.5, 0.5, -1});
+    const auto [a, b, c] = soup.triangles[0];
+    for (uint32_t k = 0; k < 2; ++k)
+        for (const auto& [first, second] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+            soup.triangles.push_back({first, second, 4 + k});
+    const Surface surface = surface_of(soup);
+    const SurfacePoint at{0, {0.3, 0.3, 0.4}};
+    const Polygon polygon = look(surface, at, CutFace(surface, 5));
+    CHECK(polygon.point.vertex_count == 3 + 3 * 5);
+    CHECK(polygon.point.edge_count == 3 + 3 * 5);
 }
 
 // Every added vertex lies on an edge of the surface between two leaves, and both have it there.
@@ -154,7 +222,7 @@ TEST_CASE("cut edges: the added vertices on the borders of leaves are found wher
             const auto& [x, y, z] = numbering.positions[number];
             return Eigen::Vector3d(x, y, z) * double{numbering.position_step};
         };
-        std::vector<size_t> times_found(numbering.vertex_count(), 0);
+        std::vector<std::set<uint32_t>> leaves_with(numbering.vertex_count());
         for (uint32_t f = 0; f < surface.face_count(); ++f)
             for (size_t k = 0; k < 3; ++k) {
                 const auto& face = indexed_corners(surface, f);
@@ -174,7 +242,7 @@ TEST_CASE("cut edges: the added vertices on the borders of leaves are found wher
                         CHECK((place(vertex.number) - expected).norm() < 2 * double{numbering.position_step});
                         CHECK(vertex.along > along);
                         along = vertex.along;
-                        ++times_found[vertex.number];
+                        leaves_with[vertex.number].insert(leaf);
                     }
                     CHECK(along < length);
                 }
@@ -183,7 +251,7 @@ TEST_CASE("cut edges: the added vertices on the borders of leaves are found wher
         for (const uint32_t number : index.number_of_id)
             if (number != NONE) has_id[number] = true;
         for (uint32_t number = 0; number < numbering.vertex_count(); ++number)
-            CHECK(has_id[number] == (times_found[number] == 0));
+            CHECK((has_id[number] ? leaves_with[number].empty() : leaves_with[number].size() >= 2));
         CHECK(index.vertices_with_id < numbering.vertex_count());
     }
 }

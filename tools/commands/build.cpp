@@ -110,7 +110,7 @@ void add_shape_options(CLI::App& command, BuildArguments& arguments) {
     command
         .add_option("--target-error", arguments.target_error,
                     "of the overlay engine: mean error, as a share, above which vertices are added to the "
-                    "borders of patches; 0: never")
+                    "borders of patches, also that of fields from points within large triangles; 0: never")
         ->capture_default_str();
     command.add_flag("--store-mesh", arguments.store_mesh,
                      "keep the mesh in the file, which then is enough for 'geoidx path'");

@@ -42,7 +42,7 @@ bool are_in_leaf(const Numbering& numbering, uint32_t leaf, const std::array<uin
 // Segments from one end to the other that are no longer than the edge together lie on it.
 std::optional<size_t> find_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b,
                                      double length, std::span<VertexBetween> found) {
-    constexpr double ROUNDING = 1e-6;
+    constexpr double TOLERANCE = 1e-6;
     const Numbering& numbering = index.numbering;
     const Rings& rings = index.rings;
     if (!numbering.is_border(a) || !numbering.is_border(b)) return std::nullopt;
@@ -54,7 +54,7 @@ std::optional<size_t> find_on_border(const OverlayIndex& index, uint32_t leaf, u
         for (size_t count = 0;; ++count) {
             const uint32_t next = step > 0 ? place + 1 : place - 1;
             along += double{rings.segment_length[std::min(place, next)]};
-            if (!(along <= length * (1 + ROUNDING))) break; // also at a gap
+            if (!(along <= length * (1 + TOLERANCE))) break; // also at a gap
             if (rings.vertex[next] == b) return count;
             if (rings.vertex[next] == a) break; // all around
             if (count < found.size()) found[count] = {rings.vertex[next], along};

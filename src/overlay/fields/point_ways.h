@@ -30,8 +30,9 @@ bool is_in_leaf(const Numbering& numbering, uint32_t leaf, uint32_t number);
 // Whether all corners of a face are.
 bool are_in_leaf(const Numbering& numbering, uint32_t leaf, const std::array<uint32_t, 3>& corners);
 
-// Where the edge between two vertices runs along the border of a leaf, counts the added vertices that cut it
-// there, and writes the first ones of them, from `a` on, as far as there is room. Nothing if it does not.
+// Where the edge between two vertices runs along the border of a leaf, counts the vertices between its ends,
+// which are added ones, and writes the first of them, from `a` on, as far as there is room. Nothing if it
+// does not.
 std::optional<size_t> find_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b,
                                      double length, std::span<VertexBetween> found);
 
