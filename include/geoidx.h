@@ -183,13 +183,15 @@ enum {
      * hundredth, at most four for each vertex or 32,768 in all, whichever is more, the most wrong ones first,
      * and none that are too short to have a relative error (see geoidx_info): all queries from vertices
      * answer these, MSAD from several ones source by source. Around such pairs up to 1,920 vertices are
-     * compared. Points within triangles and sources with offsets have none. On meshes of more than 400,000
-     * vertices fewer are compared. Building takes some 4 KB of memory a vertex for that, up to 8 KB where
-     * many pairs are wrong. Then, too, an index holds the edges along which MSAD would change by more than
-     * they are long, and lowers the farther ends of these, measured distances included: from one vertex, the
-     * distances of the ends of any edge of the welded mesh differ by no more than 1.05 times its length and
-     * the rounding of a float, on meshes of up to 65,536 vertices. On larger ones, from several sources and
-     * from points, an edge in a million may be steeper. */
+     * compared. With GEOIDX_METRIC_WEIGHTED and delta 0 these are pairs of each vertex and the 120 nearest
+     * ones, and no more are compared. Pairs of points within triangles and sources with offsets have none;
+     * in fields from points, those of the vertices around are bounds. On meshes of more than 400,000 vertices
+     * fewer are compared. Building takes some 4 KB of memory a vertex for that, up to 8 KB where many pairs
+     * are wrong. With GEOIDX_METRIC_EXACT as above, an index also holds the edges along which MSAD would
+     * change by more than they are long, and lowers the farther ends of these, measured distances included:
+     * from one vertex, the distances of the ends of any edge of the welded mesh differ by no more than 1.05
+     * times its length and the rounding of a float, on meshes of up to 65,536 vertices. On larger ones, from
+     * several sources and from points, an edge in a million may be steeper. */
     GEOIDX_ENGINE_OVERLAY = 1
 };
 

@@ -139,9 +139,11 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
     std::optional<ErrorsByDistance> let_pass;
     if (filling.near_distances()) {
-        let_pass = hold_wrong_pairs(intake, *filling.near_distances(), stating, index, WRONG_PAIRS_END);
+        const auto scale = distance_scale(index.description, intake.mesh, *filling.solved_fields().front());
+        let_pass =
+            hold_wrong_pairs(intake, scale, *filling.near_distances(), stating, index, WRONG_PAIRS_END);
         filling.near_distances().reset();
-        hold_steep_edges(intake, stating, index, STEEP_EDGES_END);
+        if (follows_positions(index.description)) hold_steep_edges(intake, stating, index, STEEP_EDGES_END);
     }
     stating.begin_stage("accuracy", 1);
     state_errors(intake, filling.solved_fields(), let_pass, stating, index);

@@ -17,12 +17,21 @@ namespace {
 
 constexpr double TABLES_END = 0.91; // the share of the work that is done when all tables are filled
 
+// Whether the metric finds what is near each vertex while it is solved for tables.
+bool finds_near_distances(const Description& about) {
+    if (about.engine != GEOIDX_ENGINE_OVERLAY || about.delta != 0) return false;
+    return about.metric == GEOIDX_METRIC_WEIGHTED ||
+           (about.metric == GEOIDX_METRIC_EXACT && follows_positions(about));
+}
+
 // With how many vertices around each one answers are compared at first: as far as wrong ones are frequent,
-// which is some ten edges on scans. On very large meshes they are fewer, so that they take no more than 1.5
-// GB, and twice that where hold_wrong_pairs() looks much farther.
-uint32_t compared_around(uint32_t vertex_count) {
-    constexpr uint64_t MOST = 480, VERTICES = 400000;
-    return static_cast<uint32_t>(std::clamp<uint64_t>(MOST * VERTICES / vertex_count, 1, MOST));
+// which is some ten edges on scans, and on weighted surfaces as far as tables are measured anyway, since more
+// would take long. On very large meshes they are fewer, so that they take no more than 1.5 GB, and twice that
+// where hold_wrong_pairs() looks much farther.
+uint32_t compared_around(const Description& about, uint32_t vertex_count) {
+    constexpr uint64_t VERTICES = 400000;
+    const uint64_t most = about.metric == GEOIDX_METRIC_WEIGHTED ? 120 : 480;
+    return static_cast<uint32_t>(std::clamp<uint64_t>(most * VERTICES / vertex_count, 1, most));
 }
 
 }
@@ -30,9 +39,8 @@ uint32_t compared_around(uint32_t vertex_count) {
 Filling::Filling(const Intake& intake, const geoidx_build_options& options, const Description& about,
                  Index& index)
     : intake_(intake), options_(options), about_(about), index_(index) {
-    if (crosses_between_vertices(about) && about.metric == GEOIDX_METRIC_EXACT && about.delta == 0 &&
-        follows_positions(about))
-        near_.emplace(intake.mesh.vertex_count(), compared_around(intake.mesh.vertex_count()));
+    if (finds_near_distances(about))
+        near_.emplace(intake.mesh.vertex_count(), compared_around(about, intake.mesh.vertex_count()));
 }
 
 StoredIndex Filling::fill(const SplitSurface& surface, Workers& workers,

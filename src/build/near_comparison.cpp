@@ -27,12 +27,12 @@ double largest_step(const Index& index) {
 }
 
 NearComparison::NearComparison(const Index& index, const Intake& intake, const NearDistances& near,
-                               const ListOfLists<uint32_t>& edge_ends, double limit, bool finds_steep)
+                               const ListOfLists<uint32_t>& edge_ends, const DistanceScale& scale,
+                               double limit, bool finds_steep)
     : index_(index), intake_(intake), near_(near), edge_ends_(edge_ends), limit_(limit),
-      finds_steep_(finds_steep), too_short_(too_short_beside(intake.bounding_box_diagonal)),
-      rounded_by_limit_(largest_step(index) / limit), query_(index, std::pmr::get_default_resource()),
-      answer_(index.description.id_count, INFINITE), field_(near.vertex_count(), {0, 0}),
-      let_pass_(mean_edge(intake.mesh)) {}
+      finds_steep_(finds_steep), too_short_(scale.too_short), rounded_by_limit_(largest_step(index) / limit),
+      query_(index, std::pmr::get_default_resource()), answer_(index.description.id_count, INFINITE),
+      field_(near.vertex_count(), {0, 0}), let_pass_(scale.average_edge) {}
 
 void NearComparison::compare(uint32_t source, std::vector<WrongPair>& wrong) {
     source_ = source;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/build/errors_by_distance.h"
+#include "src/build/relative_errors.h"
 #include "src/index/stored.h"
 #include "src/mesh/intake.h"
 #include "src/query/query.h"
@@ -21,9 +22,11 @@ struct WrongPair {
 // One thread's answers compared with the metric near vertices, from one of them at a time.
 class NearComparison {
 public:
-    // An error up to `limit` is let pass, and so are steep edges, unless asked for.
+    // An error up to `limit` is let pass, and so are steep edges, unless asked for, which they may be where
+    // positions alone decide distances.
     NearComparison(const Index& index, const Intake& intake, const NearDistances& near,
-                   const ListOfLists<uint32_t>& edge_ends, double limit, bool finds_steep);
+                   const ListOfLists<uint32_t>& edge_ends, const DistanceScale& scale, double limit,
+                   bool finds_steep);
 
     // Adds the wrong pairs of this source with its near vertices:
     // - Pairs of which MSAD is off by more than the limit.

@@ -23,6 +23,18 @@ void answer(const Index& index, Crossing crossing, uint32_t source, std::span<fl
         GraphQuery(std::get<GraphIndex>(index.engine), memory).msad({&source, 1}, INFINITE, distance);
 }
 
+double mean_edge_at_sources(const Mesh& mesh, const ExactFields& exact, double too_short) {
+    double sum = 0;
+    uint64_t count = 0;
+    for (size_t i = 0; i < exact.sources.size(); ++i)
+        for (const uint32_t v : neighbours(mesh, exact.sources[i]))
+            if (const double length = exact.distances[i][v]; has_relative_error(length, too_short)) {
+                sum += length;
+                ++count;
+            }
+    return count == 0 ? 0 : sum / static_cast<double>(count);
+}
+
 }
 
 ExactFields exact_fields(uint64_t seed, uint32_t vertex_count, Workers& workers) {
@@ -43,6 +55,12 @@ double too_short_to_count(const Description& about, const ExactFields& exact) {
         for (const double distance : of_source)
             if (distance < UNREACHABLE) longest = std::max(longest, distance);
     return too_short_beside(longest);
+}
+
+DistanceScale distance_scale(const Description& about, const Mesh& mesh, const ExactFields& exact) {
+    const double too_short = too_short_to_count(about, exact);
+    return {too_short,
+            follows_positions(about) ? mean_edge(mesh) : mean_edge_at_sources(mesh, exact, too_short)};
 }
 
 std::vector<double> relative_errors(const Index& index, Crossing crossing,

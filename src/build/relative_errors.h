@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "src/mesh/mesh.h"
 #include "src/metric/workers.h"
 #include "src/overlay/fields/ssad.h"
 #include "src/query/index.h"
@@ -21,6 +22,14 @@ ExactFields exact_fields(uint64_t seed, uint32_t vertex_count, Workers& workers)
 // Up to which distance answers have no relative error, see too_short_beside(). Where positions alone do not
 // decide distances, the longest one of these fields is the extent.
 double too_short_to_count(const Description& about, const ExactFields& exact);
+
+// What decides of a distance whether it counts, and to which class it belongs: see too_short_beside() and
+// ErrorsByDistance. The average edge is that of the mesh where positions alone decide distances, and by the
+// metric that of the edges at the sources of the fields where they do not.
+struct DistanceScale {
+    double too_short, average_edge;
+};
+DistanceScale distance_scale(const Description& about, const Mesh& mesh, const ExactFields& exact);
 
 // The errors of MSAD from each of these sources alone, relative to the metric. vertex_of_number gives the
 // mesh vertex of each number; those that the fields do not have, added vertices, do not count,

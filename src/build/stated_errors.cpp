@@ -69,23 +69,6 @@ Effort effort_for(const Description& about, bool is_near_known, uint32_t vertex_
     return {near_effort(is_near_known ? sources / 2 : sources, screened), two_way, pairs, 1};
 }
 
-double mean_edge_at_sources(const Mesh& mesh, const ExactFields& exact, double too_short) {
-    double sum = 0;
-    uint64_t count = 0;
-    for (size_t i = 0; i < exact.sources.size(); ++i)
-        for (const uint32_t v : neighbours(mesh, exact.sources[i]))
-            if (const double length = exact.distances[i][v]; has_relative_error(length, too_short)) {
-                sum += length;
-                ++count;
-            }
-    return count == 0 ? 0 : sum / static_cast<double>(count);
-}
-
-// The unit of classes of distances.
-double average_edge(const Description& about, const Mesh& mesh, const ExactFields& exact, double too_short) {
-    return follows_positions(about) ? mean_edge(mesh) : mean_edge_at_sources(mesh, exact, too_short);
-}
-
 struct FieldErrors {
     ErrorsByDistance by_distance;
     std::vector<double> of_msad; // with signs
@@ -183,8 +166,7 @@ void state_errors(const Intake& intake, std::span<const ExactFields* const> fiel
                   const std::optional<ErrorsByDistance>& known, Workers& workers, Index& index) {
     const Description& about = index.description;
     const ExactFields& measuring = *fields.front();
-    const double too_short = too_short_to_count(about, measuring);
-    const double edge = average_edge(about, intake.mesh, measuring, too_short);
+    const auto [too_short, edge] = distance_scale(about, intake.mesh, measuring);
     const uint32_t vertex_count = intake.mesh.vertex_count();
     const Effort effort = effort_for(about, known.has_value(), vertex_count);
     const ErrorsByDistance none(edge);
@@ -194,7 +176,7 @@ void state_errors(const Intake& intake, std::span<const ExactFields* const> fiel
         const bool is_measuring = exact == &measuring;
         auto of_msad = add_errors_of_fields(index, intake, *exact, too_short, is_measuring, effort.pairs,
                                             none, workers, errors);
-        if (is_measuring && crosses_between_vertices(about))
+        if (is_measuring && (known || crosses_between_vertices(about)))
             stated = with_measured_pairs(about.error, std::move(of_msad));
     }
     add_largest_errors(index, intake, edge, too_short, effort, workers, errors);

@@ -40,10 +40,11 @@ void keep_different(std::vector<WrongPair>& wrong) {
 
 class Search {
 public:
-    Search(const Intake& intake, NearDistances& near, Workers& workers, Index& index, double end_fraction)
-        : intake_(intake), near_(near), workers_(workers), end_fraction_(end_fraction), index_(index),
-          edge_ends_(edge_ends_at_vertices(intake.mesh)), average_edge_(mean_edge(intake.mesh)),
-          vertex_of_number_(index.numbering().vertex_count(), NONE), let_pass_(average_edge_) {
+    Search(const Intake& intake, const DistanceScale& scale, NearDistances& near, Workers& workers,
+           Index& index, double end_fraction)
+        : intake_(intake), scale_(scale), near_(near), workers_(workers), end_fraction_(end_fraction),
+          index_(index), edge_ends_(edge_ends_at_vertices(intake.mesh)),
+          vertex_of_number_(index.numbering().vertex_count(), NONE), let_pass_(scale.average_edge) {
         for (uint32_t v = 0; v < near.vertex_count(); ++v) {
             vertex_of_number_[number_of(v)] = v;
             most_work_ += WORK * near.of(v).size();
@@ -54,13 +55,17 @@ public:
     void run() {
         workers_.begin_stage("accuracy", FIRST_LOOK_END * end_fraction_);
         while (!hold_all() && limit_ < 1) limit_ *= RAISE;
-        hold_steep();
+        if (held_.size() > most())
+            keep_worst(most());
+        else if (is_by_positions())
+            hold_steep();
     }
 
     // The largest errors of pairs that were compared and are not held.
     const ErrorsByDistance& let_pass() const { return let_pass_; }
 
 private:
+    bool is_by_positions() const { return follows_positions(index_.description); }
     size_t few_for_each() const { return MOST_PAIRS * near_.vertex_count(); }
     size_t most() const { return std::max(few_for_each(), FEW_IN_ALL); }
 
@@ -71,7 +76,7 @@ private:
         hold();
         for (uint32_t pass = 0; pass < MOST_PASSES; ++pass) {
             if (!find(pass == 0 ? all_vertices() : vertices_with_pairs(), false)) return true;
-            if (pass == 0) look_farther();
+            if (pass == 0 && is_by_positions()) look_farther();
             if (held_.size() > most()) return false;
             hold();
         }
@@ -82,7 +87,6 @@ private:
     // held besides that make edges less steep, since they are more exact than lowered ones. They have smaller
     // errors than the others and take the place of none.
     void hold_steep() {
-        if (held_.size() > most()) return keep_worst(most());
         const size_t room = std::max(few_for_each(), held_.size());
         for (uint32_t pass = 0; pass < MOST_PASSES && held_.size() < room; ++pass) {
             if (!find(pass == 0 ? all_vertices() : vertices_with_pairs(), true)) return;
@@ -107,9 +111,9 @@ private:
     bool find(std::span<const uint32_t> sources, bool finds_steep) {
         const size_t at_once = std::max<size_t>(FEWEST_AT_ONCE, sources.size() / MOST_TASKS);
         std::vector<std::vector<WrongPair>> of_task((sources.size() + at_once - 1) / at_once);
-        std::vector<ErrorsByDistance> let_pass(of_task.size(), ErrorsByDistance(average_edge_));
+        std::vector<ErrorsByDistance> let_pass(of_task.size(), ErrorsByDistance(scale_.average_edge));
         workers_.run(of_task.size(), [&](FieldSolver&, size_t task) {
-            NearComparison comparison(index_, intake_, near_, edge_ends_, limit_, finds_steep);
+            NearComparison comparison(index_, intake_, near_, edge_ends_, scale_, limit_, finds_steep);
             const size_t begin = task * at_once, end = std::min(begin + at_once, sources.size());
             const size_t far_too_many = most() > FEW_IN_ALL ? 16 * MOST_PAIRS * (end - begin) : FEW_IN_ALL;
             for (size_t i = begin; i < end && of_task[task].size() < far_too_many; ++i) {
@@ -181,7 +185,8 @@ private:
         measured().largest_errors.fill(0);
         for (const WrongPair& wrong : held_) {
             pairs.push_back(wrong.pair);
-            float& largest = measured().largest_errors[distance_class(wrong.pair.distance / average_edge_)];
+            float& largest =
+                measured().largest_errors[distance_class(wrong.pair.distance / scale_.average_edge)];
             largest = std::max(largest, static_cast<float>(std::min(wrong.error, 1.0)));
         }
         take_pairs(pairs, index_.numbering().vertex_count(), measured());
@@ -197,12 +202,12 @@ private:
     MeasuredPairs& measured() const { return std::get<OverlayIndex>(index_.engine).measured; }
 
     const Intake& intake_;
+    const DistanceScale scale_;
     NearDistances& near_;
     Workers& workers_;
     const double end_fraction_;
     Index& index_;
     const ListOfLists<uint32_t> edge_ends_;
-    const double average_edge_;
     double limit_ = LARGEST_ERROR;           // of errors that are let pass
     std::vector<uint32_t> vertex_of_number_; // NONE of added vertices
     uint64_t most_work_ = 0;                 // so many vertices may be found by looking farther
@@ -213,9 +218,9 @@ private:
 
 }
 
-ErrorsByDistance hold_wrong_pairs(const Intake& intake, NearDistances& near, Workers& workers, Index& index,
-                                  double end_fraction) {
-    Search search(intake, near, workers, index, end_fraction);
+ErrorsByDistance hold_wrong_pairs(const Intake& intake, const DistanceScale& scale, NearDistances& near,
+                                  Workers& workers, Index& index, double end_fraction) {
+    Search search(intake, scale, near, workers, index, end_fraction);
     search.run();
     return search.let_pass();
 }

@@ -24,8 +24,8 @@ struct FieldRequest {
     std::span<const uint32_t> sources, targets;
     std::span<const SurfacePoint> source_points, target_points;
     double radius = UNREACHABLE; // targets farther than this need not be final
-    // So many vertices are final, too, the nearest ones, of those up to `radius`. Only the exact metric heeds
-    // it.
+    // So many vertices are final, too, the nearest ones, of those up to `radius`. Only the exact metric and
+    // that of weighted surfaces heed it.
     uint32_t final_count = 0;
 };
 
@@ -52,8 +52,8 @@ public:
     double distance(uint32_t vertex) const { return distance_[vertex]; }
     // The vertices for which it found any distance, final or not.
     std::span<const uint32_t> reached() const { return touched_; }
-    // Up to this distance, all of them are final. Only the exact metric says so, and only as far as it was
-    // asked for more than targets; otherwise it may be 0.
+    // Up to this distance, all of them are final. Only metrics that heed final_count say so, and the exact
+    // one only as far as it was asked for more than targets; otherwise it may be 0.
     double final_up_to() const { return final_up_to_; }
     // Position in `sources` of the source that distance(vertex) was measured from, or past them in
     // `source_points`; NONE if there is none.

@@ -68,16 +68,23 @@ void SteinerSearch::clear() {
 void SteinerSearch::run(const FieldRequest& request) {
     clear();
     start(request);
+    bool is_done = false; // with the targets
+    uint32_t settled = 0;
+    set_final_up_to(UNREACHABLE);
     while (!queue_.empty()) {
         const auto event = queue_.pop();
-        if (event.distance > request.radius) break;
+        if (event.distance > request.radius || (is_done && settled >= request.final_count)) {
+            set_final_up_to(event.distance); // it was the least of those that may still be lowered
+            break;
+        }
         if (event.item >= nodes_.size()) {
-            if (pending_.settle_point(event.item - nodes_.size())) break;
+            is_done |= pending_.settle_point(event.item - nodes_.size());
         } else if (event.distance != nodes_[event.item].distance) {
             continue;
         } else if (event.item < vertex_count()) {
             settle_vertex(event.item);
-            if (pending_.settle(event.item)) break;
+            ++settled;
+            is_done |= pending_.settle(event.item);
         } else {
             const uint32_t point = event.item - vertex_count();
             settle_edge_point(point / points_per_edge(), point % points_per_edge() + 1);

@@ -9,7 +9,7 @@
 namespace geodesic {
 
 // The metric's distances between each vertex of the caller's mesh and those that are near it: the nearest
-// ones, a number of them. Solving for tables finds most of them anyway. The metric must be the exact one.
+// ones, a number of them. Solving for tables finds most of them anyway. The metric must heed final_count.
 class NearDistances {
 public:
     struct Near {

@@ -163,3 +163,31 @@ TEST_CASE("weighted: symmetric, stops early without a change, and is used again 
         if (from_a[v] != from_b[v]) CHECK(solver->nearest(v) == (from_a[v] < from_b[v] ? 0 : 1));
     }
 }
+
+TEST_CASE("weighted surface: the nearest vertices, as many as are asked for besides targets, are final") {
+    const Mesh mesh = mesh_of(bumpy_sphere(3, 3));
+    std::mt19937_64 random(5);
+    std::vector<double> costs(mesh.face_count());
+    for (double& cost : costs) cost = uniform(random, 1, 5);
+    const auto solver = WeightedMetric(mesh, costs, 3).make_solver();
+    const uint32_t source = 17, target = 20;
+    const auto full = field(mesh, *solver, {&source, 1});
+    for (const uint32_t count : {1u, 60u, 300u, 5000u}) {
+        FieldRequest request{{&source, 1}, {&target, 1}, {}, {}};
+        request.final_count = count;
+        solver->solve(request);
+        CHECK(solver->distance(target) == full[target]);
+        size_t final_vertices = 0;
+        for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+            if (full[v] > solver->final_up_to()) continue;
+            ++final_vertices;
+            CHECK(solver->distance(v) == full[v]);
+        }
+        CHECK(final_vertices >= std::min(count, mesh.vertex_count()));
+        CHECK((solver->reached().size() < mesh.vertex_count()) == (count <= 300));
+    }
+    solver->solve({&source, 1}, {}, 0.5);
+    CHECK(solver->final_up_to() >= 0.5);
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
+        if (full[v] <= 0.5) CHECK(solver->distance(v) == full[v]);
+}
