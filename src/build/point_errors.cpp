@@ -60,6 +60,7 @@ PointErrors::PointErrors(const Intake& intake, uint64_t seed, Workers& workers)
 // Leaves out those of which rounding hides where the index has them.
 void PointErrors::choose_points(uint64_t seed) {
     const std::vector<double> areas = areas_up_to(surface_);
+    if (!(areas.back() > 0)) return;
     Random random(seed);
     for (uint32_t left = source_count_of_rounds(surface_.vertex_count()); left > 0; --left)
         if (const SurfacePoint point = random_point(areas, random); indexed_point(surface_, point))

@@ -120,9 +120,9 @@ std::vector<double> add_errors_of_fields(const Index& index, const Intake& intak
 }
 
 // What was measured of the tables alone, and now of the index, which may hold measured pairs, too.
-MeasuredError with_measured_pairs(const MeasuredError& of_tables, std::vector<double> errors) {
+MeasuredError with_measured_pairs(const Description& about, std::vector<double> errors) {
     MeasuredError stated = summary(std::move(errors));
-    stated.mean_at_vertices = of_tables.mean_at_vertices;
+    stated.mean_at_vertices = crosses_between_vertices(about) ? about.error.mean_at_vertices : stated.mean;
     return stated;
 }
 
@@ -177,7 +177,7 @@ void state_errors(const Intake& intake, std::span<const ExactFields* const> fiel
         auto of_msad = add_errors_of_fields(index, intake, *exact, too_short, is_measuring, effort.pairs,
                                             none, workers, errors);
         if (is_measuring && (known || crosses_between_vertices(about)))
-            stated = with_measured_pairs(about.error, std::move(of_msad));
+            stated = with_measured_pairs(about, std::move(of_msad));
     }
     add_largest_errors(index, intake, edge, too_short, effort, workers, errors);
     state_largest(errors, error_of_several(index, intake, measuring, too_short, effort.rounds, workers),

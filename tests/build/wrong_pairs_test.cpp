@@ -149,7 +149,7 @@ TEST_CASE("wrong pairs: of weighted surfaces, hardly any near answer is off by a
     for (const double most : {1.0, 10.0}) {
         const TestMesh mesh = grid(20, 20, 1);
         std::vector<double> costs(mesh.triangle_count());
-        for (double& cost : costs) cost = std::uniform_real_distribution(1.0, most + 1e-9)(random);
+        for (double& cost : costs) cost = 1 + (most - 1) * static_cast<double>(random() % 1000) / 999;
         geoidx_build_options options = default_options();
         options.metric = GEOIDX_METRIC_WEIGHTED;
         options.face_costs = costs.data();
@@ -176,6 +176,8 @@ TEST_CASE("wrong pairs: of weighted surfaces, hardly any near answer is off by a
         CAPTURE(most);
         CHECK(wrong <= near / 10000);
         CHECK(largest < 0.1);
-        CHECK(info_of(index.get()).error_max < 0.1);
+        const geoidx_info info = info_of(index.get());
+        CHECK(info.error_max < 0.2);
+        CHECK(info.error_mean_at_vertices == info.error_mean);
     }
 }
