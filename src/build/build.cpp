@@ -134,19 +134,19 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     StoredIndex stored =
         filling.fill({surface, hierarchy}, workers, may_add_vertices(options) ? &measured : nullptr);
     if (may_add_vertices(options))
-        Rounds(intake, options, filling_progress, filling, index)
+        Rounds(intake, flipped, options, filling_progress, filling, index)
             .run({surface, hierarchy}, *metric, std::move(stored), std::move(measured));
     Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
+    const auto scale = distance_scale(index.description, intake.mesh, *filling.solved_fields().front());
     std::optional<ErrorsByDistance> let_pass;
     if (filling.near_distances()) {
-        const auto scale = distance_scale(index.description, intake.mesh, *filling.solved_fields().front());
         let_pass =
             hold_wrong_pairs(intake, scale, *filling.near_distances(), stating, index, WRONG_PAIRS_END);
         filling.near_distances().reset();
         if (follows_positions(index.description)) hold_steep_edges(intake, stating, index, STEEP_EDGES_END);
     }
     stating.begin_stage("accuracy", 1);
-    state_errors(intake, filling.solved_fields(), let_pass, stating, index);
+    state_errors(intake, scale, filling.solved_fields(), let_pass, stating, index);
     if (options.store_mesh) keep_mesh(pack_mesh(mesh).view(), index);
 }
 

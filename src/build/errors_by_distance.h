@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 
 #include "src/index/description.h"
 #include "src/metric/metric.h"
@@ -27,6 +28,16 @@ inline bool has_relative_error(double exact, double too_short) {
 }
 
 inline double relative_error(double exact, double answer) { return std::abs((answer - exact) / exact); }
+
+// Calls use(distance, answer) for each vertex of a mesh whose answer can have a relative error. exact(vertex)
+// is the distance by the metric; answers are by the caller's ids, of which this is one for each vertex.
+template <class Exact, class Use>
+void for_each_comparison(std::span<const float> answers, std::span<const uint32_t> id_of_vertex,
+                         double too_short, const Exact& exact, const Use& use) {
+    for (uint32_t v = 0; v < id_of_vertex.size(); ++v)
+        if (const double distance = exact(v); has_relative_error(distance, too_short))
+            use(distance, double{answers[id_of_vertex[v]]});
+}
 
 // The mean and the largest of relative errors. Errors are added one by one to the sum of one part, such as
 // those of one source, and parts to each other.

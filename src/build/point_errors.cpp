@@ -45,8 +45,9 @@ SurfacePoint random_point(const std::vector<double>& areas, Random& random) {
 
 }
 
-PointErrors::PointErrors(const Intake& intake, uint64_t seed, Workers& workers)
-    : surface_(Intake(intake), {}, FlatFaces(intake.mesh)) {
+PointErrors::PointErrors(const Intake& intake, const std::optional<FlippedEdges>& flipped, uint64_t seed,
+                         Workers& workers)
+    : surface_(Intake(intake), {}, FlatFaces(flipped)) {
     choose_points(seed);
     distances_.resize(points_.size());
     workers.run(points_.size(), [&](FieldSolver& solver, size_t i) {
@@ -74,9 +75,9 @@ MeasuredError PointErrors::measure(const Index& index, Workers& workers) const {
         Query query(index, std::pmr::get_default_resource());
         std::vector<float> answers(index.description.id_count);
         PointQueries(index, query, surface_).msad({&points_[i], 1}, {}, answers);
-        for (uint32_t v = 0; v < surface_.vertex_count(); ++v)
-            if (const double exact = distances_[i][v]; has_relative_error(exact, too_short))
-                of_point[i].push_back(relative_error(exact, answers[surface_.id_of_vertex[v]]));
+        for_each_comparison(
+            answers, surface_.id_of_vertex, too_short, [&](uint32_t v) { return distances_[i][v]; },
+            [&](double exact, double answer) { of_point[i].push_back(relative_error(exact, answer)); });
     });
     std::vector<double> errors;
     errors.reserve(points_.size() * surface_.vertex_count());

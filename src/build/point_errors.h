@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "src/mesh/flat_edges.h"
 #include "src/mesh/intake.h"
 #include "src/metric/workers.h"
 #include "src/query/index.h"
@@ -23,8 +25,10 @@ inline uint32_t source_count_of_rounds(uint32_t vertex_count) {
 // with the same distances.
 class PointErrors {
 public:
-    // The metric of the workers is the exact one of the faces that the index is made on.
-    PointErrors(const Intake& intake, uint64_t seed, Workers& workers);
+    // `flipped` is what flip_flat_edges() returns for the mesh of the intake. The metric of the workers is
+    // the exact one of the faces that the index is made on.
+    PointErrors(const Intake& intake, const std::optional<FlippedEdges>& flipped, uint64_t seed,
+                Workers& workers);
 
     // The relative errors of MSAD from each of the points alone.
     MeasuredError measure(const Index& index, Workers& workers) const;

@@ -105,15 +105,14 @@ void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex 
 // Points are asked where edges are long: on scans they are as exact as vertices. A scan with some loose
 // triangles is a scan.
 double Rounds::first_error(const Metric& metric) {
-    constexpr size_t WORTHWHILE =
-        16; // times as many vertices, at most, as there are on parts with long edges
+    constexpr size_t WORTHWHILE = 16; // times the vertices on parts with long edges are all, at most
     const auto across = edges_across_parts(intake_.mesh);
     if (WORTHWHILE * static_cast<size_t>(std::ranges::count_if(across, are_long_edges)) < across.size())
         return index_.description.error.mean;
     constexpr uint64_t POINT_SEED = 0x706F696E7473;
     Workers workers(metric, options_.threads, part_of_progress(progress_, FIRST_FILLING_END, ROUNDS_BEGIN));
     workers.begin_stage("accuracy", 1);
-    of_points_.emplace(intake_, options_.seed ^ POINT_SEED, workers);
+    of_points_.emplace(intake_, flipped_, options_.seed ^ POINT_SEED, workers);
     return error_of_index(workers);
 }
 

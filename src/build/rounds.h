@@ -19,9 +19,12 @@ ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, d
 // become smaller, or until there is nothing to cut or no room for more.
 class Rounds {
 public:
-    Rounds(const Intake& intake, const geoidx_build_options& options, const ProgressFunction& progress,
-           Filling& filling, Index& index)
-        : intake_(intake), options_(options), progress_(progress), filling_(filling), index_(index) {}
+    // `flipped` is what flip_flat_edges() returns for the mesh of the intake.
+    Rounds(const Intake& intake, const std::optional<FlippedEdges>& flipped,
+           const geoidx_build_options& options, const ProgressFunction& progress, Filling& filling,
+           Index& index)
+        : intake_(intake), flipped_(flipped), options_(options), progress_(progress), filling_(filling),
+          index_(index) {}
 
     // `filled` is what the filling made of this surface, which has no added vertices, and what the index was
     // prepared from; `measured` is what it measured for that. Afterwards the index is the one with the
@@ -39,6 +42,7 @@ private:
     bool fits(const FinerSurface& surface, Workers& workers) const;
 
     const Intake& intake_;
+    const std::optional<FlippedEdges>& flipped_;
     const geoidx_build_options& options_;
     const ProgressFunction& progress_;
     Filling& filling_;

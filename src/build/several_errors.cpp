@@ -45,9 +45,9 @@ ErrorSum compare(const Index& index, const Intake& intake, std::span<const Sourc
         for (const uint32_t source : groups[i]) ids.push_back(intake.id_of_vertex[source]);
         std::vector<float> answers(index.description.id_count);
         Query(index, std::pmr::get_default_resource()).msad(ids, INFINITE, answers);
-        for (uint32_t v = 0; v < intake.mesh.vertex_count(); ++v)
-            if (const double exact = distance(solver, i, v); has_relative_error(exact, too_short))
-                errors[i].add(relative_error(exact, answers[intake.id_of_vertex[v]]));
+        for_each_comparison(
+            answers, intake.id_of_vertex, too_short, [&](uint32_t v) { return distance(solver, i, v); },
+            [&](double exact, double answer) { errors[i].add(relative_error(exact, answer)); });
     });
     ErrorSum all;
     for (const ErrorSum& of_group : errors) all.add(of_group);

@@ -84,14 +84,14 @@ FieldErrors errors_of_field(const Index& index, const Intake& intake, const Exac
     const uint32_t source = intake.id_of_vertex[exact.sources[i]];
     std::vector<float> answers(index.description.id_count);
     query.msad({&source, 1}, INFINITE, answers);
-    for (uint32_t v = 0; v < distances.size(); ++v) {
-        if (!has_relative_error(distances[v], too_short)) continue;
-        const double answer = answers[intake.id_of_vertex[v]];
-        const double error = relative_error(distances[v], answer);
-        counts_in_means ? errors.by_distance.add_of_fields(distances[v], error)
-                        : errors.by_distance.add_to_max_of_fields(distances[v], error);
-        errors.of_msad.push_back((answer - distances[v]) / distances[v]);
-    }
+    for_each_comparison(
+        answers, intake.id_of_vertex, too_short, [&](uint32_t v) { return distances[v]; },
+        [&](double distance, double answer) {
+            const double error = relative_error(distance, answer);
+            counts_in_means ? errors.by_distance.add_of_fields(distance, error)
+                            : errors.by_distance.add_to_max_of_fields(distance, error);
+            errors.of_msad.push_back((answer - distance) / distance);
+        });
     Random random(index.description.seed ^ PAIR_SEED ^ i);
     for (uint32_t k = 0; k < pairs; ++k) {
         const uint32_t v = random.below(static_cast<uint32_t>(distances.size()));
@@ -162,11 +162,12 @@ void state_largest(const ErrorsByDistance& errors, const ErrorSum& several, uint
 
 }
 
-void state_errors(const Intake& intake, std::span<const ExactFields* const> fields,
-                  const std::optional<ErrorsByDistance>& known, Workers& workers, Index& index) {
+void state_errors(const Intake& intake, const DistanceScale& scale,
+                  std::span<const ExactFields* const> fields, const std::optional<ErrorsByDistance>& known,
+                  Workers& workers, Index& index) {
     const Description& about = index.description;
     const ExactFields& measuring = *fields.front();
-    const auto [too_short, edge] = distance_scale(about, intake.mesh, measuring);
+    const auto [too_short, edge] = scale;
     const uint32_t vertex_count = intake.mesh.vertex_count();
     const Effort effort = effort_for(about, known.has_value(), vertex_count);
     const ErrorsByDistance none(edge);

@@ -17,7 +17,7 @@ namespace {
 
 geoidx_surface* make_surface(Intake&& intake, const geoidx_surface_options& options) {
     SurfaceCosts costs = surface_costs(intake, options);
-    FlatFaces flat(intake.mesh);
+    FlatFaces flat(flip_flat_edges(intake.mesh));
     return std::make_unique<geoidx_surface>(std::move(intake), std::move(costs), std::move(flat)).release();
 }
 

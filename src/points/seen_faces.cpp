@@ -131,7 +131,8 @@ public:
         const size_t room =
             std::min(FacePoint::MOST_VERTICES - point_.vertex_count, FacePoint::MOST_EDGES - count);
         const size_t step = between / (room + 1) + 1;
-        for (const FacePoint::Edge& edge : std::span(whole).first(count)) add_parts(edge, step);
+        for (const FacePoint::Edge& edge : std::span(whole).first(count))
+            between == 0 ? add_part(edge, edge.first, edge.second, 0, edge.length) : add_parts(edge, step);
     }
 
 private:

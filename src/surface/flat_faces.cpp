@@ -7,8 +7,6 @@
 
 #include <Eigen/Geometry>
 
-#include "src/mesh/flat_edges.h"
-
 namespace geodesic {
 
 namespace {
@@ -42,9 +40,9 @@ std::array<double, 3> without_rounding(std::array<double, 3> weights) {
 
 }
 
-FlatFaces::FlatFaces(const Mesh& mesh) {
-    const std::optional<FlippedEdges> flipped = flip_flat_edges(mesh);
+FlatFaces::FlatFaces(const std::optional<FlippedEdges>& flipped) {
     if (!flipped) return;
+    const Mesh& mesh = flipped->mesh;
     const auto& planes = flipped->plane_of_face;
     for (uint32_t f = 0; f < mesh.face_count(); ++f)
         if (planes[f] != NONE) number_.push_back(f);
@@ -53,16 +51,16 @@ FlatFaces::FlatFaces(const Mesh& mesh) {
     for (auto* list : {&faces_, &across_}) list->reserve(number_.size());
     std::vector<std::pair<uint32_t, uint32_t>> at_vertices; // vertex and row of a face there
     for (const uint32_t f : number_) {
-        for (const uint32_t corner : flipped->mesh.faces[f])
+        for (const uint32_t corner : mesh.faces[f])
             at_vertices.emplace_back(corner, static_cast<uint32_t>(faces_.size()));
         plane_.push_back(planes[f]);
-        faces_.push_back(flipped->mesh.faces[f]);
+        faces_.push_back(mesh.faces[f]);
     }
     list_around_vertices(std::move(at_vertices), mesh.vertex_count());
     for (const uint32_t f : number_) {
         auto& across = across_.emplace_back();
         for (size_t k = 0; k < 3; ++k) {
-            const auto beside = flipped->mesh.edge_faces[flipped->mesh.face_edges[f][k]];
+            const auto beside = mesh.edge_faces[mesh.face_edges[f][k]];
             across[k] = NONE;
             if (beside.size() != 2) continue;
             const uint32_t other = beside[beside[0] == f];

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "src/base/ranked_set.h"
-#include "src/mesh/mesh.h"
+#include "src/mesh/flat_edges.h"
 #include "src/metric/metric.h"
 
 namespace geodesic {
@@ -22,7 +22,8 @@ namespace geodesic {
 class FlatFaces {
 public:
     FlatFaces() = default;
-    explicit FlatFaces(const Mesh& mesh);
+    // What flip_flat_edges() returns for a mesh.
+    explicit FlatFaces(const std::optional<FlippedEdges>& flipped);
 
     // Whether edges are flipped in the plane of a face of the mesh. A face of that number is one of these,
     // too, but not at the same place of the plane.

@@ -30,7 +30,7 @@ struct Nothing final : AllKnown {
 
 Surface surface_of_flipped(const Soup& soup) {
     Intake intake = intake_of(soup);
-    FlatFaces flat(intake.mesh);
+    FlatFaces flat(flip_flat_edges(intake.mesh));
     return Surface(std::move(intake), {}, std::move(flat));
 }
 
