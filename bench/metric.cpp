@@ -27,6 +27,7 @@ struct MetricArguments {
     uint32_t locals = 200;
     uint32_t threads = 2;
     std::string beside;
+    std::vector<double> tolerances;
     ReportArguments report;
 };
 
@@ -42,9 +43,10 @@ struct Timing {
 
 using Solvers = std::vector<tools::Solver>;
 
-Solvers make_solvers(const Model& model, uint32_t count) {
+Solvers make_solvers(const Model& model, uint32_t count, double tolerance = 0) {
     geoidx_build_options options;
     geoidx_build_options_init(&options);
+    options.solver_tolerance = tolerance;
     Solvers solvers;
     for (uint32_t i = 0; i < count; ++i)
         solvers.push_back(tools::make_solver(model.mesh, model.path, options));
@@ -173,6 +175,31 @@ Row beside_row(const Model& model, const std::string& program, std::span<const u
             {"ratio", "ratio", own / other}};
 }
 
+// The same whole fields with a tolerance and without, each in turn.
+Row tolerance_row(const Model& model, double tolerance, std::span<const uint32_t> sources,
+                  const Solvers& exact) {
+    const Solvers tolerant = make_solvers(model, 1, tolerance);
+    std::vector<double> seconds, exact_seconds;
+    double sum = 0, largest = 0, count = 0;
+    for (const uint32_t source : sources) {
+        std::vector<double> expected, found;
+        exact_seconds.push_back(time_of([&] { expected = exact_field(*exact[0], model, source); }).wall);
+        seconds.push_back(time_of([&] { found = exact_field(*tolerant[0], model, source); }).wall);
+        for (size_t v = 0; v < expected.size(); ++v) {
+            if (!(expected[v] > 0) || !std::isfinite(expected[v])) continue;
+            const double error = std::abs(found[v] / expected[v] - 1);
+            sum += error;
+            largest = std::max(largest, error);
+            ++count;
+        }
+    }
+    const double own = median(seconds), without = median(exact_seconds);
+    return {{"mesh", "mesh", model.name},           {"tolerance", "tolerance", tolerance},
+            {"field_ms", "ms a field", 1e3 * own},  {"exact_field_ms", "exact, ms", 1e3 * without},
+            {"ratio", "ratio", own / without},      {"error_mean", "mean error", sum / count},
+            {"error_max", "largest error", largest}};
+}
+
 Row row_of(const Model& model, const std::string& field, const std::vector<Task>& tasks,
            std::span<const tools::Solver> solvers) {
     const Timing alone = run(solvers.first(1), model, tasks);
@@ -199,6 +226,7 @@ void warm_up(const Solvers& solvers, const Model& model, uint32_t source) {
 struct Tables {
     Table times{"metric", "Exact distances without an index", {}};
     Table memory{"memory", "Memory", {}};
+    Table tolerances{"tolerances", "Whole fields with a tolerance", {}};
     Table beside{"beside", "Whole fields beside another program", {}};
 };
 
@@ -222,6 +250,9 @@ void measure_model(const Model& model, const MetricArguments& arguments, Tables&
         const std::vector<Task> tasks = shortened(largest, size);
         if (!tasks.empty()) rows.push_back(row_of(model, std::to_string(size), tasks, solvers));
     }
+    if (!arguments.tolerances.empty()) progress(model.name + ": tolerances");
+    for (const double tolerance : arguments.tolerances)
+        tables.tolerances.rows.push_back(tolerance_row(model, tolerance, sources, solvers));
     if (arguments.beside.empty()) return;
     progress(model.name + ": " + arguments.beside);
     tables.beside.rows.push_back(beside_row(model, arguments.beside, sources, solvers));
@@ -242,6 +273,7 @@ void metric(const MetricArguments& arguments) {
     });
     report.add(std::move(tables.times));
     report.add(std::move(tables.memory));
+    if (!arguments.tolerances.empty()) report.add(std::move(tables.tolerances));
     if (!arguments.beside.empty()) report.add(std::move(tables.beside));
     require_none(failed);
 }
@@ -259,6 +291,9 @@ void add_metric(CLI::App& app) {
     add("--fields", arguments->fields, "whole fields a mesh");
     add("--locals", arguments->locals, "local fields a size");
     add("--threads", arguments->threads, "at once, besides one alone");
+    command->add_option(
+        "--tolerance", arguments->tolerances,
+        "solver_tolerance to time whole fields with, too, and to tell errors of; several are possible");
     command->add_option(
         "--beside", arguments->beside,
         "program to time beside, run as PROGRAM MESH SOURCE.., which prints the seconds of each field");

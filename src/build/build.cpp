@@ -120,7 +120,9 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     const Intake intake = take_in(mesh, intake_options(options));
     const auto flipped = is_by_positions(options) ? flip_flat_edges(intake.mesh) : std::nullopt;
     const Mesh& surface = flipped ? flipped->mesh : intake.mesh;
-    const auto metric = flipped ? std::make_unique<ExactMetric>(surface) : make_metric(mesh, intake, options);
+    const double tolerance = tolerance_of_tables(options);
+    const auto metric = flipped ? std::make_unique<ExactMetric>(surface, tolerance)
+                                : make_metric(mesh, intake, options, tolerance);
     const Description about = describe(intake, options);
     const ProgressFunction filling_progress = part_of_progress(progress, 0, FILLING_END);
     const double first_end = may_add_vertices(options) ? FIRST_FILLING_END : 1;

@@ -22,6 +22,8 @@ namespace geodesic {
 
 namespace {
 
+constexpr double LARGEST_TOLERANCE = 1e-4;
+
 [[noreturn]] void bad_mesh(const std::string& detail) { throw Error(GEOIDX_ERROR_BAD_MESH, detail); }
 
 // Whether the metric is one of ways over faces, whose shape lengths of edges can give.
@@ -99,6 +101,9 @@ void check_sides(uint64_t triangle, std::span<const double, 3> sides) {
 }
 
 void check_metric_options(const geoidx_build_options& options) {
+    if (!(options.solver_tolerance >= 0 && options.solver_tolerance <= LARGEST_TOLERANCE))
+        refuse_argument("solver_tolerance is " + number_text(options.solver_tolerance) + ", not in 0 .. " +
+                        number_text(LARGEST_TOLERANCE));
     if (options.edge_cost_count > 0 && options.metric != GEOIDX_METRIC_EDGES)
         refuse_option(options.edge_costs ? "edge_costs" : "edge_cost_count", "GEOIDX_METRIC_EDGES");
     if ((options.face_costs || options.face_cost_count > 0) && options.metric != GEOIDX_METRIC_WEIGHTED)
@@ -148,10 +153,10 @@ std::vector<double> given_lengths(const geoidx_mesh& mesh, const Intake& intake,
 }
 
 std::unique_ptr<Metric> make_metric(const geoidx_mesh& mesh, const Intake& intake,
-                                    const geoidx_build_options& options) {
+                                    const geoidx_build_options& options, double tolerance) {
     switch (options.metric) {
     case GEOIDX_METRIC_EXACT:
-        return std::make_unique<ExactMetric>(intake.mesh, given_lengths(mesh, intake, options));
+        return std::make_unique<ExactMetric>(intake.mesh, tolerance, given_lengths(mesh, intake, options));
     case GEOIDX_METRIC_EDGES:
         return std::make_unique<EdgeGraphMetric>(intake.mesh, edge_costs(intake, options));
     case GEOIDX_METRIC_CALLBACK:
@@ -164,6 +169,10 @@ std::unique_ptr<Metric> make_metric(const geoidx_mesh& mesh, const Intake& intak
     default:
         refuse_argument("metric " + std::to_string(options.metric) + " is not a GEOIDX_METRIC_*");
     }
+}
+
+double tolerance_of_tables(const geoidx_build_options& options) {
+    return options.engine == GEOIDX_ENGINE_OVERLAY ? 1e-5 : 0;
 }
 
 uint32_t metric_flags(const geoidx_build_options& options) {

@@ -19,9 +19,13 @@ void check_metric_options(const geoidx_build_options& options);
 IntakeOptions intake_options(const geoidx_build_options& options);
 
 // Makes the metric that the options ask for, which check_metric_options() has passed. Throws an Error that
-// names what is wrong with its parameters.
+// names what is wrong with its parameters. The tolerance is that of the exact metric.
 std::unique_ptr<Metric> make_metric(const geoidx_mesh& mesh, const Intake& intake,
-                                    const geoidx_build_options& options);
+                                    const geoidx_build_options& options, double tolerance);
+
+// The tolerance of the exact metric that an index is made by: tables of the overlay engine round distances by
+// more than that.
+double tolerance_of_tables(const geoidx_build_options& options);
 
 // The lengths that the caller gives for the edges of the mesh, or nothing if it gives none. Throws
 // as make_metric() does.

@@ -6,6 +6,7 @@
 
 #include "format/error.h"
 #include "src/build/errors_by_distance.h"
+#include "src/build/metric_options.h"
 #include "src/mesh/parts.h"
 #include "src/metric/window_propagation.h"
 #include "src/partition/random.h"
@@ -86,7 +87,7 @@ void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex 
         auto next = finer_surface(latest, error, choosing);
         if (!next) break;
         finer = std::move(next);
-        finer_metric = std::make_unique<ExactMetric>(finer->mesh);
+        finer_metric = std::make_unique<ExactMetric>(finer->mesh, tolerance_of_tables(options_));
         Workers workers(*finer_metric, options_.threads,
                         part_of_progress(progress_, end_of_choosing(i), begin_of_round(i + 1)));
         auto again = unless_over_limit([&] {

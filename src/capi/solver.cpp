@@ -68,7 +68,7 @@ geoidx_status geoidx_solver_create(const geoidx_mesh* mesh, const geoidx_build_o
         auto solver = std::make_unique<geoidx_solver>();
         const geoidx_mesh all_mesh = whole(*mesh, geoidx_mesh_init);
         solver->intake = take_in(all_mesh, intake_options(all_options));
-        solver->metric = make_metric(all_mesh, solver->intake, all_options);
+        solver->metric = make_metric(all_mesh, solver->intake, all_options, all_options.solver_tolerance);
         solver->solver = solver->metric->make_solver();
         *out = solver.release();
     });

@@ -6,17 +6,9 @@ namespace geodesic {
 
 namespace {
 
-// A way must be longer by more than this share: less may be rounding of where two windows are divided.
-constexpr double BEATEN_BY = 1e-10;
-
-// Whether everywhere on one of two windows beside each other, the way over the other one and along the edge
-// is shorter: paths over it are no shortest ones.
-bool is_beaten_by_one_before(const Window& before, const Window& window) {
-    return window.end_distance > (before.end_distance + (window.end - before.end)) * (1 + BEATEN_BY);
-}
-bool is_beaten_by_one_behind(const Window& window, const Window& behind) {
-    return window.begin_distance > (behind.begin_distance + (behind.begin - window.begin)) * (1 + BEATEN_BY);
-}
+// A way must be longer by more than this share, or by more than so many tolerances: less may be rounding of
+// where two windows are divided, or come from joining.
+constexpr double BEATEN_BY = 1e-10, BEATEN_BY_TOLERANCES = 10;
 
 // Makes the second of two windows begin where the first ends, for the simple and most frequent case that both
 // stay and neither reaches beyond the other; false, and nothing done, otherwise.
@@ -36,11 +28,24 @@ bool divide(Window& first, Window& second) {
     return true;
 }
 
-// Divides two windows. Returns false also where they are one that goes on.
-bool stay_beside(Window& first, Window& second) {
-    return divide(first, second) && !is_continued(first, second);
 }
 
+Envelope::Envelope(double tolerance)
+    : tolerance_(tolerance), beaten_by_(std::max(BEATEN_BY, BEATEN_BY_TOLERANCES * tolerance)) {}
+
+// Divides two windows. Returns false also where they are to be one.
+bool Envelope::stay_beside(Window& first, Window& second) const {
+    return divide(first, second) && !is_continued(first, second) &&
+           !(tolerance_ > 0 && join_windows(first, second, tolerance_));
+}
+
+// Whether everywhere on one of two windows beside each other, the way over the other one and along the edge
+// is shorter: paths over it are no shortest ones.
+bool Envelope::is_beaten_by_one_before(const Window& before, const Window& window) const {
+    return window.end_distance > (before.end_distance + (window.end - before.end)) * (1 + beaten_by_);
+}
+bool Envelope::is_beaten_by_one_behind(const Window& window, const Window& behind) const {
+    return window.begin_distance > (behind.begin_distance + (behind.begin - window.begin)) * (1 + beaten_by_);
 }
 
 std::span<const Window> Envelope::merge(std::span<const Window> holders, std::span<Window> windows) {
@@ -105,13 +110,21 @@ bool Envelope::put_down(const Window& window) {
     while (!done_.empty() && is_beaten_by_one_behind(done_.back(), window)) done_.pop_back();
     if (!done_.empty() && is_beaten_by_one_before(done_.back(), window)) return false;
     if (!at_end() && is_beaten_by_one_behind(window, *next())) return false;
-    if (done_.empty() || !is_continued(done_.back(), window)) {
-        done_.push_back(window);
-    } else {
-        done_.back().end = window.end;
-        done_.back().end_distance = window.end_distance;
-    }
+    if (done_.empty() || !join_to_last(window)) done_.push_back(window);
     return true;
+}
+
+// Whether a window is now a part of the one that was put down last.
+bool Envelope::join_to_last(const Window& window) {
+    Window& last = done_.back();
+    if (is_continued(last, window)) {
+        last.end = window.end;
+        last.end_distance = window.end_distance;
+        return true;
+    }
+    const auto both = tolerance_ > 0 ? join_windows(last, window, tolerance_) : std::nullopt;
+    if (both) last = *both;
+    return both.has_value();
 }
 
 // Puts down a part of a window. Returns whether it is down.

@@ -11,6 +11,10 @@ namespace geodesic {
 // The lower envelope of windows on one edge.
 class Envelope {
 public:
+    // Windows beside each other are joined where that changes distances by no more than this share; 0: only
+    // where one goes on in the other.
+    explicit Envelope(double tolerance);
+
     // Puts windows into a list that is sorted along the edge, without overlaps: the parts of each where it is
     // the lowest. They may come in any order; where that is the order of the edge they cost a constant each.
     // Changes the windows. The result, a list of the same kind, is valid until the next merge, and as long as
@@ -28,10 +32,15 @@ private:
     bool at_end() const { return taken_back_.empty() && rest_.empty(); }
     void skip_next();
     void challenge(const Window& challenger, const Window& holder);
+    bool stay_beside(Window& first, Window& second) const;
+    bool is_beaten_by_one_before(const Window& before, const Window& window) const;
+    bool is_beaten_by_one_behind(const Window& window, const Window& behind) const;
+    bool join_to_last(const Window& window);
     bool put_down(const Window& window);
     bool emit(const Window& window, double begin, double end);
     void emit_new(const Window& window, double begin, double end);
 
+    const double tolerance_, beaten_by_;
     std::vector<Window> done_;       // left of the cursor
     std::vector<Window> taken_back_; // right of the cursor, the leftmost last
     std::span<const Window> rest_;   // right of those

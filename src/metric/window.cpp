@@ -46,6 +46,52 @@ double crossing(const Window& a, const Window& b, double low, double high, bool 
 
 }
 
+namespace {
+
+// Whether one window for two would change their distances by clearly more than this share. Where the slopes
+// of the two differ by k at the place where they meet, one that has the outer rays of both is off by k / 4 to
+// k / 2 times the length of the longer one; where their second derivatives differ by c, the ends are off by
+// c / 2 times the product of both lengths.
+bool differ_too_much(const Window& a, const Window& b, double tolerance) {
+    constexpr double SURELY = 2;
+    const double most = SURELY * tolerance * a.end_distance;
+    const double to_a = a.end_distance - a.sigma, to_b = b.begin_distance - b.sigma;
+    const double a_length = a.end - a.begin, b_length = b.end - b.begin;
+    const double slopes = std::abs((a.end - a.x) * to_b - (b.begin - b.x) * to_a); // times to_a * to_b
+    const double bends = a.y * a.y * std::abs(to_b - to_a);                        // times to_a^3 * to_b
+    return (slopes * std::max(a_length, b_length) > 4 * most * to_a * to_b) |
+           (bends * a_length * b_length > 2 * most * to_a * to_a * to_a * to_b);
+}
+
+}
+
+std::optional<Window> join_windows(const Window& a, const Window& b, double tolerance) {
+    // A farther source would be rounded by too much beside the distances.
+    constexpr double FARTHEST = 100;
+    if (!(is_beside(a, b) & (a.pending == 1) & (a.y > 0) & (b.y > 0) & !differ_too_much(a, b, tolerance)))
+        return std::nullopt;
+    const double a_across = a.x - a.begin, b_across = b.x - b.end;
+    const double turn = a_across * b.y - a.y * b_across;
+    if (!(turn > 0)) return std::nullopt;
+    const double along = (b.end - a.begin) * b.y / turn;
+    Window both = a;
+    both.end = b.end;
+    both.x = a.begin + along * a_across;
+    both.y = along * a.y;
+    both.sigma = 0;
+    const double at_begin = both.distance_at(both.begin), at_end = both.distance_at(both.end);
+    const double by_begin = a.begin_distance - at_begin, by_end = b.end_distance - at_end;
+    both.sigma = 0.5 * (by_begin + by_end);
+    both.begin_distance = at_begin + both.sigma;
+    both.end_distance = at_end + both.sigma;
+    const double most = tolerance * std::min(a.begin_distance, b.end_distance);
+    if (std::abs(by_begin - by_end) > most || at_begin > FARTHEST * a.begin_distance) return std::nullopt;
+    const double between = both.distance_at(a.end);
+    if (std::abs(between - a.end_distance) > most || std::abs(between - b.begin_distance) > most)
+        return std::nullopt;
+    return both;
+}
+
 // The difference of two windows has at most one extremum on the edge, where the line through both sources
 // meets it. Between the ends and that point it is monotonic, so that the signs there tell everything.
 Advantage advantage(const Window& challenger, const Window& holder, double s, double t) {

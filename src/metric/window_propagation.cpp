@@ -19,6 +19,10 @@ constexpr double TOUCH = 1e-5;         // thin faces magnify rounding along thei
 constexpr double FAR_ROUNDING = 1e-14; // short edges by that of where far sources are
 constexpr double ANGLE_SLACK = 1e-6;
 
+// The same where windows are joined: distances are off by some tolerances, and the rays of windows beside
+// each other, which have different sources, may diverge a little.
+constexpr double TIE_TOLERANCES = 10, TOUCH_OF_JOINED = 0.1;
+
 // Windows on their way to an edge, in the order of that edge.
 struct Run {
     Window *begin, *end;
@@ -45,10 +49,11 @@ struct Beam {
 
 class WindowPropagation final : public FieldSolver {
 public:
-    explicit WindowPropagation(std::shared_ptr<const IntrinsicMesh> mesh)
+    WindowPropagation(std::shared_ptr<const IntrinsicMesh> mesh, double tolerance)
         : FieldSolver(static_cast<uint32_t>(mesh->total_angle.size())), mesh_(std::move(mesh)),
-          lists_(edge_count()), queued_distance_(edge_count(), UNREACHABLE), arrival_(vertex_count()),
-          pending_(vertex_count()) {}
+          tie_(std::max(TIE, TIE_TOLERANCES * tolerance)), touch_(tolerance > 0 ? TOUCH_OF_JOINED : TOUCH),
+          envelope_(tolerance), lists_(edge_count()), queued_distance_(edge_count(), UNREACHABLE),
+          arrival_(vertex_count()), pending_(vertex_count()) {}
 
 private:
     // From where the path to a vertex comes: along an edge, in a direction, or from a source that it is or
@@ -93,8 +98,10 @@ private:
     uint32_t edge_count() const { return static_cast<uint32_t>(mesh_->edge_length.size()); }
 
     std::shared_ptr<const IntrinsicMesh> mesh_;
-    WindowLists lists_;
+    const double tie_;   // a share of a distance below which a difference says nothing
+    const double touch_; // a share of an edge: windows reach apexes that lie no farther beside their light
     Envelope envelope_;
+    WindowLists lists_;
     EventQueue queue_;                    // vertices by number, then edges, then target points
     std::vector<double> queued_distance_; // of the edge's live event
     std::vector<uint32_t> queued_edges_;
@@ -380,7 +387,7 @@ void WindowPropagation::propagate(const Window& window, double length, const Sid
     if (!(window.y > 0) && !on_edge) return;
     const double split = height > 0 ? window.x + (side.apex_x - window.x) * (window.y / height) : side.apex_x;
     const double crossing = std::clamp(split, window.begin, window.end);
-    const double rounding = TOUCH * length + FAR_ROUNDING * (std::abs(window.x) + window.y);
+    const double rounding = touch_ * length + FAR_ROUNDING * (std::abs(window.x) + window.y);
     if (std::abs(split - crossing) <= rounding) reach_apex(window, side, split, crossing);
     if (window.begin < split)
         pass(window, {window.x, window.y, window.begin, std::min(window.end, split), split <= window.end},
@@ -411,8 +418,8 @@ void WindowPropagation::pass(const Window& window, const Beam& beam, Exit& exit)
     const double far_distance = window.sigma + norm(far - x, y);
 
     // Of no use where a path through a vertex of the face is shorter all along.
-    if (distance(exit.near_vertex) + far < far_distance * (1 - TIE)) return;
-    if (distance(exit.apex) + (exit.length - near) < near_distance * (1 - TIE)) return;
+    if (distance(exit.near_vertex) + far < far_distance * (1 - tie_)) return;
+    if (distance(exit.apex) + (exit.length - near) < near_distance * (1 - tie_)) return;
 
     Window& passed = exit.run.grows_at_end ? *exit.run.end++ : *--exit.run.begin;
     if (exit.reversed)
@@ -437,7 +444,7 @@ void WindowPropagation::deliver(uint32_t edge, std::span<Window> run) {
 }
 
 std::unique_ptr<FieldSolver> ExactMetric::make_solver() const {
-    return std::make_unique<WindowPropagation>(mesh_);
+    return std::make_unique<WindowPropagation>(mesh_, tolerance_);
 }
 
 }

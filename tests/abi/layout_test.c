@@ -129,7 +129,8 @@ FIELD(geoidx_build_options, rounding, 208);
 FIELD(geoidx_build_options, target_error, 216);
 FIELD(geoidx_build_options, store_mesh, 224);
 FIELD(geoidx_build_options, reserved_at_end, 228);
-SIZE(geoidx_build_options, 232);
+FIELD(geoidx_build_options, solver_tolerance, 232);
+SIZE(geoidx_build_options, 240);
 
 FIELD(geoidx_open_options, struct_size, 0);
 FIELD(geoidx_open_options, flags, 4);

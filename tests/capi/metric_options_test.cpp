@@ -373,3 +373,32 @@ TEST_CASE("points that are not on the surface are refused by name") {
     check_refused(geoidx_solver_point_distances(edges.get(), &good, 1, &good, 1, &d),
                   GEOIDX_ERROR_INVALID_ARGUMENT, "vertices only");
 }
+
+TEST_CASE("solver_tolerance: a share within its limits, and 0 in a shorter struct") {
+    const TestMesh mesh = hills(40, 12);
+    const geoidx_mesh view = mesh.view();
+    auto options = build_options();
+    const auto exact = solver_of(mesh, options);
+    options.solver_tolerance = 1e-4;
+    const auto tolerant = solver_of(mesh, options);
+    options.struct_size = offsetof(geoidx_build_options, solver_tolerance);
+    const auto shorter = solver_of(mesh, options);
+    uint32_t different = 0;
+    for (uint32_t v = 1; v < mesh.vertex_count(); ++v) {
+        const double expected = distance(exact.get(), 0, v), found = distance(tolerant.get(), 0, v);
+        CHECK(found == doctest::Approx(expected).epsilon(5e-3));
+        different += found != expected;
+        CHECK(distance(shorter.get(), 0, v) == expected);
+    }
+    CHECK(different > 0);
+    options.struct_size = sizeof(options);
+    for (const double wrong : {-1e-9, 1.1e-4, double{NOT_A_NUMBER}, double{INFINITE}}) {
+        options.solver_tolerance = wrong;
+        geoidx_solver* solver = nullptr;
+        check_refused(geoidx_solver_create(&view, &options, &solver), GEOIDX_ERROR_INVALID_ARGUMENT,
+                      "solver_tolerance");
+        geoidx* index = nullptr;
+        check_refused(geoidx_build(&view, &options, &index), GEOIDX_ERROR_INVALID_ARGUMENT,
+                      "solver_tolerance");
+    }
+}

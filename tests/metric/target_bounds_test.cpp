@@ -95,7 +95,7 @@ TEST_CASE("target bounds: lengths that are given may be shorter than lines in sp
     const Mesh mesh = mesh_of(jittered_grid(12, 5));
     std::vector<double> lengths;
     for (uint32_t e = 0; e < mesh.edge_count(); ++e) lengths.push_back(mesh.edge_length(e) / 100);
-    const auto given = ExactMetric(mesh, lengths).make_solver(), own = ExactMetric(mesh).make_solver();
+    const auto given = ExactMetric(mesh, 0, lengths).make_solver(), own = ExactMetric(mesh).make_solver();
     for (const uint32_t target : {5u, 77u, 168u})
         CHECK(distance_to(*given, 0, target) ==
               doctest::Approx(distance_to(*own, 0, target) / 100).epsilon(1e-10));

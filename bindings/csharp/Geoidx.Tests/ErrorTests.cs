@@ -165,6 +165,8 @@ namespace Geoidx.Tests
                 () => Build(new BuildOptions { Metric = MetricKind.Weighted, FaceCosts = new[] { -4294967295.0, 1 } })),
             ("Metric -1 is not a MetricKind",
                 () => new GeodesicSolver(Shapes.Square(), new BuildOptions { Metric = (MetricKind)(-1) })),
+            ("SolverTolerance is 0.1",
+                () => new GeodesicSolver(Shapes.Square(), new BuildOptions { SolverTolerance = 0.1 })),
             ("type 7 is not a PositionType",
                 () => GeodesicIndex.Build(GeodesicMesh.From(
                     new System.Numerics.Vector3[3], new int[3], (PositionType)7))),

@@ -20,6 +20,15 @@ namespace Geoidx.Tests
         }
 
         [Fact]
+        public void ATolerantSolverIsNearlyExact()
+        {
+            using var exact = new GeodesicSolver(Shapes.Plane(10));
+            using var tolerant = new GeodesicSolver(Shapes.Plane(10), new BuildOptions { SolverTolerance = 1e-5 });
+            double expected = exact.Distance(0, 57);
+            Assert.InRange(tolerant.Distance(0, 57), expected * (1 - 1e-4), expected * (1 + 1e-4));
+        }
+
+        [Fact]
         public void TargetsAreAnsweredInTheirOrder()
         {
             using var plane = new GeodesicSolver(Shapes.Plane(10));

@@ -16,8 +16,8 @@ namespace Geoidx
         /// <summary>Makes a mesh and a metric ready to compute.</summary>
         /// <param name="mesh">The mesh; its arrays are not needed afterwards.</param>
         /// <param name="options">
-        /// The metric, what belongs to it, and <see cref="BuildOptions.WeldTolerance"/>; the others are not read.
-        /// Null: the defaults.
+        /// The metric, what belongs to it, <see cref="BuildOptions.WeldTolerance"/> and
+        /// <see cref="BuildOptions.SolverTolerance"/>; the others are not read. Null: the defaults.
         /// </param>
         /// <exception cref="GeodesicException">The status says what failed, the message where.</exception>
         public GeodesicSolver(GeodesicMesh mesh, BuildOptions? options = null)

@@ -55,6 +55,15 @@ class LargerMeshes(unittest.TestCase):
         cls.mesh = hills(31, 29)
         cls.exact = geoidx.Solver(*cls.mesh)
 
+    def test_a_tolerant_solver_is_nearly_exact(self):
+        exact = self.exact.distances(0)
+        tolerant = geoidx.Solver(*self.mesh, tolerance=1e-4).distances(0)
+        self.assertFalse(np.array_equal(exact, tolerant))
+        np.testing.assert_allclose(tolerant, exact, rtol=5e-3)
+        for wrong in (-1e-9, 0.1, math.nan):
+            with self.assertRaisesRegex(geoidx.InvalidArgumentError, "tolerance"):
+                geoidx.Solver(*self.mesh, tolerance=wrong)
+
     def test_every_engine_is_near_the_exact_distance(self):
         for engine in geoidx.Engine:
             index = geoidx.Index.build(*self.mesh, engine=engine, patches=(5, 3))

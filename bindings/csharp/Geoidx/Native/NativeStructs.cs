@@ -60,6 +60,7 @@ namespace Geoidx
         internal double target_error;
         internal uint store_mesh;
         internal uint reserved_at_end;
+        internal double solver_tolerance;
     }
 
     // Borrow is never passed: it is for memory that stays in place until the index is closed, which a span is not.

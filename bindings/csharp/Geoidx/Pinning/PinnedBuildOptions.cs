@@ -46,6 +46,7 @@ namespace Geoidx
             native.rounding = options.Rounding;
             native.target_error = options.TargetError;
             native.store_mesh = options.StoreMesh ? 1u : 0u;
+            native.solver_tolerance = options.SolverTolerance;
             native.refuse_edges_of_many = options.RefuseEdgesOfMany ? 1u : 0u;
         }
 

@@ -101,6 +101,7 @@ class BuildOptions(Structure):
         ("target_error", c_double),
         ("store_mesh", c_uint32),
         ("reserved_at_end", c_uint32),
+        ("solver_tolerance", c_double),
     ]
 
 
