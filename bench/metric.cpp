@@ -293,7 +293,7 @@ void add_metric(CLI::App& app) {
     add("--threads", arguments->threads, "at once, besides one alone");
     command->add_option(
         "--tolerance", arguments->tolerances,
-        "solver_tolerance to time whole fields with, too, and to tell errors of; several are possible");
+        "also time whole fields with this solver_tolerance, and tell their errors; several are possible");
     command->add_option(
         "--beside", arguments->beside,
         "program to time beside, run as PROGRAM MESH SOURCE.., which prints the seconds of each field");

@@ -254,9 +254,10 @@ typedef struct geoidx_build_options {
     uint32_t reserved; /* not read */
     /* GEOIDX_ENGINE_OVERLAY: distances are rounded to multiples of this share of the way from a vertex to the
      * next, 0 .. 1, for each patch by itself, but never to more than 1/8192 of the longest way on the surface
-     * around it, and not at all in an index of fewer than 65,536 table entries. Default 1/64, which changes
-     * an entry by at most 0.8 % of the way to the next vertex. 0: to 16 bits only. Twice the share saves one
-     * bit of each table entry in GEOIDX_CODEC_PACKED. */
+     * around it, and only to 16 bits in an index of fewer than 65,536 table entries. Default 1/64, which
+     * changes an entry by at most 0.8 % of the way to the next vertex. 0: to 16 bits only. Twice the share
+     * saves one bit of each table entry in GEOIDX_CODEC_PACKED. The exact metric's distances are measured
+     * with a tolerance of 1e-5, as solver_tolerance is one, since they are rounded by more, or as much. */
     double rounding;
     /* GEOIDX_ENGINE_OVERLAY with GEOIDX_METRIC_EXACT, delta 0 and no edge_lengths; not used otherwise: the
      * mean error, 0 .. 1, that the index is to have at most. Scans have less from the start. Where it is
@@ -275,8 +276,8 @@ typedef struct geoidx_build_options {
     /* geoidx_solver_create with GEOIDX_METRIC_EXACT; not used otherwise: distances may be off by about this
      * share of themselves, 0 .. 1e-4, so that a whole field takes less time: at 1e-5 scans take 0.6 to 0.9 of
      * it, surfaces of long triangles a half to a tenth. On 563 meshes, fields were off by at most one and a
-     * half times that share on average (three times at 3e-5, six times at 1e-4), and by at most a hundred
-     * times it anywhere, too long or too short. 0 (default): exact. */
+     * half times that share on average (at 3e-5 and above, six times), and by at most a hundred times it
+     * anywhere, too long or too short. Targets are final within the tolerance. 0 (default): exact. */
     double solver_tolerance;
 } geoidx_build_options;
 

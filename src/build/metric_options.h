@@ -23,8 +23,8 @@ IntakeOptions intake_options(const geoidx_build_options& options);
 std::unique_ptr<Metric> make_metric(const geoidx_mesh& mesh, const Intake& intake,
                                     const geoidx_build_options& options, double tolerance);
 
-// The tolerance of the exact metric that an index is made by: tables of the overlay engine round distances by
-// more than that.
+// The tolerance of the exact metric that an index is made by. Tables of the overlay engine round distances by
+// more than that, or by about as much where they keep 16 bits.
 double tolerance_of_tables(const geoidx_build_options& options);
 
 // The lengths that the caller gives for the edges of the mesh, or nothing if it gives none. Throws

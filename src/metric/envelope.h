@@ -11,8 +11,8 @@ namespace geodesic {
 // The lower envelope of windows on one edge.
 class Envelope {
 public:
-    // Windows beside each other are joined where that changes distances by no more than this share; 0: only
-    // where one goes on in the other.
+    // Windows beside each other are joined where each time distances at their ends change by no more than
+    // this share; 0: only where one goes on in the other.
     explicit Envelope(double tolerance);
 
     // Puts windows into a list that is sorted along the edge, without overlaps: the parts of each where it is
@@ -22,7 +22,7 @@ public:
     std::span<const Window> merge(std::span<const Window> holders, std::span<Window> windows);
 
     // No more than the smallest distance on the parts that the latest merge put in, which it is unless one of
-    // them was taken away again; infinity if it put in none.
+    // them was taken away again or, but for the tolerance, joined; infinity if it put in none.
     double lowest() const { return lowest_; }
 
 private:

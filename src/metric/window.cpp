@@ -59,8 +59,8 @@ bool differ_too_much(const Window& a, const Window& b, double tolerance) {
     const double a_length = a.end - a.begin, b_length = b.end - b.begin;
     const double slopes = std::abs((a.end - a.x) * to_b - (b.begin - b.x) * to_a); // times to_a * to_b
     const double bends = a.y * a.y * std::abs(to_b - to_a);                        // times to_a^3 * to_b
-    return (slopes * std::max(a_length, b_length) > 4 * most * to_a * to_b) |
-           (bends * a_length * b_length > 2 * most * to_a * to_a * to_a * to_b);
+    return slopes * std::max(a_length, b_length) > 4 * most * to_a * to_b ||
+           bends * a_length * b_length > 2 * most * to_a * to_a * to_a * to_b;
 }
 
 }
@@ -68,7 +68,7 @@ bool differ_too_much(const Window& a, const Window& b, double tolerance) {
 std::optional<Window> join_windows(const Window& a, const Window& b, double tolerance) {
     // A farther source would be rounded by too much beside the distances.
     constexpr double FARTHEST = 100;
-    if (!(is_beside(a, b) & (a.pending == 1) & (a.y > 0) & (b.y > 0) & !differ_too_much(a, b, tolerance)))
+    if (!is_beside(a, b) || !a.pending || !(a.y > 0) || !(b.y > 0) || differ_too_much(a, b, tolerance))
         return std::nullopt;
     const double a_across = a.x - a.begin, b_across = b.x - b.end;
     const double turn = a_across * b.y - a.y * b_across;
@@ -84,7 +84,7 @@ std::optional<Window> join_windows(const Window& a, const Window& b, double tole
     both.sigma = 0.5 * (by_begin + by_end);
     both.begin_distance = at_begin + both.sigma;
     both.end_distance = at_end + both.sigma;
-    const double most = tolerance * std::min(a.begin_distance, b.end_distance);
+    const double most = tolerance * std::min({a.begin_distance, a.end_distance, b.end_distance});
     if (std::abs(by_begin - by_end) > most || at_begin > FARTHEST * a.begin_distance) return std::nullopt;
     const double between = both.distance_at(a.end);
     if (std::abs(between - a.end_distance) > most || std::abs(between - b.begin_distance) > most)

@@ -32,8 +32,8 @@ inline constexpr double WINDOW_ROUNDING = 1e-12; // of where a source is, or of 
 
 // Whether b begins where a ends, and both are propagated alike.
 inline bool is_beside(const Window& a, const Window& b) {
-    return (std::abs(b.begin - a.end) <= WINDOW_ROUNDING * b.end) & (a.nearest == b.nearest) &
-           (a.from_face == b.from_face) & (a.pending == b.pending);
+    return std::abs(b.begin - a.end) <= WINDOW_ROUNDING * b.end && a.nearest == b.nearest &&
+           a.from_face == b.from_face && a.pending == b.pending;
 }
 
 // Whether b goes on where a ends: both see the same source, but for rounding. Light that passes a vertex of a
@@ -52,8 +52,8 @@ struct Advantage {
 
 // One window for what two see that lie beside each other, as in the approximation of Surazhsky et al. 2005.
 // Its source is where the outer rays of the two meet, so that behind the edge no place falls out of the
-// light. Nothing if these do not meet, or if a distance at an end of the two would change by more than this
-// share of itself, or if more than the source differs.
+// light. Nothing if these do not meet, if a distance at an end of either would change by more than this share
+// of itself, or if the two are not propagated alike.
 std::optional<Window> join_windows(const Window& a, const Window& b, double tolerance);
 
 inline constexpr uint32_t MAX_NEAREST = UINT32_MAX >> 1;

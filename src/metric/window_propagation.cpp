@@ -317,12 +317,12 @@ void WindowPropagation::propagate_edge(uint32_t edge) {
 }
 
 // No point of an edge is farther than half of its length and the distances of its vertices together. Windows
-// that are not propagated yet are at the front, but for rounding.
+// that are not propagated yet are at the front, but for rounding and the tolerance.
 void WindowPropagation::sweep() {
     lists_.sweep([this](uint32_t edge) {
         const auto [first, second] = mesh_->edge_vertices[edge];
         const double farthest = 0.5 * (distance(first) + distance(second) + mesh_->edge_length[edge]);
-        return farthest * (1 + TIE) < front_;
+        return farthest * (1 + tie_) < front_;
     });
 }
 

@@ -12,6 +12,7 @@ struct ExactArguments {
     std::string mesh;
     std::vector<std::string> sources;
     MetricArguments metric;
+    double tolerance = 0;
     FieldOutput output;
 };
 
@@ -20,6 +21,7 @@ std::vector<float> distances_from(const TriangleMesh& mesh, const ExactArguments
     geoidx_build_options options;
     geoidx_build_options_init(&options);
     apply(arguments.metric, options);
+    options.solver_tolerance = arguments.tolerance;
     const Solver solver = make_solver(mesh, arguments.mesh, options);
     std::vector<double> distances(mesh.vertex_count());
     require_ok(geoidx_solver_distances(solver.get(), sources.data(), static_cast<uint32_t>(sources.size()),
@@ -48,6 +50,9 @@ void add_exact(CLI::App& app) {
     command->add_option("MESH", arguments->mesh, "mesh file: .obj, .ply, .off or .stl")->required();
     command->add_option("S", arguments->sources, "source vertex ids")->required();
     add_metric_options(*command, arguments->metric);
+    command->add_option(
+        "--tolerance", arguments->tolerance,
+        "by about which share of themselves distances may be off, 0 .. 1e-4, to take less time");
     add_field_options(*command, arguments->output);
     command->callback([arguments] { exact(*arguments); });
 }
