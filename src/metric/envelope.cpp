@@ -35,8 +35,7 @@ Envelope::Envelope(double tolerance)
 
 // Divides two windows. Returns false also where they are to be one.
 bool Envelope::stay_beside(Window& first, Window& second) const {
-    return divide(first, second) && !is_continued(first, second) &&
-           !(tolerance_ > 0 && join_windows(first, second, tolerance_));
+    return divide(first, second) && !join_windows(first, second, tolerance_);
 }
 
 // Whether everywhere on one of two windows beside each other, the way over the other one and along the edge
@@ -116,14 +115,8 @@ bool Envelope::put_down(const Window& window) {
 
 // Whether a window is now a part of the one that was put down last.
 bool Envelope::join_to_last(const Window& window) {
-    Window& last = done_.back();
-    if (is_continued(last, window)) {
-        last.end = window.end;
-        last.end_distance = window.end_distance;
-        return true;
-    }
-    const auto both = tolerance_ > 0 ? join_windows(last, window, tolerance_) : std::nullopt;
-    if (both) last = *both;
+    const std::optional<Window> both = join_windows(done_.back(), window, tolerance_);
+    if (both) done_.back() = *both;
     return both.has_value();
 }
 

@@ -4,7 +4,8 @@ namespace geodesic {
 
 namespace {
 
-// A difference of distances below this share of the distance is rounding.
+// A difference of distances below this share of the distance is rounding; so is one of where a source is, or
+// of a place on the edge.
 constexpr double RELATIVE_ROUNDING = 1e-12;
 
 double difference(const Window& a, const Window& b, double t) { return a.distance_at(t) - b.distance_at(t); }
@@ -44,9 +45,16 @@ double crossing(const Window& a, const Window& b, double low, double high, bool 
     return bisect(a, b, low, high, a_is_lower_at_low);
 }
 
+// Whether b begins where a ends, and both are propagated alike.
+bool is_beside(const Window& a, const Window& b) {
+    return std::abs(b.begin - a.end) <= RELATIVE_ROUNDING * b.end && a.nearest == b.nearest &&
+           a.from_face == b.from_face && a.pending == b.pending;
 }
 
-namespace {
+bool see_one_source(const Window& a, const Window& b) {
+    const double apart = RELATIVE_ROUNDING * (std::abs(a.x) + a.y);
+    return std::abs(a.x - b.x) <= apart && std::abs(a.y - b.y) <= apart && a.sigma == b.sigma;
+}
 
 // Whether one window for two would change their distances by clearly more than this share. Where the slopes
 // of the two differ by k at the place where they meet, one that has the outer rays of both is off by k / 4 to
@@ -63,13 +71,11 @@ bool differ_too_much(const Window& a, const Window& b, double tolerance) {
            bends * a_length * b_length > 2 * most * to_a * to_a * to_a * to_b;
 }
 
-}
-
-std::optional<Window> join_windows(const Window& a, const Window& b, double tolerance) {
+// What join_windows says of two that lie beside each other and see different sources.
+std::optional<Window> join_nearly(const Window& a, const Window& b, double tolerance) {
     // A farther source would be rounded by too much beside the distances.
     constexpr double FARTHEST = 100;
-    if (!is_beside(a, b) || !a.pending || !(a.y > 0) || !(b.y > 0) || differ_too_much(a, b, tolerance))
-        return std::nullopt;
+    if (!a.pending || !(a.y > 0) || !(b.y > 0) || differ_too_much(a, b, tolerance)) return std::nullopt;
     const double a_across = a.x - a.begin, b_across = b.x - b.end;
     const double turn = a_across * b.y - a.y * b_across;
     if (!(turn > 0)) return std::nullopt;
@@ -89,6 +95,17 @@ std::optional<Window> join_windows(const Window& a, const Window& b, double tole
     const double between = both.distance_at(a.end);
     if (std::abs(between - a.end_distance) > most || std::abs(between - b.begin_distance) > most)
         return std::nullopt;
+    return both;
+}
+
+}
+
+std::optional<Window> join_windows(const Window& a, const Window& b, double tolerance) {
+    if (!is_beside(a, b)) return std::nullopt;
+    if (!see_one_source(a, b)) return tolerance > 0 ? join_nearly(a, b, tolerance) : std::nullopt;
+    Window both = a;
+    both.end = b.end;
+    both.end_distance = b.end_distance;
     return both;
 }
 

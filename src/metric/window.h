@@ -28,32 +28,18 @@ struct Window {
     }
 };
 
-inline constexpr double WINDOW_ROUNDING = 1e-12; // of where a source is, or of a place on the edge
-
-// Whether b begins where a ends, and both are propagated alike.
-inline bool is_beside(const Window& a, const Window& b) {
-    return std::abs(b.begin - a.end) <= WINDOW_ROUNDING * b.end && a.nearest == b.nearest &&
-           a.from_face == b.from_face && a.pending == b.pending;
-}
-
-// Whether b goes on where a ends: both see the same source, but for rounding. Light that passes a vertex of a
-// flat part of the surface on both sides comes together again behind it.
-inline bool is_continued(const Window& a, const Window& b) {
-    const double apart = WINDOW_ROUNDING * (std::abs(a.x) + a.y);
-    return is_beside(a, b) && std::abs(a.x - b.x) <= apart && std::abs(a.y - b.y) <= apart &&
-           a.sigma == b.sigma;
-}
-
 // Where a window is lower than another on an interval: on [begin, end], empty if begin >= end.
 struct Advantage {
     double begin, end;
     bool inside_out; // lower outside of (begin, end) instead
 };
 
-// One window for what two see that lie beside each other, as in the approximation of Surazhsky et al. 2005.
-// Its source is where the outer rays of the two meet, so that behind the edge no place falls out of the
-// light. Nothing if these do not meet, if a distance at an end of either would change by more than this share
-// of itself, or if the two are not propagated alike.
+// One window for two, of which b begins where a ends. They may see the same source, but for rounding: light
+// that passes a vertex of a flat part of the surface on both sides comes together again behind it. Else, with
+// a tolerance, what both see may become one, as in the approximation of Surazhsky et al. 2005. The source is
+// then where the outer rays of the two meet, so that behind the edge no place falls out of the light. Nothing
+// if these do not meet, if a distance at an end of either would change by more than this share of itself, or
+// if the two are not propagated alike.
 std::optional<Window> join_windows(const Window& a, const Window& b, double tolerance);
 
 inline constexpr uint32_t MAX_NEAREST = UINT32_MAX >> 1;

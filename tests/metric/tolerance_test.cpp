@@ -197,9 +197,30 @@ TEST_CASE("tolerance: windows that are no one light stay two") {
     CHECK(!join_windows(window_over(0, 0.2191367113, 0.371560298901, 0.441028051401, 0.177728057919, 0),
                         window_over(0.2191367113, 0.574723375741, 0.297199090398, 0.602451944433, 0, 0),
                         1e-3));
-    Window done = same, first = a;
-    first.pending = done.pending = 0;
-    CHECK(!join_windows(first, done, 1e-3));
+    // What is propagated already is not changed.
+    Window nearly = window_over(0.4, 0.6, 0.29, 1, 0.5, 0), first = a;
+    CHECK(join_windows(first, nearly, 10));
+    first.pending = nearly.pending = 0;
+    CHECK(!join_windows(first, nearly, 10));
+}
+
+TEST_CASE("tolerance: windows of one source are one, without a tolerance and propagated or not") {
+    Window first = window_over(0.2, 0.4, 0.3, 1, 0.5, 0), second = window_over(0.4, 0.6, 0.3, 1, 0.5, 0);
+    for (const bool is_propagated : {false, true}) {
+        if (is_propagated) first.pending = second.pending = 0;
+        const auto both = join_windows(first, second, 0);
+        REQUIRE(both);
+        CHECK(both->begin == first.begin);
+        CHECK(both->end == second.end);
+        CHECK(both->begin_distance == first.begin_distance);
+        CHECK(both->end_distance == second.end_distance);
+        CHECK(both->x == first.x);
+        CHECK(both->y == first.y);
+        CHECK(both->sigma == first.sigma);
+        CHECK(bool{both->pending == 1} == !is_propagated);
+    }
+    second.x = 0.29;
+    CHECK(!join_windows(first, second, 0));
 }
 
 TEST_CASE("tolerance: an envelope has fewer windows, and its distances stay") {

@@ -58,7 +58,7 @@ TEST_CASE("flat faces: each point lies in one of those that edges were flipped f
         const auto flipped = flip_flat_edges(mesh);
         REQUIRE(flipped);
         const Faces before = faces_of(mesh), after = faces_of(flipped->mesh);
-        const FlatFaces flat(flip_flat_edges(mesh));
+        const FlatFaces flat(flipped);
         size_t found = 0, replaced = 0;
         for (uint32_t f = 0; f < mesh.face_count(); ++f)
             for (size_t kind = 0; kind < 24; ++kind) {
