@@ -30,9 +30,6 @@ bool divide(Window& first, Window& second) {
 
 }
 
-Envelope::Envelope(double tolerance)
-    : tolerance_(tolerance), beaten_by_(std::max(BEATEN_BY, BEATEN_BY_TOLERANCES * tolerance)) {}
-
 // Divides two windows. Returns false also where they are to be one.
 bool Envelope::stay_beside(Window& first, Window& second) const {
     return divide(first, second) && !join_windows(first, second, tolerance_);
@@ -47,7 +44,10 @@ bool Envelope::is_beaten_by_one_behind(const Window& window, const Window& behin
     return window.begin_distance > (behind.begin_distance + (behind.begin - window.begin)) * (1 + beaten_by_);
 }
 
-std::span<const Window> Envelope::merge(std::span<const Window> holders, std::span<Window> windows) {
+std::span<const Window> Envelope::merge(std::span<const Window> holders, std::span<Window> windows,
+                                        double tolerance) {
+    tolerance_ = tolerance;
+    beaten_by_ = std::max(BEATEN_BY, BEATEN_BY_TOLERANCES * tolerance);
     lowest_ = std::numeric_limits<double>::infinity();
     size_t divided = 0; // windows that are an envelope where they are
     if (holders.empty())

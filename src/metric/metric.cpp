@@ -12,6 +12,11 @@ FieldSolver::FieldSolver(uint32_t vertex_count)
 
 void FieldSolver::solve(const FieldRequest& request) {
     if (cancelled_ && *cancelled_) throw_cancelled();
+    forget(request);
+    run(request);
+}
+
+void FieldSolver::forget(const FieldRequest& request) {
     for (uint32_t vertex : touched_) {
         distance_[vertex] = UNREACHABLE;
         nearest_[vertex] = NONE;
@@ -19,7 +24,6 @@ void FieldSolver::solve(const FieldRequest& request) {
     touched_.clear();
     point_distance_.assign(request.target_points.size(), UNREACHABLE);
     final_up_to_ = 0;
-    run(request);
 }
 
 }

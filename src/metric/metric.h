@@ -63,6 +63,8 @@ public:
 
 protected:
     virtual void run(const FieldRequest& request) = 0;
+    // Begins anew: no distance is known.
+    void forget(const FieldRequest& request);
     void set_final_up_to(double distance) { final_up_to_ = distance; }
 
     // Lowers the distance of a vertex; false if it was that low already.

@@ -20,8 +20,20 @@ constexpr double FAR_ROUNDING = 1e-14; // short edges by that of where far sourc
 constexpr double ANGLE_SLACK = 1e-6;
 
 // The same where windows are joined: distances are off by some tolerances, and the rays of windows beside
-// each other, which have different sources, may diverge a little.
+// each other, which have different sources, may diverge a little. TOUCH is a share of an edge: windows reach
+// apexes that lie no farther beside their light.
 constexpr double TIE_TOLERANCES = 10, TOUCH_OF_JOINED = 0.1;
+
+// Windows are joined on edges that are longer than so many tolerances. On shorter ones, ways around the faces
+// there would be within the tolerances of each other, so that none would be left out.
+constexpr double JOINED_TOLERANCES = 100;
+
+// Where more windows than this are carried on for each settled vertex, joining them has made ever more of
+// them: on surfaces of all kinds there are 40 at most. FIRST_VERTICES count as settled from the start.
+constexpr uint64_t MOST_WINDOWS = 256, FIRST_VERTICES = 64;
+
+// Below which share of a distance a difference says nothing.
+double tie_with(double tolerance) { return std::max(TIE, TIE_TOLERANCES * tolerance); }
 
 // Windows on their way to an edge, in the order of that edge.
 struct Run {
@@ -36,6 +48,7 @@ struct Exit {
     double length, along_x, along_y;
     uint32_t near_vertex, apex;
     uint32_t edge, face;
+    double tie;    // see tie_with()
     bool reversed; // the exit edge's own first vertex is the apex
     Run run;
 };
@@ -51,8 +64,7 @@ class WindowPropagation final : public FieldSolver {
 public:
     WindowPropagation(std::shared_ptr<const IntrinsicMesh> mesh, double tolerance)
         : FieldSolver(static_cast<uint32_t>(mesh->total_angle.size())), mesh_(std::move(mesh)),
-          tie_(std::max(TIE, TIE_TOLERANCES * tolerance)), touch_(tolerance > 0 ? TOUCH_OF_JOINED : TOUCH),
-          envelope_(tolerance), lists_(edge_count()), queued_distance_(edge_count(), UNREACHABLE),
+          asked_tolerance_(tolerance), lists_(edge_count()), queued_distance_(edge_count(), UNREACHABLE),
           arrival_(vertex_count()), pending_(vertex_count()) {}
 
 private:
@@ -71,7 +83,9 @@ private:
     };
 
     void run(const FieldRequest& request) override;
+    bool run_with(double tolerance, const FieldRequest& request);
     void start(const FieldRequest& request);
+    double tolerance_on(uint32_t edge) const;
     bool edge_may_help(uint32_t edge, double distance);
     void prefetch(uint32_t item) const;
     void clear();
@@ -98,8 +112,9 @@ private:
     uint32_t edge_count() const { return static_cast<uint32_t>(mesh_->edge_length.size()); }
 
     std::shared_ptr<const IntrinsicMesh> mesh_;
-    const double tie_;   // a share of a distance below which a difference says nothing
-    const double touch_; // a share of an edge: windows reach apexes that lie no farther beside their light
+    const double asked_tolerance_;
+    double tolerance_ = 0;
+    uint64_t carried_on_ = 0; // windows, since the run began
     Envelope envelope_;
     WindowLists lists_;
     EventQueue queue_;                    // vertices by number, then edges, then target points
@@ -120,8 +135,18 @@ void WindowPropagation::clear() {
     queued_edges_.clear();
 }
 
+// Where edges are tiny or triangles are needles, joined windows can multiply without end.
 void WindowPropagation::run(const FieldRequest& request) {
+    if (run_with(asked_tolerance_, request)) return;
+    forget(request);
+    run_with(0, request);
+}
+
+// Returns false, and gives up, where joining makes ever more windows.
+bool WindowPropagation::run_with(double tolerance, const FieldRequest& request) {
     clear();
+    tolerance_ = tolerance;
+    carried_on_ = 0;
     start(request);
     const uint32_t first_edge = vertex_count(), first_point = first_edge + edge_count();
     const bool has_bounds = TargetBounds::are_known(*mesh_, request);
@@ -131,6 +156,7 @@ void WindowPropagation::run(const FieldRequest& request) {
     front_ = 0;
     set_final_up_to(UNREACHABLE);
     while (!queue_.empty()) {
+        if (tolerance > 0 && carried_on_ > MOST_WINDOWS * (settled + FIRST_VERTICES)) return false;
         const auto event = queue_.pop();
         const bool is_near_final = settled >= request.final_count;
         if (event.distance > request.radius || (is_done && is_near_final)) {
@@ -160,6 +186,12 @@ void WindowPropagation::run(const FieldRequest& request) {
             is_done |= pending_.settle_point(event.item - first_point);
         }
     }
+    return true;
+}
+
+// The tolerance with which windows are put down on an edge that the front has come to.
+double WindowPropagation::tolerance_on(uint32_t edge) const {
+    return mesh_->edge_length[edge] > JOINED_TOLERANCES * tolerance_ * front_ ? tolerance_ : 0;
 }
 
 // No more windows come to an edge that does not help: all of them are longer.
@@ -322,7 +354,7 @@ void WindowPropagation::sweep() {
     lists_.sweep([this](uint32_t edge) {
         const auto [first, second] = mesh_->edge_vertices[edge];
         const double farthest = 0.5 * (distance(first) + distance(second) + mesh_->edge_length[edge]);
-        return farthest * (1 + tie_) < front_;
+        return farthest * (1 + tie_with(tolerance_)) < front_;
     });
 }
 
@@ -345,12 +377,14 @@ void WindowPropagation::cross(uint32_t edge, const Side& side) {
                     side.apex,
                     exit_edge,
                     side.face,
+                    tie_with(tolerance_on(exit_edge)),
                     reversed,
                     {begin, begin, grows_at_end}};
     };
     Exit exits[2] = {exit_at(0, side.apex_x, first), exit_at(1, side.apex_back, second)};
     for (const Window& window : windows)
         if (window.pending && window.from_face != side.face) {
+            ++carried_on_;
             propagate(window, length, side, exits);
             if (!targets_.empty()) reach_points_behind(window, side);
         }
@@ -387,7 +421,8 @@ void WindowPropagation::propagate(const Window& window, double length, const Sid
     if (!(window.y > 0) && !on_edge) return;
     const double split = height > 0 ? window.x + (side.apex_x - window.x) * (window.y / height) : side.apex_x;
     const double crossing = std::clamp(split, window.begin, window.end);
-    const double rounding = touch_ * length + FAR_ROUNDING * (std::abs(window.x) + window.y);
+    const double touch = tolerance_ > 0 ? TOUCH_OF_JOINED : TOUCH;
+    const double rounding = touch * length + FAR_ROUNDING * (std::abs(window.x) + window.y);
     if (std::abs(split - crossing) <= rounding) reach_apex(window, side, split, crossing);
     if (window.begin < split)
         pass(window, {window.x, window.y, window.begin, std::min(window.end, split), split <= window.end},
@@ -418,8 +453,8 @@ void WindowPropagation::pass(const Window& window, const Beam& beam, Exit& exit)
     const double far_distance = window.sigma + norm(far - x, y);
 
     // Of no use where a path through a vertex of the face is shorter all along.
-    if (distance(exit.near_vertex) + far < far_distance * (1 - tie_)) return;
-    if (distance(exit.apex) + (exit.length - near) < near_distance * (1 - tie_)) return;
+    if (distance(exit.near_vertex) + far < far_distance * (1 - exit.tie)) return;
+    if (distance(exit.apex) + (exit.length - near) < near_distance * (1 - exit.tie)) return;
 
     Window& passed = exit.run.grows_at_end ? *exit.run.end++ : *--exit.run.begin;
     if (exit.reversed)
@@ -432,7 +467,7 @@ void WindowPropagation::pass(const Window& window, const Beam& beam, Exit& exit)
 // Puts windows into the list of an edge.
 void WindowPropagation::deliver(uint32_t edge, std::span<Window> run) {
     if (run.empty() || lists_.closed(edge)) return;
-    const std::span<const Window> merged = envelope_.merge(lists_.at(edge), run);
+    const std::span<const Window> merged = envelope_.merge(lists_.at(edge), run, tolerance_on(edge));
     if (envelope_.lowest() == UNREACHABLE) return;
     lists_.assign(edge, merged);
     if (!(envelope_.lowest() < queued_distance_[edge])) return;

@@ -67,7 +67,7 @@ void check_is_envelope(std::span<const Window> list, std::span<const Window> ins
 
 TEST_CASE("envelope: of many windows, in any order") {
     std::mt19937_64 random(3);
-    Envelope envelope(0);
+    Envelope envelope;
     for (int round = 0; round < 100; ++round) {
         auto windows = random_windows(random, 1 + static_cast<uint32_t>(random() % 40));
         if (round % 3 == 1) std::ranges::sort(windows, {}, &Window::begin);
@@ -79,7 +79,7 @@ TEST_CASE("envelope: of many windows, in any order") {
 
 TEST_CASE("envelope: a run of windows put into a list that is there") {
     std::mt19937_64 random(5);
-    Envelope envelope(0);
+    Envelope envelope;
     for (int round = 0; round < 100; ++round) {
         auto windows = random_windows(random, static_cast<uint32_t>(random() % 20));
         auto scratch = windows;
@@ -100,7 +100,7 @@ TEST_CASE("envelope: what is beaten by a way along the edge does not stay in gap
     const auto count_far = [](std::span<const Window> list) {
         return std::ranges::count_if(list, [](const Window& w) { return w.nearest == 1; });
     };
-    Envelope envelope(0);
+    Envelope envelope;
     auto far = window(0, 1, 0.3, 1);
     const auto filled = envelope.merge(near, {&far, 1});
     CHECK(count_far(filled) == 0); // at both ends of the edge, too
@@ -119,7 +119,7 @@ TEST_CASE("envelope: what is beaten by a way along the edge does not stay in gap
 
 TEST_CASE("envelope: windows that see one source and lie end to end are joined, whatever was rounded") {
     constexpr double ULP = 1e-16;
-    Envelope envelope(0);
+    Envelope envelope;
     std::vector<Window> run{window_below(0.3, 0.1, 0.4, 0, 0), window_below(0.3 + ULP, 0.4 + ULP, 0.7, 0, 0),
                             window_below(0.3 - ULP, 0.7, 0.9, 0, 0)};
     const std::vector<Window> holders{window_below(0.3, 0, 0.1, 0, 0), window_below(0.3, 0.9, 1, 0, 0)};
@@ -147,7 +147,7 @@ TEST_CASE("envelope: windows that see one source and lie end to end are joined, 
 
 TEST_CASE("envelope: tells the smallest distance that a window has won") {
     std::mt19937_64 random(4);
-    Envelope envelope(0);
+    Envelope envelope;
     for (int round = 0; round < 300; ++round) {
         const Window holder = random_window(random, 0);
         Window window = random_window(random, 1);
