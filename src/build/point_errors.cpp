@@ -9,6 +9,7 @@
 
 #include "src/build/errors_by_distance.h"
 #include "src/build/relative_errors.h"
+#include "src/mesh/parts.h"
 #include "src/partition/random.h"
 #include "src/points/point_queries.h"
 #include "src/surface/indexed_faces.h"
@@ -17,15 +18,27 @@ namespace geodesic {
 
 namespace {
 
+double area_of(const Mesh& mesh, uint32_t face) {
+    const auto& [a, b, c] = mesh.faces[face];
+    const Eigen::Vector3d to_b = mesh.positions[b] - mesh.positions[a],
+                          to_c = mesh.positions[c] - mesh.positions[a];
+    return to_b.cross(to_c).norm() / 2;
+}
+
+double longest_edge(const Mesh& mesh, uint32_t face) {
+    double longest = 0;
+    for (const uint32_t edge : mesh.face_edges[face]) longest = std::max(longest, mesh.edge_length(edge));
+    return longest;
+}
+
 // Per face, the area of all faces up to it, of those where edges are long.
-std::vector<double> areas_up_to(const Surface& surface) {
+std::vector<double> areas_up_to(const Mesh& mesh) {
+    const Parts parts = parts_of(mesh);
     std::vector<double> areas;
     double sum = 0;
-    for (uint32_t f = 0; f < surface.face_count(); ++f) {
-        const auto& [a, b, c] = surface.faces[f];
-        const Eigen::Vector3d to_b = surface.positions[b] - surface.positions[a],
-                              to_c = surface.positions[c] - surface.positions[a];
-        if (has_long_edges(surface, f)) sum += to_b.cross(to_c).norm() / 2;
+    for (uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const double across = parts.of(mesh.faces[f][0]).edges_across(longest_edge(mesh, f));
+        if (are_long_edges(across)) sum += area_of(mesh, f);
         areas.push_back(sum);
     }
     return areas;
@@ -45,10 +58,17 @@ SurfacePoint random_point(const std::vector<double>& areas, Random& random) {
 
 }
 
+bool have_long_edges(const Mesh& mesh) {
+    constexpr double WORTHWHILE = 1.0 / 16; // of the area
+    double area = 0;
+    for (uint32_t f = 0; f < mesh.face_count(); ++f) area += area_of(mesh, f);
+    return areas_up_to(mesh).back() > WORTHWHILE * area;
+}
+
 PointErrors::PointErrors(const Intake& intake, const std::optional<FlippedEdges>& flipped, uint64_t seed,
                          Workers& workers)
     : surface_(Intake(intake), {}, FlatFaces(flipped)) {
-    choose_points(seed);
+    choose_points(areas_up_to(intake.mesh), seed);
     distances_.resize(points_.size());
     workers.run(points_.size(), [&](FieldSolver& solver, size_t i) {
         const SurfacePoint of_index = *indexed_point(surface_, points_[i]);
@@ -59,8 +79,7 @@ PointErrors::PointErrors(const Intake& intake, const std::optional<FlippedEdges>
 }
 
 // Leaves out those of which rounding hides where the index has them.
-void PointErrors::choose_points(uint64_t seed) {
-    const std::vector<double> areas = areas_up_to(surface_);
+void PointErrors::choose_points(const std::vector<double>& areas, uint64_t seed) {
     if (!(areas.back() > 0)) return;
     Random random(seed);
     for (uint32_t left = source_count_of_rounds(surface_.vertex_count()); left > 0; --left)

@@ -20,9 +20,12 @@ inline uint32_t source_count_of_rounds(uint32_t vertex_count) {
     return std::clamp(VERTICES_IN_ALL / vertex_count, FEWEST, MOST);
 }
 
-// Compares fields from random points within faces with the metric, on the parts of the surface where edges
-// are long: there, they are less exact than fields from vertices. Each index on the same surface is compared
-// with the same distances.
+// Whether edges are long on so much of a surface that points there are worth to be asked. A scan with some
+// large triangles is a scan.
+bool have_long_edges(const Mesh& mesh);
+
+// Compares fields from random points within faces with the metric, where edges are long: there, they are less
+// exact than fields from vertices. Each index on the same surface is compared with the same distances.
 class PointErrors {
 public:
     // `flipped` is what flip_flat_edges() returns for the mesh of the intake. The metric of the workers is
@@ -34,7 +37,7 @@ public:
     MeasuredError measure(const Index& index, Workers& workers) const;
 
 private:
-    void choose_points(uint64_t seed);
+    void choose_points(const std::vector<double>& areas, uint64_t seed);
 
     Surface surface_;
     std::vector<SurfacePoint> points_;

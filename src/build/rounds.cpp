@@ -7,7 +7,6 @@
 #include "format/error.h"
 #include "src/build/errors_by_distance.h"
 #include "src/build/metric_options.h"
-#include "src/mesh/parts.h"
 #include "src/metric/window_propagation.h"
 #include "src/partition/random.h"
 
@@ -17,9 +16,15 @@ namespace {
 
 constexpr uint32_t MOST_ROUNDS = 5; // which leave 32nds of an edge
 
+// A round is kept where it leaves less than this share of the error: its added vertices cost entries.
+constexpr double WORTHWHILE = 0.95;
+
 // How many times the table entries of the index without added vertices there may be, in halves. Packed files
 // then grow to twice their size or little more, since positions and ids do not grow with the tables.
 constexpr uint64_t MOST_GROWTH_IN_HALVES = 5;
+
+// There may always be so many, which take some 100 KB in a packed file.
+constexpr uint64_t FEW_ENTRIES = 1 << 17;
 
 // Where the first round begins in the whole work. Before it, fields from points are measured.
 constexpr double ROUNDS_BEGIN = FIRST_FILLING_END + 0.02;
@@ -75,7 +80,7 @@ ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, d
 
 void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex filled,
                  std::optional<MeasuredTables> measured) {
-    most_entries_ = table_entries(index_) * MOST_GROWTH_IN_HALVES / 2;
+    most_entries_ = std::max<uint64_t>(FEW_ENTRIES, table_entries(index_) * MOST_GROWTH_IN_HALVES / 2);
     double error = first_error(metric);
     std::optional<FinerSurface> finer; // of the latest round, with its metric
     std::unique_ptr<const Metric> finer_metric;
@@ -94,7 +99,7 @@ void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex 
             return filling_.fill({finer->mesh, finer->hierarchy}, workers, &measured);
         });
         const double error_now = again ? error_of_index(workers) : error;
-        is_best = error_now < error;
+        is_best = error_now < WORTHWHILE * error;
         if (!is_best) break;
         filled = std::move(*again);
         error = error_now;
@@ -103,13 +108,9 @@ void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex 
     if (progress_ && !progress_(1, "accuracy")) throw_cancelled();
 }
 
-// Points are asked where edges are long: on scans they are as exact as vertices. A scan with some loose
-// triangles is a scan.
+// Points are asked where edges are long: on scans they are as exact as vertices.
 double Rounds::first_error(const Metric& metric) {
-    constexpr size_t WORTHWHILE = 16; // times the vertices on parts with long edges are all, at most
-    const auto across = edges_across_parts(intake_.mesh);
-    if (WORTHWHILE * static_cast<size_t>(std::ranges::count_if(across, are_long_edges)) < across.size())
-        return index_.description.error.mean;
+    if (!have_long_edges(intake_.mesh)) return index_.description.error.mean;
     constexpr uint64_t POINT_SEED = 0x706F696E7473;
     Workers workers(metric, options_.threads, part_of_progress(progress_, FIRST_FILLING_END, ROUNDS_BEGIN));
     workers.begin_stage("accuracy", 1);

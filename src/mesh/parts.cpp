@@ -29,34 +29,32 @@ private:
     std::vector<uint32_t> before_; // per vertex: one that is no greater, and itself only of the least one
 };
 
-struct Part {
-    Eigen::AlignedBox3d box;
-    double edge_sum = 0;
-    uint32_t edge_count = 0;
-
-    uint8_t edges_across() const {
-        constexpr double MOST = 255;
-        const double average_edge = edge_sum / std::max(edge_count, 1u), diagonal = box.diagonal().norm();
-        return static_cast<uint8_t>(diagonal < MOST * average_edge ? diagonal / average_edge : MOST);
-    }
-};
-
 }
 
-std::vector<uint8_t> edges_across_parts(const Mesh& mesh) {
+Parts parts_of(const Mesh& mesh) {
     JoinedVertices joined(mesh.vertex_count());
     for (const auto& [a, b] : mesh.edges) joined.join(a, b);
-    std::vector<Part> parts(mesh.vertex_count()); // of the least vertex of each
-    for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
-        parts[joined.least_of(v)].box.extend(mesh.positions[v]);
-    for (uint32_t e = 0; e < mesh.edge_count(); ++e) {
-        Part& part = parts[joined.least_of(mesh.edges[e][0])];
-        part.edge_sum += mesh.edge_length(e);
-        ++part.edge_count;
+    Parts parts;
+    parts.of_vertex.resize(mesh.vertex_count());
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        const uint32_t least = joined.least_of(v);
+        if (least == v) boxes.emplace_back();
+        parts.of_vertex[v] = least == v ? static_cast<uint32_t>(boxes.size() - 1) : parts.of_vertex[least];
+        boxes[parts.of_vertex[v]].extend(mesh.positions[v]);
     }
-    std::vector<uint8_t> across(mesh.vertex_count());
-    for (uint32_t v = 0; v < across.size(); ++v) across[v] = parts[joined.least_of(v)].edges_across();
-    return across;
+    std::vector<uint32_t> edge_counts(boxes.size());
+    parts.parts.resize(boxes.size());
+    for (uint32_t e = 0; e < mesh.edge_count(); ++e) {
+        const uint32_t part = parts.of_vertex[mesh.edges[e][0]];
+        parts.parts[part].average_edge += mesh.edge_length(e);
+        ++edge_counts[part];
+    }
+    for (size_t i = 0; i < boxes.size(); ++i) {
+        parts.parts[i].diagonal = boxes[i].diagonal().norm();
+        parts.parts[i].average_edge /= edge_counts[i];
+    }
+    return parts;
 }
 
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -7,11 +8,29 @@
 
 namespace geodesic {
 
-// A *part* of a mesh is what its edges join. Of each vertex, how many average edges of its part the part is
-// across, which is the diagonal of its bounding box: in whole ones, at most 255.
-std::vector<uint8_t> edges_across_parts(const Mesh& mesh);
+// A *part* of a mesh is what its edges join.
+struct Part {
+    double diagonal = 0; // of its bounding box
+    double average_edge = 0;
 
-// Whether the edges of a part that is so many across are long for what its surface does.
-inline bool are_long_edges(uint32_t edges_across) { return edges_across < 48; }
+    // How many edges it is across for a face with such a longest edge: average ones of the part or, where the
+    // face has one that is longer than some of these, of a share of that.
+    double edges_across(double longest_edge) const {
+        constexpr double SHARE = 1.0 / 3;
+        return diagonal / std::max(average_edge, SHARE * longest_edge);
+    }
+};
+
+struct Parts {
+    std::vector<Part> parts;
+    std::vector<uint32_t> of_vertex; // among the parts
+
+    const Part& of(uint32_t vertex) const { return parts[of_vertex[vertex]]; }
+};
+
+Parts parts_of(const Mesh& mesh);
+
+// Whether the edges around a face whose part is so many across are long for what the surface does.
+inline bool are_long_edges(double edges_across) { return edges_across < 48; }
 
 }

@@ -16,6 +16,7 @@
 #include "src/path/weighted_path.h"
 #include "src/points/face_points.h"
 #include "src/surface/costs.h"
+#include "src/surface/indexed_faces.h"
 #include "src/surface/nearby.h"
 
 namespace geodesic {
@@ -171,7 +172,8 @@ std::optional<Corridor> PathFinder::corridor_of(const Strip& strip, double lengt
 // There are surfaces of so many bumps that straight ways are not among the shortest ones. There, too, a
 // corridor is searched.
 StripWay PathFinder::find_way(PathQuality quality) {
-    const bool with_all_they_see = quality == PathQuality::EXACT || has_long_edges(surface_, source_.face);
+    const bool with_all_they_see =
+        quality == PathQuality::EXACT || are_long_edges(edges_across(surface_, surface_.faces[source_.face]));
     const FacePoint source = prepared_as(source_, with_all_they_see),
                     target = prepared_as(target_, with_all_they_see);
     StripWay way = find_straight(source, target);

@@ -159,7 +159,8 @@ std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& sour
     count = std::min(count, targets.size());
     std::vector<Query::Found> found;
     if (count == 0) return found;
-    const uint64_t vertex_pairs_per_pair = vertices_of_polygon(surface_, source.face) / VERTICES_PER_PAIR;
+    const uint64_t vertex_pairs_per_pair =
+        vertices_of_polygon(surface_, surface_.faces[source.face]) / VERTICES_PER_PAIR;
     if (query_.targets_are_few(targets.size(), count, vertex_pairs_per_pair)) {
         for (uint32_t i = 0; i < targets.size(); ++i)
             if (const float distance = sssd(source, targets[i]); distance < INFINITE)

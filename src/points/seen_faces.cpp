@@ -322,10 +322,11 @@ SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t mos
     return around;
 }
 
-size_t vertices_of_polygon(const Surface& surface, uint32_t face) {
+size_t vertices_of_polygon(const Surface& surface, const std::array<uint32_t, 3>& corners) {
     constexpr uint32_t FEW_EDGES_ACROSS = 5;
-    if (surface.edges_across[surface.faces[face][0]] < FEW_EDGES_ACROSS) return 96;
-    return has_long_edges(surface, face) ? 32 : 16;
+    const double across = edges_across(surface, corners);
+    if (across < FEW_EDGES_ACROSS) return 96;
+    return are_long_edges(across) ? 32 : 16;
 }
 
 }

@@ -65,9 +65,9 @@ struct SeenAround {
 // knows of it. `at` is a point of the faces of an index.
 SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t most);
 
-// How many vertices the polygon of a point on a face has, but for those between the ends of its edges, for
-// which there is room for 32 at least. What it does not tell is a share of an edge's length, so that it has
-// more where edges are long for the part of the surface that the face lies in.
-size_t vertices_of_polygon(const Surface& surface, uint32_t face);
+// How many vertices the polygon of a point on a face with these corners has, but for those between the ends
+// of its edges, for which there is room for 32 at least. What it does not tell is a share of an edge's
+// length, so that it has more where edges are long for the part of the surface that the face lies in.
+size_t vertices_of_polygon(const Surface& surface, const std::array<uint32_t, 3>& corners);
 
 }

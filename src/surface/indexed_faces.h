@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -20,6 +21,11 @@ inline std::array<double, 3> edge_lengths(const Surface& surface, const std::arr
         return (surface.positions[corners[a]] - surface.positions[corners[b]]).norm();
     };
     return {length(1, 2), length(2, 0), length(0, 1)};
+}
+
+// How many edges the part of the surface is across that a face with these corners lies in.
+inline double edges_across(const Surface& surface, const std::array<uint32_t, 3>& corners) {
+    return surface.parts.of(corners[0]).edges_across(std::ranges::max(edge_lengths(surface, corners)));
 }
 
 // Calls use(face) for every other one of these faces at the edge between two vertices of a face.

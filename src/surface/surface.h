@@ -33,7 +33,7 @@ struct Surface {
 
     double average_edge; // each edge counts once, as for the stated errors by distance; first, since it needs
                          // the mesh whose arrays the others take
-    std::vector<uint8_t> edges_across; // per vertex, see edges_across_parts()
+    Parts parts;
     std::vector<Eigen::Vector3d> positions;
     std::vector<std::array<uint32_t, 3>> faces;
     VertexFaces vertex_faces;
@@ -50,11 +50,6 @@ struct Surface {
     uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size()); }
     uint32_t face_count() const { return static_cast<uint32_t>(faces.size()); }
 };
-
-// Whether the edges around a face are long for the part of the surface that it lies in.
-inline bool has_long_edges(const Surface& surface, uint32_t face) {
-    return are_long_edges(surface.edges_across[surface.faces[face][0]]);
-}
 
 Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point);
 

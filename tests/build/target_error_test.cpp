@@ -75,7 +75,8 @@ TEST_CASE("target error: is reached, or the index is as large as it may be" * do
             CHECK(info.added_vertex_count > 0);
             CHECK(info.error_mean < before.error_mean);
             CHECK(info.table_entries > before.table_entries);
-            CHECK(2 * info.table_entries <= 5 * before.table_entries);
+            constexpr uint64_t FEW = 1 << 17; // that an index may always have
+            CHECK(2 * info.table_entries <= std::max(2 * FEW, 5 * before.table_entries));
             if (share > 0.5) CHECK(info.error_mean <= target);
             // What the mesh is has not changed.
             CHECK(info.vertex_count == before.vertex_count);

@@ -1,7 +1,6 @@
 #include "src/mesh/parts.h"
 
 #include <cmath>
-#include <set>
 
 #include <doctest/doctest.h>
 
@@ -11,23 +10,34 @@ using namespace geodesic;
 using namespace geodesic::test;
 
 TEST_CASE("parts: how many edges across, each by itself") {
-    const auto across = [](const Soup& soup) { return edges_across_parts(mesh_of(soup)); };
-    const auto all_are = [](const std::vector<uint8_t>& of_vertex, uint8_t expected) {
-        return std::set(of_vertex.begin(), of_vertex.end()) == std::set{expected};
+    // Of a mesh in one part, for faces without a longer edge than most.
+    const auto across = [](const Soup& soup) {
+        const Parts parts = parts_of(mesh_of(soup));
+        REQUIRE(parts.parts.size() == 1);
+        return parts.of(0).edges_across(0);
     };
     // Edges of 1, 1 and the square root of 2, as many of each but at the rim.
     const Soup sheet = grid(30, 30, 30, 30);
-    const double average = (2 * 30 * 31 + 30 * 30 * std::sqrt(2)) / (2 * 30 * 31 + 30 * 30);
-    CHECK(all_are(across(sheet), static_cast<uint8_t>(30 * std::sqrt(2) / average)));
-    CHECK(all_are(across(grid(30, 30, 3e-8, 3e-8)), static_cast<uint8_t>(30 * std::sqrt(2) / average)));
-    CHECK(all_are(across(grid(1, 1, 1, 1)), 1));
-    CHECK(all_are(across(grid(400, 2, 400, 2)), 255));
+    const double average = (2 * 30 * 31 + 30 * 30 * std::sqrt(2)) / (2 * 30 * 31 + 30 * 30),
+                 expected = 30 * std::sqrt(2) / average;
+    CHECK(across(sheet) == doctest::Approx(expected));
+    CHECK(across(grid(30, 30, 3e-8, 3e-8)) == doctest::Approx(expected));
+    CHECK(across(grid(1, 1, 1, 1)) == doctest::Approx(5 * std::sqrt(2) / (4 + std::sqrt(2))));
 
     Soup far = grid(1, 1, 1, 1);
     for (Eigen::Vector3d& at : far.positions) at.x() += 1e6;
-    const Soup both = joined(sheet, far);
-    const auto of_both = across(both);
-    const auto of_sheet = across(sheet);
+    const Mesh both = mesh_of(joined(sheet, far));
+    const Parts parts = parts_of(both);
+    CHECK(parts.parts.size() == 2);
     for (uint32_t v = 0; v < both.vertex_count(); ++v)
-        CHECK(of_both[v] == (both.positions[v].x() > 1e5 ? 1 : of_sheet.front()));
+        CHECK(parts.of(v).edges_across(0) ==
+              doctest::Approx(both.positions[v].x() > 1e5 ? across(far) : expected));
+}
+
+TEST_CASE("parts: a face with a long edge has few of them across") {
+    const Part part{100, 1};
+    CHECK(part.edges_across(1) == 100);
+    CHECK(part.edges_across(2.9) == 100);
+    CHECK(part.edges_across(30) == doctest::Approx(10));
+    CHECK(part.edges_across(100) == doctest::Approx(3));
 }
