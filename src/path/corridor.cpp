@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
+
+#include "src/surface/face_boxes.h"
 
 namespace geodesic {
 
@@ -30,6 +33,25 @@ private:
     std::vector<uint32_t> vertices_;
 };
 
+Corridor corridor_of_faces(const Surface& surface, std::vector<uint32_t>&& faces) {
+    std::ranges::sort(faces);
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    Corridor corridor{{}, std::move(faces)};
+    Renumbering renumbering;
+    for (const uint32_t face : corridor.face_of_surface) {
+        auto& local = corridor.mesh.faces.emplace_back();
+        for (size_t k = 0; k < 3; ++k) local[k] = renumbering.number(surface.faces[face][k]);
+    }
+    for (const uint32_t vertex : renumbering.vertices())
+        corridor.mesh.positions.push_back(surface.positions[vertex]);
+    connect(corridor.mesh);
+    return corridor;
+}
+
+double distance_in_space(const Surface& surface, uint32_t face, const Eigen::Vector3d& position) {
+    return (position_of(surface, closest_on_face(surface, face, position)) - position).norm();
+}
+
 }
 
 Corridor corridor_around(const Surface& surface, const Strip& strip,
@@ -53,18 +75,26 @@ Corridor corridor_around(const Surface& surface, const Strip& strip,
             for (const uint32_t other : surface.faces[face]) meet(other, false);
         }
     }
-    std::ranges::sort(faces);
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    Corridor corridor{{}, std::move(faces)};
-    Renumbering renumbering;
-    for (const uint32_t face : corridor.face_of_surface) {
-        auto& local = corridor.mesh.faces.emplace_back();
-        for (size_t k = 0; k < 3; ++k) local[k] = renumbering.number(surface.faces[face][k]);
-    }
-    for (const uint32_t vertex : renumbering.vertices())
-        corridor.mesh.positions.push_back(surface.positions[vertex]);
-    connect(corridor.mesh);
-    return corridor;
+    return corridor_of_faces(surface, std::move(faces));
+}
+
+std::optional<Corridor> corridor_in_space(const Surface& surface, const Strip& strip, double length,
+                                          size_t most_faces) {
+    const Eigen::Vector3d source = position_of(surface, strip.source),
+                          target = position_of(surface, strip.target);
+    std::unordered_set<uint32_t> known{strip.source.face, strip.target.face}; // whether they belong or not
+    std::vector<uint32_t> faces(known.begin(), known.end());
+    for (size_t i = 0; i < faces.size(); ++i)
+        for (const uint32_t vertex : surface.faces[faces[i]])
+            for (const uint32_t face : surface.vertex_faces[vertex]) {
+                if (!known.insert(face).second) continue;
+                if (distance_in_space(surface, face, source) + distance_in_space(surface, face, target) >
+                    length)
+                    continue;
+                if (faces.size() == most_faces) return std::nullopt;
+                faces.push_back(face);
+            }
+    return corridor_of_faces(surface, std::move(faces));
 }
 
 }

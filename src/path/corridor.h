@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "src/path/strip.h"
 
@@ -16,5 +17,10 @@ struct Corridor {
 // around them. belongs(vertex, slack) is asked with the length of the longest edge at the vertex.
 Corridor corridor_around(const Surface& surface, const Strip& strip,
                          const std::function<bool(uint32_t, double)>& belongs);
+
+// All faces that a path of this length between the ends of a strip can lead over, by their distances from
+// both ends in space. Nothing if these are more than `most_faces`.
+std::optional<Corridor> corridor_in_space(const Surface& surface, const Strip& strip, double length,
+                                          size_t most_faces);
 
 }

@@ -55,7 +55,8 @@ public:
     std::optional<double> find_length(double known);
 
 private:
-    static constexpr size_t MOST_VERTICES = 1000; // of a corridor that is no exact path's
+    // Of a corridor that is no exact path's.
+    static constexpr size_t MOST_VERTICES = 1000, MOST_FACES = 2 * MOST_VERTICES;
 
     FacePoint prepared_as(const SurfacePoint& end, bool with_all_it_sees) const;
     StripWay find_straight(const FacePoint& source, const FacePoint& target);
@@ -190,13 +191,16 @@ StripWay PathFinder::find_way(PathQuality quality) {
     return way;
 }
 
-// The length of a straight path or, if the pair is known to be shorter, of a shortest one in the corridor.
-// Nothing where the corridor is too large. Of the pair more is known than what its ends see would tell.
+// The length of a straight path or, if the pair is known to be shorter, of a shortest one in the corridor. Of
+// the pair more is known than what its ends see would tell. Distances of edges' ends may tell of a short way
+// that is not there, as between the two sides of a thin wall: then edges are long, so that the corridor is
+// too large, whereas few faces lie so near in space. Nothing where these are too many, too.
 std::optional<double> PathFinder::find_length(double known) {
     const StripWay way = find_straight(prepared_as(source_, false), prepared_as(target_, false));
     const double length = longest_shortest(known);
     if (way.strip.faces.size() == 1 || way.path.length <= length) return way.path.length;
-    const auto corridor = corridor_of(way.strip, length, MOST_VERTICES);
+    auto corridor = corridor_of(way.strip, length, MOST_VERTICES);
+    if (!corridor) corridor = corridor_in_space(surface_, way.strip, length, MOST_FACES);
     if (!corridor) return std::nullopt;
     return std::min(way.path.length, shortest_length_in_corridor(*corridor, way.strip));
 }

@@ -1,5 +1,7 @@
 // Pairs of points where triangles are large for how far the points are apart: tables of vertices say little.
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "tests/path/path_cases.h"
 #include "tests/support/sanitized.h"
@@ -60,6 +62,43 @@ TEST_CASE("point distance: on a tiny part of a large ground, as the metric says"
                 ground_triangles +
                 point->triangle % (static_cast<uint32_t>(on.soup.triangles.size()) - ground_triangles);
         check_pair(on, a, b, 0.005);
+    }
+}
+
+// Four rings: the outer and the inner wall, and the rims between them.
+Soup thin_tube(uint32_t sides, double height, double wall) {
+    Soup soup;
+    for (uint32_t i = 0; i < sides; ++i) {
+        const double angle = 2 * std::numbers::pi * i / sides;
+        for (const double radius : {1.0, 1 - wall})
+            for (const double z : {0.0, height})
+                soup.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+    for (uint32_t i = 0; i < sides; ++i) {
+        constexpr std::array<uint32_t, 5> AROUND{0, 1, 3, 2, 0};
+        const uint32_t here = 4 * i, next = 4 * ((i + 1) % sides);
+        for (size_t k = 0; k < 4; ++k) {
+            soup.triangles.push_back({here + AROUND[k], next + AROUND[k], next + AROUND[k + 1]});
+            soup.triangles.push_back({here + AROUND[k], next + AROUND[k + 1], here + AROUND[k + 1]});
+        }
+    }
+    return soup;
+}
+
+// The ends of edges are near each other over the rims, so that the walls seem to be joined all along.
+TEST_CASE("point distance: the two sides of a thin wall are as far apart as the metric says") {
+    constexpr uint32_t SIDES = smaller(320, 40);
+    auto options = path_options();
+    options.target_error = 1;
+    const PathCase on(thin_tube(SIDES, 20, 0.02), options);
+    std::mt19937_64 random(9);
+    for (uint32_t i = 0; i < smaller(60, 20); ++i) {
+        CAPTURE(i);
+        auto outside = random_point(on.soup, random, 0), inside = random_point(on.soup, random, 0);
+        const auto side = static_cast<uint32_t>(random() % SIDES);
+        outside.triangle = 8 * side;
+        inside.triangle = 8 * ((side + i % 5) % SIDES) + 4;
+        check_pair(on, outside, inside, 0.005);
     }
 }
 
