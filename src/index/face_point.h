@@ -24,6 +24,12 @@ struct FacePoint {
         double length, foot, height, seen_from, seen_to;
     };
 
+    // A vertex that the point sees beyond the polygon.
+    struct Beyond {
+        uint32_t number;
+        double straight; // from the point
+    };
+
     uint32_t vertex = NONE; // the number of the corner that the point is at, or NONE
     uint32_t leaf = NONE;   // a leaf whose tables have all vertices of the polygon, or NONE
     uint32_t vertex_count = 0, edge_count = 0;
@@ -31,6 +37,8 @@ struct FacePoint {
     std::array<uint32_t, MOST_VERTICES> numbers; // of the vertices; the corners of the face come first
     std::array<double, MOST_VERTICES> straight;  // from each vertex to the point; infinite if it is not seen
     std::array<Edge, MOST_EDGES> edges;
+    uint32_t beyond_count = 0; // which only fields ask for
+    std::array<Beyond, MOST_VERTICES> beyond;
 
     std::array<uint32_t, 3> corners() const { return {numbers[0], numbers[1], numbers[2]}; }
 };

@@ -47,6 +47,8 @@ void OverlayQuery::add_point(const FacePoint& point, float offset) {
     ways.leaf = point.leaf;
     ways.distance.clear();
     for (const float distance : in_leaf_.to_all(point)) ways.distance.push_back(offset + distance);
+    for (const auto& [number, straight] : std::span(point.beyond).first(point.beyond_count))
+        ways.beyond.push_back({number, offset + static_cast<float>(straight)});
 }
 
 void OverlayQuery::take_points(std::span<const FacePoint> points, std::span<const float> offsets) {

@@ -16,13 +16,14 @@ namespace geodesic {
 
 namespace {
 
-// What a point sees of the faces around it, whatever the index knows of them, goes so many vertices far.
-constexpr size_t NEAR_VERTICES = 32;
-
-// Nothing is seen from a vertex, nor from a face that is too flat or that the index was not made on.
+// What a point sees of the faces around it, whatever the index knows of them: twice as many vertices as its
+// polygon has. Nothing is seen from a vertex, nor from a face that is too flat or that the index was not made
+// on.
 SeenAround see_around_any_leaf(const Surface& surface, const SurfacePoint& point) {
     const auto indexed = vertex_at(surface, point) == NONE ? indexed_point(surface, point) : std::nullopt;
-    return indexed ? see_around(surface, *indexed, NEAR_VERTICES) : SeenAround();
+    if (!indexed) return {};
+    const size_t of_polygon = vertices_of_polygon(surface, indexed_corners(surface, indexed->face));
+    return see_around(surface, *indexed, std::min(2 * of_polygon, FacePoint::MOST_VERTICES));
 }
 
 // Makes one of all ways from one source, which begin at `begin`, to the same vertex. Keeps them by numbers.
@@ -161,8 +162,8 @@ PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfaceP
 // vertices beyond their edges and to others that the point sees: sums over tables are of rounded distances,
 // which count where these are short, and the polygon that the index tells of ends at the border of a leaf. Of
 // a vertex that the point does not see, what is known is the line in space.
-void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position, float offset,
-                                  std::vector<Query::KnownWay>& known) const {
+void PointQueries::add_known_ways(const SurfacePoint& source, const SeenAround& around, uint32_t position,
+                                  float offset, std::vector<Query::KnownWay>& known) const {
     const Eigen::Vector3d place = position_of(surface_, source);
     const auto add_way = [&](uint32_t vertex, double way) {
         const uint32_t number = number_of(vertex);
@@ -189,8 +190,18 @@ void PointQueries::add_known_ways(const SurfacePoint& source, uint32_t position,
             });
         }
     });
-    const SeenAround around = see_around_any_leaf(surface_, source);
     for (uint32_t k = 0; k < around.vertex_count; ++k) add_way(around.vertices[k], around.straight[k]);
+}
+
+// The tables of the point's leaf tell of the vertices of its polygon.
+void PointQueries::add_beyond(const SeenAround& around, FacePoint& point) const {
+    const auto of_polygon = std::span(point.numbers).first(point.vertex_count);
+    for (uint32_t k = 0; k < around.vertex_count; ++k) {
+        const uint32_t number = number_of(around.vertices[k]);
+        const bool is_seen = number != NONE && around.straight[k] < UNREACHABLE;
+        if (is_seen && std::ranges::find(of_polygon, number) == of_polygon.end())
+            point.beyond[point.beyond_count++] = {number, around.straight[k]};
+    }
 }
 
 // Tables have measured pairs wrong, so that fields from points near one vertex of such a pair have its other
@@ -221,9 +232,11 @@ PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> poi
     for (uint32_t i = 0; i < points.size(); ++i) {
         const float offset = offsets.empty() ? 0 : offsets[i];
         const size_t begin = sources.known.size();
-        const FacePoint& point = sources.points.emplace_back(view_of(points[i]).point);
+        FacePoint& point = sources.points.emplace_back(view_of(points[i]).point);
         if (point.vertex == NONE) {
-            add_known_ways(points[i], i, offset, sources.known);
+            const SeenAround around = unfolds() ? see_around_any_leaf(surface_, points[i]) : SeenAround();
+            add_beyond(around, point);
+            add_known_ways(points[i], around, i, offset, sources.known);
             add_measured_ways(point, i, offset, sources.known);
         } else {
             sources.known.push_back({i, point.vertex, offset, offset});

@@ -37,13 +37,30 @@ void for_each_way_from(const OverlayIndex& index, uint32_t source, const Functio
         function(first + i, i == own ? 0 : index.distance(index.internal_code(leaf, own, i), leaf));
 }
 
-// The same from a point of a face.
+// The same and, from a border vertex, to the internal vertices of the leaves whose border it is on.
+template <class Function>
+void for_each_way_of_any_table(const OverlayIndex& index, uint32_t source, const Function& function) {
+    const Numbering& numbering = index.numbering;
+    for_each_way_from(index, source, function);
+    if (!numbering.is_border(source)) return;
+    for (const auto& [patch, position] : numbering.borders_of(source)) {
+        if (patch < numbering.first_leaf()) continue;
+        const uint32_t first = numbering.first_internal(patch);
+        for (uint32_t i = 0; i < numbering.internal_size(patch); ++i)
+            function(first + i, index.distance(index.border_internal_code(patch, position, i), patch));
+    }
+}
+
+// The same from a point of a face, and over each vertex that it sees beyond its polygon.
 template <class Function>
 void for_each_way_from(const OverlayIndex& index, const PointWays& point, const Function& function) {
     const auto border = index.numbering.border_of(point.leaf);
     for (size_t i = 0; i < border.size(); ++i) function(border[i], point.distance[i]);
     uint32_t number = index.numbering.first_internal(point.leaf);
     for (size_t i = border.size(); i < point.distance.size(); ++i) function(number++, point.distance[i]);
+    for (const auto& [seen, way] : point.beyond)
+        for_each_way_of_any_table(index, seen,
+                                  [&](uint32_t other, float distance) { function(other, way + distance); });
 }
 
 // The sources of a sweep, each with a key: that of a vertex is its number, and those of points follow the

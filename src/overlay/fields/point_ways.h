@@ -11,12 +11,19 @@
 namespace geodesic {
 
 // What a point of a face is to a sweep: the distances to the border and to the internal vertices of a leaf,
-// as if it were an internal vertex of that leaf itself.
+// as if it were an internal vertex of that leaf itself, and to vertices that it sees beyond its polygon. Ways
+// that bend at one of these, hops from the border of the leaf may miss: they unfold over whole segments.
 struct PointWays {
-    explicit PointWays(std::pmr::memory_resource* memory) : distance(memory) {}
+    struct Beyond {
+        uint32_t number;
+        float distance;
+    };
+
+    explicit PointWays(std::pmr::memory_resource* memory) : distance(memory), beyond(memory) {}
 
     uint32_t leaf = NONE;
     Array<float> distance; // border vertices in the order of the border, then internal vertices
+    Array<Beyond> beyond;
 };
 
 // A vertex with the place that the tables of a leaf have for it.

@@ -9,7 +9,7 @@ namespace geodesic {
 OverlaySsad::OverlaySsad(const OverlayIndex& index, std::pmr::memory_resource* memory, size_t fields,
                          Crossing crossing)
     : index_(index), numbering_(index.numbering), fields_(fields), gaps_(memory), up_(index, memory),
-      down_(memory), sources_inside_(memory) {
+      down_(memory), sources_inside_(memory), is_known_inside_(memory) {
     set_threads(1);
     if (crossing == Crossing::AT_VERTICES)
         gaps_.resize(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, Rings::GAP);
@@ -38,14 +38,30 @@ void OverlaySsad::climb(const Sources& sources, std::span<float> distances) {
     std::ranges::fill(distances, INFINITE);
     const auto field = [&](size_t i) { return DistanceField{distances.data() + i, fields_}; };
     for (size_t i = 0; i < fields_; ++i)
-        sources.for_each_way(index_, sources.keys[i],
-                             [&](uint32_t number, float way) { field(i)[number] = way; });
+        sources.for_each_way(index_, sources.keys[i], [&](uint32_t number, float way) {
+            float& known = field(i)[number];
+            known = std::min(known, way);
+        });
     count_sources(numbering_, sources, sources_inside_);
+    mark_known_inside(sources);
     ascend(numbering_, sources_inside_, [&](uint32_t child) {
         for (size_t i = 0; i < fields_; ++i)
             if (numbering_.is_within(sources.innermost_patch(numbering_, sources.keys[i]), child))
                 hop_up(child, field(i));
     });
+}
+
+// Tables that have a vertex which a point sees also have inner vertices of its own patch, of those around
+// that and, where it is on their borders, of leaves.
+void OverlaySsad::mark_known_inside(const Sources& sources) {
+    is_known_inside_.assign(numbering_.patch_count(), 0);
+    for (const PointWays& point : sources.points)
+        for (const PointWays::Beyond& seen : point.beyond) {
+            for (uint32_t p = numbering_.innermost_patch(seen.number); p != NONE; p = numbering_.parent[p])
+                is_known_inside_[p] = 1;
+            if (!numbering_.is_border(seen.number)) continue;
+            for (const PatchPosition& at : numbering_.borders_of(seen.number)) is_known_inside_[at.patch] = 1;
+        }
 }
 
 // Hops to the overlay of the parent. The child's border keeps the distances it has.
@@ -73,20 +89,21 @@ void OverlaySsad::hop_down(uint32_t patch, std::span<float> distance) {
         sweep.cross_to(distance.data() + numbering_.first_inner(patch));
 }
 
-// Hops to the inner vertices of a patch. Their distances from sources inside of the patch are known already.
+// Hops to the inner vertices of a patch. Their distances from sources inside of the patch are known already,
+// and other ways to them may be.
 void OverlaySsad::hop_down(uint32_t patch, const Sources& sources, float radius, std::span<float> distances,
                            InnerSweep& sweep) const {
     if (sources_inside_[patch] == fields_) return;
     if (!sweep.begin(patch, distances.data(), segments_of(patch), radius)) return;
     float* const inside = distances.data() + numbering_.first_inner(patch) * fields_;
-    if (sources_inside_[patch] == 0) {
+    if (sources_inside_[patch] == 0 && !is_known_inside_[patch]) {
         sweep.cross_to(inside);
         return;
     }
     const std::span<const float> ways = sweep.cross();
     for (size_t i = 0; i < fields_; ++i)
         if (!numbering_.is_within(sources.innermost_patch(numbering_, sources.keys[i]), patch))
-            for (size_t k = i; k < ways.size(); k += fields_) inside[k] = ways[k];
+            for (size_t k = i; k < ways.size(); k += fields_) inside[k] = std::min(inside[k], ways[k]);
 }
 
 }

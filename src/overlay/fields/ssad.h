@@ -46,6 +46,7 @@ public:
 private:
     RingSegments segments_of(uint32_t patch) const;
     void climb(const Sources& sources, std::span<float> distances);
+    void mark_known_inside(const Sources& sources);
     void hop_up(uint32_t child, DistanceField distance);
     void cross_up(DistanceField distance);
     void hop_down(uint32_t patch, const Sources& sources, float radius, std::span<float> distances,
@@ -58,6 +59,8 @@ private:
     OuterCrossing up_;
     Array<InnerSweep> down_;         // one for each thread
     Array<uint32_t> sources_inside_; // per patch: how many
+    Array<uint8_t>
+        is_known_inside_; // per patch: whether points may know ways to inner vertices without a hop
 };
 
 }
