@@ -52,7 +52,7 @@ Parts parts_of(const Mesh& mesh) {
     }
     for (size_t i = 0; i < boxes.size(); ++i) {
         parts.parts[i].diagonal = boxes[i].diagonal().norm();
-        parts.parts[i].average_edge /= edge_counts[i];
+        parts.parts[i].average_edge /= std::max(edge_counts[i], 1u);
     }
     return parts;
 }

@@ -13,8 +13,8 @@ struct Part {
     double diagonal = 0; // of its bounding box
     double average_edge = 0;
 
-    // How many edges it is across for a face with such a longest edge: average ones of the part or, where the
-    // face has one that is longer than some of these, of a share of that.
+    // Its diagonal in edges, as a face sees it: in average ones of the part or, if that is more, in thirds of
+    // the face's longest edge.
     double edges_across(double longest_edge) const {
         constexpr double SHARE = 1.0 / 3;
         return diagonal / std::max(average_edge, SHARE * longest_edge);

@@ -24,12 +24,14 @@ constexpr double ANGLE_SLACK = 1e-6;
 // apexes that lie no farther beside their light.
 constexpr double TIE_TOLERANCES = 10, TOUCH_OF_JOINED = 0.1;
 
-// Windows are joined on edges that are longer than so many tolerances. On shorter ones, ways around the faces
-// there would be within the tolerances of each other, so that none would be left out.
+// Windows are joined on edges that are longer than so many times the tolerance, as a share of the distance.
+// On shorter ones, ways around the faces there would be within the tolerance of each other, so that none
+// would be left out.
 constexpr double JOINED_TOLERANCES = 100;
 
-// Where more windows than this are carried on for each settled vertex, joining them has made ever more of
-// them: on surfaces of all kinds there are 40 at most. FIRST_VERTICES count as settled from the start.
+// Where more windows than this are carried into faces for each settled vertex, joining them has made ever
+// more of them: on surfaces of all kinds there are 40 at most. FIRST_VERTICES, and as many as there are
+// sources, count as settled from the start.
 constexpr uint64_t MOST_WINDOWS = 256, FIRST_VERTICES = 64;
 
 // Below which share of a distance a difference says nothing.
@@ -114,7 +116,7 @@ private:
     std::shared_ptr<const IntrinsicMesh> mesh_;
     const double asked_tolerance_;
     double tolerance_ = 0;
-    uint64_t carried_on_ = 0; // windows, since the run began
+    uint64_t carried_on_ = 0; // windows, into faces, since the run began
     Envelope envelope_;
     WindowLists lists_;
     EventQueue queue_;                    // vertices by number, then edges, then target points
@@ -147,16 +149,17 @@ bool WindowPropagation::run_with(double tolerance, const FieldRequest& request) 
     clear();
     tolerance_ = tolerance;
     carried_on_ = 0;
+    front_ = 0;
     start(request);
     const uint32_t first_edge = vertex_count(), first_point = first_edge + edge_count();
     const bool has_bounds = TargetBounds::are_known(*mesh_, request);
     bool is_done = false;    // with the targets
     bool is_bounded = false; // all that is asked for, besides targets, is final
     uint32_t settled = 0;
-    front_ = 0;
+    const uint64_t in_any_case = FIRST_VERTICES + request.sources.size() + request.source_points.size();
     set_final_up_to(UNREACHABLE);
     while (!queue_.empty()) {
-        if (tolerance > 0 && carried_on_ > MOST_WINDOWS * (settled + FIRST_VERTICES)) return false;
+        if (tolerance > 0 && carried_on_ > MOST_WINDOWS * (settled + in_any_case)) return false;
         const auto event = queue_.pop();
         const bool is_near_final = settled >= request.final_count;
         if (event.distance > request.radius || (is_done && is_near_final)) {

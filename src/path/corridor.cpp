@@ -80,20 +80,25 @@ Corridor corridor_around(const Surface& surface, const Strip& strip,
 
 std::optional<Corridor> corridor_in_space(const Surface& surface, const Strip& strip, double length,
                                           size_t most_faces) {
+    constexpr size_t MOST_KNOWN = 8; // times the faces that belong
     const Eigen::Vector3d source = position_of(surface, strip.source),
                           target = position_of(surface, strip.target);
     std::unordered_set<uint32_t> known{strip.source.face, strip.target.face}; // whether they belong or not
+    std::unordered_set<uint32_t> passed;                                      // vertices
     std::vector<uint32_t> faces(known.begin(), known.end());
     for (size_t i = 0; i < faces.size(); ++i)
-        for (const uint32_t vertex : surface.faces[faces[i]])
+        for (const uint32_t vertex : surface.faces[faces[i]]) {
+            if (!passed.insert(vertex).second) continue;
             for (const uint32_t face : surface.vertex_faces[vertex]) {
                 if (!known.insert(face).second) continue;
+                if (known.size() > MOST_KNOWN * most_faces) return std::nullopt;
                 if (distance_in_space(surface, face, source) + distance_in_space(surface, face, target) >
                     length)
                     continue;
                 if (faces.size() == most_faces) return std::nullopt;
                 faces.push_back(face);
             }
+        }
     return corridor_of_faces(surface, std::move(faces));
 }
 

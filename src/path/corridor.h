@@ -19,7 +19,7 @@ Corridor corridor_around(const Surface& surface, const Strip& strip,
                          const std::function<bool(uint32_t, double)>& belongs);
 
 // All faces that a path of this length between the ends of a strip can lead over, by their distances from
-// both ends in space. Nothing if these are more than `most_faces`.
+// both ends in space. Nothing if these are more than `most_faces`, or if very many lie around them.
 std::optional<Corridor> corridor_in_space(const Surface& surface, const Strip& strip, double length,
                                           size_t most_faces);
 

@@ -173,8 +173,11 @@ std::optional<Corridor> PathFinder::corridor_of(const Strip& strip, double lengt
 // There are surfaces of so many bumps that straight ways are not among the shortest ones. There, too, a
 // corridor is searched.
 StripWay PathFinder::find_way(PathQuality quality) {
+    const auto has_long_edges = [&](const SurfacePoint& end) {
+        return are_long_edges(edges_across(surface_, surface_.faces[end.face]));
+    };
     const bool with_all_they_see =
-        quality == PathQuality::EXACT || are_long_edges(edges_across(surface_, surface_.faces[source_.face]));
+        quality == PathQuality::EXACT || has_long_edges(source_) || has_long_edges(target_);
     const FacePoint source = prepared_as(source_, with_all_they_see),
                     target = prepared_as(target_, with_all_they_see);
     StripWay way = find_straight(source, target);

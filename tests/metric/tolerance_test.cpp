@@ -125,6 +125,9 @@ TEST_CASE("tolerance: where joined windows multiply, distances are exact") {
     const auto exact = ExactMetric(mesh).make_solver(),
                with_tolerance = ExactMetric(mesh, 1e-5).make_solver();
     for (uint32_t source = 0; source < mesh.vertex_count(); ++source) {
+        // A part of a field, and points, leave nothing behind.
+        const SurfacePoint in_face{source % mesh.face_count(), {0.2, 0.3, 0.5}};
+        with_tolerance->solve({{}, {}, {&in_face, 1}, {&in_face, 1}, 1e-3, 3});
         exact->solve({&source, 1}, {});
         with_tolerance->solve({&source, 1}, {});
         for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
