@@ -20,8 +20,7 @@ inline uint32_t source_count_of_rounds(uint32_t vertex_count) {
     return std::clamp(VERTICES_IN_ALL / vertex_count, FEWEST, MOST);
 }
 
-// Whether edges are long on so much of a surface that points there are worth to be asked. A scan with some
-// large triangles is a scan.
+// Whether edges are long on a sixteenth of a surface, so that points there are worth asking.
 bool have_long_edges(const Mesh& mesh);
 
 // Compares fields from random points within faces with the metric, where edges are long: there, they are less

@@ -16,14 +16,16 @@ namespace {
 
 constexpr uint32_t MOST_ROUNDS = 5; // which leave 32nds of an edge
 
-// A round is kept where it leaves less than this share of the error: its added vertices cost entries.
+// A round is kept where it reaches the target or leaves at most this share of the error: its added vertices
+// cost entries.
 constexpr double WORTHWHILE = 0.95;
 
 // How many times the table entries of the index without added vertices there may be, in halves. Packed files
 // then grow to twice their size or little more, since positions and ids do not grow with the tables.
 constexpr uint64_t MOST_GROWTH_IN_HALVES = 5;
 
-// There may always be so many, which take some 100 KB in a packed file.
+// There may always be so many, which take some 100 KB in a packed file: more than twice what a small mesh has
+// without added vertices.
 constexpr uint64_t FEW_ENTRIES = 1 << 17;
 
 // Where the first round begins in the whole work. Before it, fields from points are measured.
@@ -99,7 +101,7 @@ void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex 
             return filling_.fill({finer->mesh, finer->hierarchy}, workers, &measured);
         });
         const double error_now = again ? error_of_index(workers) : error;
-        is_best = error_now < WORTHWHILE * error;
+        is_best = error_now <= std::max(options_.target_error, WORTHWHILE * error);
         if (!is_best) break;
         filled = std::move(*again);
         error = error_now;
@@ -120,10 +122,10 @@ double Rounds::first_error(const Metric& metric) {
 
 // The larger one of the mean errors of fields from vertices and from points. A mean over a whole surface
 // hides what the few points see that are beside long edges: so the p99.9 of the errors from points counts,
-// too. It may be 2 % by default, more than it is on meshes whose points are about as exact as their vertices.
+// too. It may be 1 % by default, more than it is on meshes whose points are about as exact as their vertices.
 // Pairs that tables have wrong are not measured yet.
 double Rounds::error_of_index(Workers& workers) const {
-    constexpr double TAIL = 40;
+    constexpr double TAIL = 20;
     const double of_vertices = index_.description.error.mean;
     if (!of_points_) return of_vertices;
     const MeasuredError of_points = of_points_->measure(index_, workers);

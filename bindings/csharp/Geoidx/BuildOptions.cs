@@ -104,9 +104,9 @@ namespace Geoidx
         /// <summary>
         /// <see cref="GeodesicEngine.Overlay"/> with <see cref="MetricKind.Exact"/>, <see cref="Delta"/> 0 and no edge
         /// lengths: the mean error, 0 to 1, that the index is to have at most, where triangles are large also of fields
-        /// from points within them, whose p99.9 is to be at most forty times as much; the index does not state these.
-        /// Where it is larger, edges between patches are cut in halves, up to five times, as
-        /// long as the error becomes smaller and table entries stay below two and a half times their number without.
+        /// from points within them, whose p99.9 is to be at most twenty times as much; the index does not state these.
+        /// Where it is larger, edges between patches are cut in halves, up to five times, as long as the error becomes
+        /// smaller and table entries stay below two and a half times their number without, or 131,072.
         /// Default: 0.0005, which is 0.05 %. 0: no edge is cut.
         /// </summary>
         public double TargetError { get; set; }

@@ -111,9 +111,9 @@ class Index(Closable):
             of each entry in a packed file.
         target_error: of the overlay engine with the exact metric and delta 0, the mean error, 0 .. 1, that the index
             is to have at most, where triangles are large also of fields from points within them, whose p99.9 is to be
-            at most forty times as much; the index does not state these. Where it is larger,
+            at most twenty times as much; the index does not state these. Where it is larger,
             edges between patches are cut in halves, up to five times, as long as the error becomes smaller and table
-            entries stay below two and a half times their number without. 0: no edge is cut.
+            entries stay below two and a half times their number without, or 131,072. 0: no edge is cut.
         lloyd_iterations: relaxations of the patches' seeds.
         threads: 0: one per processor.
         refuse_edges_of_many: an edge with more than two triangles is a BadMeshError.
