@@ -262,11 +262,12 @@ typedef struct geoidx_build_options {
     /* GEOIDX_ENGINE_OVERLAY with GEOIDX_METRIC_EXACT, delta 0 and no edge_lengths; not used otherwise: the
      * mean error, 0 .. 1, that the index is to have at most. Scans have less from the start. Where it is
      * larger, as on meshes of large triangles and on rough surfaces, edges between patches are cut in halves
-     * and the tables are made anew, up to five times, as long as the error becomes smaller and table entries
-     * stay below two and a half times their number without; so the error may also stay larger. What is cut
-     * there are *added vertices*: they have no id and are in no answer. Where edges are long for the whole
-     * surface, fields from points within triangles are to have that mean error, too, and a p99.9 of at most
-     * forty times as much, which the index does not state. Default 0.0005, which is 0.05 %. 0: none. */
+     * and the tables are made anew, up to five times, as long as the error becomes smaller by a twentieth and
+     * table entries stay below two and a half times their number without, or 131,072; so the error may also
+     * stay larger. What is cut there are *added vertices*: they have no id and are in no answer. Where
+     * triangles with edges that are long for the surface are a sixteenth of its area, fields from points
+     * within them are to have that mean error, too, and a p99.9 of at most twenty times as much, which the
+     * index does not state. Default 0.0005, which is 0.05 %. 0: none. */
     double target_error;
     /* 1: the index keeps the mesh, bit for bit, so that its file alone is enough for points of the surface
      * and for paths: see geoidx_surface_of_index. It takes some 20 bytes a vertex of a closed mesh with
@@ -277,7 +278,8 @@ typedef struct geoidx_build_options {
      * share of themselves, 0 .. 1e-4, so that a whole field takes less time: at 1e-5 scans take 0.6 to 0.9 of
      * it, surfaces of long triangles a half to a tenth. On 563 meshes, fields were off by at most one and a
      * half times that share on average (at 3e-5 and above, six times), and by at most a hundred times it
-     * anywhere, too long or too short. Targets are final within the tolerance. 0 (default): exact. */
+     * anywhere, too long or too short. Where edges are shorter than a hundred times the share of the
+     * distance, nothing is saved. Targets are final within the tolerance. 0 (default): exact. */
     double solver_tolerance;
 } geoidx_build_options;
 
@@ -775,10 +777,11 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * that is shorter, or of one of the ways above: of edges that are long for the distance, vertices tell
  * little. That takes tens of microseconds, on surfaces of few large triangles some hundred. It takes scratch
  * from the global heap each time, and from the index's allocator as paths do. It is given up after 2000
- * triangles or with a corridor of more than 1000 vertices, and by GEOIDX_ENGINE_GRAPH it is not done. All
- * other distances are to the accuracy of the index. Points of triangles that share a corner are no farther
- * apart than the way over it is long and, by GEOIDX_METRIC_EXACT, than a straight line around it over the
- * triangles between the two. +INFINITY where there is no path. */
+ * triangles, or where more than 1000 vertices are in the corridor and more than 2000 triangles near enough
+ * to both points in space, and by GEOIDX_ENGINE_GRAPH it is not done. All other distances are to the accuracy
+ * of the index. Points of triangles that share a corner are no farther apart than the way over it is long
+ * and, by GEOIDX_METRIC_EXACT, than a straight line around it over the triangles between the two. +INFINITY
+ * where there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* source,
                                                  const geoidx_surface_point* target, float* distance);
@@ -787,8 +790,8 @@ GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoi
  * sources[i] to v. `offsets` are finite and not negative; NULL: all are 0. An offset that all sources have is
  * added to the distances without it. Where offsets differ, up to four sources take a field each, and with
  * more the distances of the later ones are less exact. By GEOIDX_METRIC_EXACT the distance to a vertex that a
- * source within a triangle sees over the 30 or so triangles around it is no longer than that straight line
- * and, from one source, no shorter than the line in space. */
+ * source within a triangle sees over the triangles around it, 30 or so and up to 126 where edges are long, is
+ * no longer than that straight line and, from one source, no shorter than the line in space. */
 GEOIDX_API geoidx_status geoidx_query_point_msad(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* sources, uint32_t source_count,
                                                  const float* offsets, float* distances,

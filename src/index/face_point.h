@@ -24,7 +24,7 @@ struct FacePoint {
         double length, foot, height, seen_from, seen_to;
     };
 
-    // A vertex that the point sees beyond the polygon.
+    // A vertex that the point sees and that is not of the polygon.
     struct Beyond {
         uint32_t number;
         double straight; // from the point
@@ -37,7 +37,7 @@ struct FacePoint {
     std::array<uint32_t, MOST_VERTICES> numbers; // of the vertices; the corners of the face come first
     std::array<double, MOST_VERTICES> straight;  // from each vertex to the point; infinite if it is not seen
     std::array<Edge, MOST_EDGES> edges;
-    uint32_t beyond_count = 0; // which only fields ask for
+    uint32_t beyond_count = 0; // filled for fields only
     std::array<Beyond, MOST_VERTICES> beyond;
 
     std::array<uint32_t, 3> corners() const { return {numbers[0], numbers[1], numbers[2]}; }

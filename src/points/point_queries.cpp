@@ -193,13 +193,20 @@ void PointQueries::add_known_ways(const SurfacePoint& source, const SeenAround& 
     for (uint32_t k = 0; k < around.vertex_count; ++k) add_way(around.vertices[k], around.straight[k]);
 }
 
-// The tables of the point's leaf tell of the vertices of its polygon.
-void PointQueries::add_beyond(const SeenAround& around, FacePoint& point) const {
+// Notes the vertices that the point sees and that are not of its polygon. The tables of the point's leaf tell
+// of those of the polygon and, where edges are short, nearly as much of others in the leaf.
+void PointQueries::add_beyond(const SurfacePoint& source, const SeenAround& around, FacePoint& point) const {
+    const auto* const overlay = std::get_if<OverlayIndex>(&index_.engine);
+    if (!overlay || point.leaf == NONE) return;
+    const bool has_long_edges = are_long_edges(edges_across(surface_, surface_.faces[source.face]));
     const auto of_polygon = std::span(point.numbers).first(point.vertex_count);
+    const auto is_known = [&](uint32_t number) {
+        return has_long_edges ? std::ranges::find(of_polygon, number) != of_polygon.end()
+                              : is_in_leaf(overlay->numbering, point.leaf, number);
+    };
     for (uint32_t k = 0; k < around.vertex_count; ++k) {
         const uint32_t number = number_of(around.vertices[k]);
-        const bool is_seen = number != NONE && around.straight[k] < UNREACHABLE;
-        if (is_seen && std::ranges::find(of_polygon, number) == of_polygon.end())
+        if (number != NONE && around.straight[k] < UNREACHABLE && !is_known(number))
             point.beyond[point.beyond_count++] = {number, around.straight[k]};
     }
 }
@@ -235,7 +242,7 @@ PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> poi
         FacePoint& point = sources.points.emplace_back(view_of(points[i]).point);
         if (point.vertex == NONE) {
             const SeenAround around = unfolds() ? see_around_any_leaf(surface_, points[i]) : SeenAround();
-            add_beyond(around, point);
+            add_beyond(points[i], around, point);
             add_known_ways(points[i], around, i, offset, sources.known);
             add_measured_ways(point, i, offset, sources.known);
         } else {

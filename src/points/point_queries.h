@@ -66,7 +66,7 @@ private:
         operator Query::PointSources() const { return {points, offsets, known}; }
     };
     Sources sources_of(std::span<const SurfacePoint> points, std::span<const float> offsets) const;
-    void add_beyond(const SeenAround& around, FacePoint& point) const;
+    void add_beyond(const SurfacePoint& source, const SeenAround& around, FacePoint& point) const;
     void add_known_ways(const SurfacePoint& source, const SeenAround& around, uint32_t position, float offset,
                         std::vector<Query::KnownWay>& known) const;
     void add_measured_ways(const FacePoint& point, uint32_t position, float offset,

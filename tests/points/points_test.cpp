@@ -167,6 +167,46 @@ TEST_CASE("points: vertices are added where fields from points are less exact th
     CHECK(mean_of_fields(as_asked) < 0.5 * error_without);
 }
 
+// A long wall in one plane whose upper edge has teeth: one triangle has the whole lower edge, and ways from
+// it bend at the feet of teeth that lie beyond the border of its leaf.
+Soup battlement(uint32_t teeth) {
+    Soup wall;
+    wall.positions = {{0, 0, 0}, {double(teeth), 0, 0}};
+    for (uint32_t i = 0; i < teeth; ++i) {
+        const double left = i + 0.4, right = i + 0.6;
+        for (const double height : {0.5, 4.5}) {
+            wall.positions.emplace_back(left, height, 0);
+            wall.positions.emplace_back(right, height, 0);
+        }
+        const uint32_t foot = 2 + 4 * i;
+        wall.triangles.push_back({foot, foot + 1, foot + 3});
+        wall.triangles.push_back({foot, foot + 3, foot + 2});
+        wall.triangles.push_back({0, foot + 1, foot});
+        wall.triangles.push_back({0, i + 1 < teeth ? foot + 4 : 1, foot + 1});
+    }
+    return wall;
+}
+
+TEST_CASE("points: fields go over vertices that are seen beyond the leaf") {
+    const PathCase on(battlement(60));
+    std::mt19937_64 random(5);
+    for (size_t i = 0; i < 100; i += sparse(1)) {
+        CAPTURE(i);
+        const geoidx_surface_point sources[] = {random_point(on.soup, random, 0),
+                                                random_point(on.soup, random, 0)};
+        const auto alone = field(on, {sources, 1}), both = field(on, sources);
+        const auto exact = on.exact_field(sources[0]), exact_of_other = on.exact_field(sources[1]);
+        const auto threads = static_cast<uint32_t>(1 + i % 3);
+        REQUIRE(geoidx_query_set_threads(on.query.get(), threads) == GEOIDX_OK);
+        CHECK(field(on, {sources, 1}) == alone);
+        for (size_t v = 0; v < exact.size(); ++v) {
+            CHECK(std::abs(double{alone[v]} - exact[v]) <= 0.01 * exact[v]);
+            const double least = std::min(exact[v], exact_of_other[v]);
+            CHECK(std::abs(double{both[v]} - least) <= 0.05 * least);
+        }
+    }
+}
+
 // A part does not tell how far away others are.
 TEST_CASE("points: on parts that lie far from each other they are as exact as on one of them") {
     const Soup column = closed_cylinder(54, 6);

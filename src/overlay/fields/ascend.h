@@ -37,30 +37,40 @@ void for_each_way_from(const OverlayIndex& index, uint32_t source, const Functio
         function(first + i, i == own ? 0 : index.distance(index.internal_code(leaf, own, i), leaf));
 }
 
-// The same and, from a border vertex, to the internal vertices of the leaves whose border it is on.
+// The same within the leaves alone that the vertex is in or on the border of: to their borders and internal
+// vertices.
 template <class Function>
-void for_each_way_of_any_table(const OverlayIndex& index, uint32_t source, const Function& function) {
+void for_each_way_in_leaves(const OverlayIndex& index, uint32_t source, const Function& function) {
     const Numbering& numbering = index.numbering;
-    for_each_way_from(index, source, function);
-    if (!numbering.is_border(source)) return;
-    for (const auto& [patch, position] : numbering.borders_of(source)) {
-        if (patch < numbering.first_leaf()) continue;
-        const uint32_t first = numbering.first_internal(patch);
-        for (uint32_t i = 0; i < numbering.internal_size(patch); ++i)
-            function(first + i, index.distance(index.border_internal_code(patch, position, i), patch));
+    if (!numbering.is_border(source)) return for_each_way_from(index, source, function);
+    for (const auto& [leaf, position] : numbering.borders_of(source)) {
+        if (leaf < numbering.first_leaf()) continue;
+        const uint32_t* const overlay_positions =
+            numbering.overlay_position.data() + numbering.border_begin[leaf];
+        const auto border = numbering.border_of(leaf);
+        const uint32_t parent = numbering.parent[leaf], first = numbering.first_internal(leaf);
+        for (uint32_t i = 0; i < border.size(); ++i)
+            function(border[i], index.distance(index.overlay_code(parent, overlay_positions[position],
+                                                                  overlay_positions[i]),
+                                               parent));
+        for (uint32_t i = 0; i < numbering.internal_size(leaf); ++i)
+            function(first + i, index.distance(index.border_internal_code(leaf, position, i), leaf));
     }
 }
 
-// The same from a point of a face, and over each vertex that it sees beyond its polygon.
+// To the vertices of the leaf of a point of a face, and to those of the leaves of each vertex that it sees
+// beyond its polygon, over that. What was measured counts instead of what tables say of the latter.
 template <class Function>
 void for_each_way_from(const OverlayIndex& index, const PointWays& point, const Function& function) {
     const auto border = index.numbering.border_of(point.leaf);
     for (size_t i = 0; i < border.size(); ++i) function(border[i], point.distance[i]);
     uint32_t number = index.numbering.first_internal(point.leaf);
     for (size_t i = border.size(); i < point.distance.size(); ++i) function(number++, point.distance[i]);
-    for (const auto& [seen, way] : point.beyond)
-        for_each_way_of_any_table(index, seen,
-                                  [&](uint32_t other, float distance) { function(other, way + distance); });
+    for (const PointWays::Beyond& seen : point.beyond)
+        for_each_way_in_leaves(index, seen.number, [&](uint32_t other, float distance) {
+            const float* const measured = index.measured.distance(seen.number, other);
+            function(other, seen.distance + (measured ? *measured : distance));
+        });
 }
 
 // The sources of a sweep, each with a key: that of a vertex is its number, and those of points follow the

@@ -12,7 +12,8 @@ namespace geodesic {
 
 // What a point of a face is to a sweep: the distances to the border and to the internal vertices of a leaf,
 // as if it were an internal vertex of that leaf itself, and to vertices that it sees beyond its polygon. Ways
-// that bend at one of these, hops from the border of the leaf may miss: they unfold over whole segments.
+// that bend at one of these, hops from the border of the leaf may miss: they unfold a whole segment from one
+// place.
 struct PointWays {
     struct Beyond {
         uint32_t number;

@@ -33,7 +33,7 @@ void OverlaySsad::sweep(const Sources& sources, float radius, std::span<float> d
 }
 
 // Fills the distances to the overlays of all patches that contain the source, for each field. All others are
-// infinite.
+// infinite, but for those that a point knows from what it sees beyond its polygon.
 void OverlaySsad::climb(const Sources& sources, std::span<float> distances) {
     std::ranges::fill(distances, INFINITE);
     const auto field = [&](size_t i) { return DistanceField{distances.data() + i, fields_}; };
@@ -51,17 +51,19 @@ void OverlaySsad::climb(const Sources& sources, std::span<float> distances) {
     });
 }
 
-// Tables that have a vertex which a point sees also have inner vertices of its own patch, of those around
-// that and, where it is on their borders, of leaves.
+// Marks the patches whose inner vertices the leaves of what points see beyond their polygons may have: these
+// leaves, and all around them.
 void OverlaySsad::mark_known_inside(const Sources& sources) {
     is_known_inside_.assign(numbering_.patch_count(), 0);
+    const auto mark = [&](uint32_t leaf) {
+        for (uint32_t p = leaf; p != NONE; p = numbering_.parent[p]) is_known_inside_[p] = 1;
+    };
     for (const PointWays& point : sources.points)
-        for (const PointWays::Beyond& seen : point.beyond) {
-            for (uint32_t p = numbering_.innermost_patch(seen.number); p != NONE; p = numbering_.parent[p])
-                is_known_inside_[p] = 1;
-            if (!numbering_.is_border(seen.number)) continue;
-            for (const PatchPosition& at : numbering_.borders_of(seen.number)) is_known_inside_[at.patch] = 1;
-        }
+        for (const auto& [seen, way] : point.beyond)
+            if (!numbering_.is_border(seen))
+                mark(numbering_.leaf_of(seen));
+            else
+                for (const PatchPosition& at : numbering_.borders_of(seen)) mark(at.patch);
 }
 
 // Hops to the overlay of the parent. The child's border keeps the distances it has.

@@ -29,8 +29,8 @@ public:
     void set_threads(uint32_t count);
 
     // Fills distances[number * fields + i] of every vertex with its distance from the i-th source; there are
-    // as many sources as fields. Patches whose whole border is farther than `radius` are skipped, and their
-    // vertices stay at infinity.
+    // as many sources as fields. Patches whose whole border is farther than `radius` are skipped: of their
+    // vertices, all are infinite but those to which a point knows a way.
     void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distances) {
         sweep(Sources{sources}, radius, distances);
     }
@@ -59,8 +59,8 @@ private:
     OuterCrossing up_;
     Array<InnerSweep> down_;         // one for each thread
     Array<uint32_t> sources_inside_; // per patch: how many
-    Array<uint8_t>
-        is_known_inside_; // per patch: whether points may know ways to inner vertices without a hop
+    // Per patch: whether points may know ways to inner vertices without a hop.
+    Array<uint8_t> is_known_inside_;
 };
 
 }
