@@ -33,9 +33,8 @@ private:
     std::vector<uint32_t> vertices_;
 };
 
+// Each face once.
 Corridor corridor_of_faces(const Surface& surface, std::vector<uint32_t>&& faces) {
-    std::ranges::sort(faces);
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     Corridor corridor{{}, std::move(faces)};
     Renumbering renumbering;
     for (const uint32_t face : corridor.face_of_surface) {
@@ -75,6 +74,8 @@ Corridor corridor_around(const Surface& surface, const Strip& strip,
             for (const uint32_t other : surface.faces[face]) meet(other, false);
         }
     }
+    std::ranges::sort(faces);
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     return corridor_of_faces(surface, std::move(faces));
 }
 

@@ -198,11 +198,11 @@ void PointQueries::add_known_ways(const SurfacePoint& source, const SeenAround& 
 void PointQueries::add_beyond(const SurfacePoint& source, const SeenAround& around, FacePoint& point) const {
     const auto* const overlay = std::get_if<OverlayIndex>(&index_.engine);
     if (!overlay || point.leaf == NONE) return;
-    const bool has_long_edges = are_long_edges(edges_across(surface_, surface_.faces[source.face]));
+    const bool are_long = has_long_edges(surface_, surface_.faces[source.face]);
     const auto of_polygon = std::span(point.numbers).first(point.vertex_count);
     const auto is_known = [&](uint32_t number) {
-        return has_long_edges ? std::ranges::find(of_polygon, number) != of_polygon.end()
-                              : is_in_leaf(overlay->numbering, point.leaf, number);
+        return are_long ? std::ranges::find(of_polygon, number) != of_polygon.end()
+                        : is_in_leaf(overlay->numbering, point.leaf, number);
     };
     for (uint32_t k = 0; k < around.vertex_count; ++k) {
         const uint32_t number = number_of(around.vertices[k]);

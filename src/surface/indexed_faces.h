@@ -28,6 +28,11 @@ inline double edges_across(const Surface& surface, const std::array<uint32_t, 3>
     return surface.parts.of(corners[0]).edges_across(std::ranges::max(edge_lengths(surface, corners)));
 }
 
+// Whether the edges around such a face are long for what the surface does.
+inline bool has_long_edges(const Surface& surface, const std::array<uint32_t, 3>& corners) {
+    return are_long_edges(edges_across(surface, corners));
+}
+
 // Calls use(face) for every other one of these faces at the edge between two vertices of a face.
 template <class Use>
 void for_each_indexed_face_beyond(const Surface& surface, uint32_t face, uint32_t a, uint32_t b,
