@@ -850,7 +850,7 @@ enum {
     /* A path that is locally shortest: no vertex that it passes can be passed on a shorter side. Its length
      * is never below the distance and mostly equal to it. Where it is longer than the index says that its
      * ends are apart, by more than the p99 of the errors (0.1 % at least), a corridor of up to 1,000 vertices
-     * is searched nearly as by GEOIDX_PATH_EXACT, and takes nearly as long (GEOIDX_METRIC_EXACT). */
+     * is searched as by GEOIDX_PATH_EXACT (GEOIDX_METRIC_EXACT). */
     GEOIDX_PATH_STRAIGHT = 0,
     /* GEOIDX_METRIC_EXACT: the shortest path within a corridor, the vertices that a path as short as the
      * straight one can lead over unless the index errs by more than the largest error stated for it. There

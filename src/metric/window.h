@@ -21,6 +21,15 @@ struct Window {
 
     double distance_at(double t) const { return sigma + std::sqrt((t - x) * (t - x) + y * y); }
 
+    // Where the straight line from the source to (tx, -depth) crosses the line of the edge.
+    double split_to(double tx, double depth) const {
+        const double height = y + depth;
+        return height > 0 ? x + (tx - x) * (y / height) : tx;
+    }
+    // Where the shortest path over the window to that point crosses the edge: there if that is in the window,
+    // else around its nearer end.
+    double crossing_to(double tx, double depth) const { return std::clamp(split_to(tx, depth), begin, end); }
+
     double smallest_distance() const {
         if (x < begin) return begin_distance;
         if (x > end) return end_distance;

@@ -23,6 +23,11 @@ public:
         return list.epoch == epoch_ && list.windows ? std::span(list.windows, list.count)
                                                     : std::span<Window>();
     }
+    std::span<const Window> at(uint32_t edge) const {
+        const List& list = lists_[edge];
+        return list.epoch == epoch_ && list.windows ? std::span<const Window>(list.windows, list.count)
+                                                    : std::span<const Window>();
+    }
 
     // Ask for memory that is soon read: where the list is, and its windows.
     void prefetch(uint32_t edge) const { __builtin_prefetch(&lists_[edge]); }

@@ -62,12 +62,17 @@ struct Beam {
     bool far_is_apex; // the far ray passes through the apex
 };
 
-class WindowPropagation final : public FieldSolver {
+class WindowPropagation final : public WindowSolver {
 public:
-    WindowPropagation(std::shared_ptr<const IntrinsicMesh> mesh, double tolerance)
-        : FieldSolver(static_cast<uint32_t>(mesh->total_angle.size())), mesh_(std::move(mesh)),
-          asked_tolerance_(tolerance), lists_(edge_count()), queued_distance_(edge_count(), UNREACHABLE),
-          arrival_(vertex_count()), pending_(vertex_count()) {}
+    // What becomes of windows that the front has passed, which no path of the solve needs any more.
+    enum class PassedWindows { GIVEN_BACK, KEPT };
+
+    WindowPropagation(std::shared_ptr<const IntrinsicMesh> mesh, double tolerance, PassedWindows passed)
+        : WindowSolver(static_cast<uint32_t>(mesh->total_angle.size())), mesh_(std::move(mesh)),
+          asked_tolerance_(tolerance), passed_(passed), lists_(edge_count()),
+          queued_distance_(edge_count(), UNREACHABLE), arrival_(vertex_count()), pending_(vertex_count()) {}
+
+    std::span<const Window> windows(uint32_t edge) const override { return lists_.at(edge); }
 
 private:
     // From where the path to a vertex comes: along an edge, in a direction, or from a source that it is or
@@ -115,6 +120,7 @@ private:
 
     std::shared_ptr<const IntrinsicMesh> mesh_;
     const double asked_tolerance_;
+    const PassedWindows passed_;
     double tolerance_ = 0;
     uint64_t carried_on_ = 0; // windows, into faces, since the run began
     Envelope envelope_;
@@ -184,7 +190,7 @@ bool WindowPropagation::run_with(double tolerance, const FieldRequest& request) 
             if (event.distance == queued_distance_[edge] &&
                 (!is_bounded || edge_may_help(edge, event.distance)))
                 propagate_edge(edge);
-            if (lists_.crowded()) sweep();
+            if (passed_ == PassedWindows::GIVEN_BACK && lists_.crowded()) sweep();
         } else {
             is_done |= pending_.settle_point(event.item - first_point);
         }
@@ -300,14 +306,11 @@ void WindowPropagation::reach_points_around(uint32_t vertex) {
     }
 }
 
-// Straight from the window's source where the line crosses the window, else around its nearer end.
 void WindowPropagation::reach_points_behind(const Window& window, const Side& side) {
     const uint32_t corner = mesh_->corner_of_side[static_cast<size_t>(&side - mesh_->sides.items.data())];
     for (const TargetPoint& target : targets_.of_face(side.face)) {
         const PlanePoint& p = target.on_side[corner % 3];
-        const double height = window.y + p.depth;
-        const double split = height > 0 ? window.x + (p.x - window.x) * (window.y / height) : p.x;
-        const double crossing = std::clamp(split, window.begin, window.end);
+        const double crossing = window.crossing_to(p.x, p.depth);
         reach_point(target.index, window.distance_at(crossing) + norm(crossing - p.x, p.depth));
     }
 }
@@ -418,11 +421,10 @@ void WindowPropagation::reach_apex(const Window& window, const Side& side, doubl
 // Carries a window over its edge into a face: to the apex if that is in its light, and to the two other
 // edges.
 void WindowPropagation::propagate(const Window& window, double length, const Side& side, Exit (&exits)[2]) {
-    const double height = window.y + side.apex_depth;
     // A source in line with the edge: its vertices carry that on, unless it lies on the edge.
     const bool on_edge = window.x > window.begin && window.x < window.end;
     if (!(window.y > 0) && !on_edge) return;
-    const double split = height > 0 ? window.x + (side.apex_x - window.x) * (window.y / height) : side.apex_x;
+    const double split = window.split_to(side.apex_x, side.apex_depth);
     const double crossing = std::clamp(split, window.begin, window.end);
     const double touch = tolerance_ > 0 ? TOUCH_OF_JOINED : TOUCH;
     const double rounding = touch * length + FAR_ROUNDING * (std::abs(window.x) + window.y);
@@ -482,7 +484,12 @@ void WindowPropagation::deliver(uint32_t edge, std::span<Window> run) {
 }
 
 std::unique_ptr<FieldSolver> ExactMetric::make_solver() const {
-    return std::make_unique<WindowPropagation>(mesh_, tolerance_);
+    return std::make_unique<WindowPropagation>(mesh_, tolerance_,
+                                               WindowPropagation::PassedWindows::GIVEN_BACK);
+}
+
+std::unique_ptr<WindowSolver> ExactMetric::make_window_solver() const {
+    return std::make_unique<WindowPropagation>(mesh_, tolerance_, WindowPropagation::PassedWindows::KEPT);
 }
 
 }

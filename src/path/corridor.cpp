@@ -33,7 +33,7 @@ private:
     std::vector<uint32_t> vertices_;
 };
 
-// Each face once.
+// The faces are different ones.
 Corridor corridor_of_faces(const Surface& surface, std::vector<uint32_t>&& faces) {
     Corridor corridor{{}, std::move(faces)};
     Renumbering renumbering;

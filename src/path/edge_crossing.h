@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "src/surface/surface.h"
 
 namespace geodesic {
@@ -13,9 +11,8 @@ struct EdgeCrossing {
 };
 
 // The crossing of the shortest way from a position over the edge between two vertices, whose distances from
-// the target are known, and those of evenly spaced points between them, of which there may be none. Between
-// two such points the way is straight to where their distances place the target, if they do.
+// the target are known: straight to where these place the target, if they do.
 EdgeCrossing cross_edge(const Surface& surface, uint32_t a, uint32_t b, const Eigen::Vector3d& from,
-                        double from_a, std::span<const double> inside, double from_b);
+                        double from_a, double from_b);
 
 }

@@ -68,7 +68,7 @@ private:
     }
     TargetDistances distances_from(size_t end) {
         constexpr double ERROR = 0.005; // of most distances of most indexes
-        return {[this, end](uint32_t vertex) { return distance(end, vertex); }, {}, ERROR, most_steps_};
+        return {[this, end](uint32_t vertex) { return distance(end, vertex); }, ERROR, most_steps_};
     }
     std::optional<Strip> led_by(size_t end);
     double least_distance(double distance) const;
@@ -173,31 +173,31 @@ std::optional<Corridor> PathFinder::corridor_of(const Strip& strip, double lengt
 // There are surfaces of so many bumps that straight ways are not among the shortest ones. There, too, a
 // corridor is searched.
 StripWay PathFinder::find_way(PathQuality quality) {
-    const auto has_long_edges = [&](const SurfacePoint& end) {
-        return are_long_edges(edges_across(surface_, surface_.faces[end.face]));
+    const auto lies_in_long_edges = [&](const SurfacePoint& end) {
+        return has_long_edges(surface_, surface_.faces[end.face]);
     };
     const bool with_all_they_see =
-        quality == PathQuality::EXACT || has_long_edges(source_) || has_long_edges(target_);
+        quality == PathQuality::EXACT || lies_in_long_edges(source_) || lies_in_long_edges(target_);
     const FacePoint source = prepared_as(source_, with_all_they_see),
                     target = prepared_as(target_, with_all_they_see);
     StripWay way = find_straight(source, target);
     if (way.strip.faces.size() == 1) return way;
     if (quality == PathQuality::EXACT) {
         const auto corridor = corridor_of(way.strip, way.path.length, surface_.vertex_count());
-        make_shortest_in_corridor(surface_, *corridor, Effort::ALWAYS, way.strip, way.path);
+        make_shortest_in_corridor(surface_, *corridor, way.strip, way.path);
         return way;
     }
     const double length = longest_shortest(known_length(target));
     if (way.path.length <= length) return way;
     if (const auto corridor = corridor_of(way.strip, length, MOST_VERTICES))
-        make_shortest_in_corridor(surface_, *corridor, Effort::NEARLY_ALWAYS, way.strip, way.path);
+        make_shortest_in_corridor(surface_, *corridor, way.strip, way.path);
     return way;
 }
 
 // The length of a straight path or, if the pair is known to be shorter, of a shortest one in the corridor. Of
 // the pair more is known than what its ends see would tell. Distances of edges' ends may tell of a short way
 // that is not there, as between the two sides of a thin wall: then edges are long, so that the corridor is
-// too large, whereas few faces lie so near in space. Nothing where these are too many, too.
+// too large, whereas few faces lie so near in space. Returns nothing if there are too many of these as well.
 std::optional<double> PathFinder::find_length(double known) {
     const StripWay way = find_straight(prepared_as(source_, false), prepared_as(target_, false));
     const double length = longest_shortest(known);

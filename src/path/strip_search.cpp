@@ -95,8 +95,7 @@ void StripSearch::pass_edge(const Leaving& leaving, const Edge& edge) {
 
 StripSearch::Crossing StripSearch::cross(const Leaving& leaving, const Edge& edge) const {
     const auto [a, b] = edge.ends;
-    const auto inside = distances_->inside_edge ? distances_->inside_edge(a, b) : std::span<const double>();
-    const auto [share, rest] = cross_edge(surface_, a, b, leaving.at, edge.from_a, inside, edge.from_b);
+    const auto [share, rest] = cross_edge(surface_, a, b, leaving.at, edge.from_a, edge.from_b);
     const Vector3d at = position_at(surface_, edge.ends, share);
     return {true, share, rest, leaving.length + (at - leaving.at).norm()};
 }

@@ -35,14 +35,12 @@ TEST_CASE("sides: the shorter way around a cone, from the longer one") {
     REQUIRE((RAYS - TARGET_RAY) * facet < std::numbers::pi);
     const Surface surface = test::surface_of(test::cone(rays, RINGS));
     // Of one half of the cone, and of its apex, the search is told that there is no way.
-    const TargetDistances distances{
-        [&](uint32_t vertex) {
-            if (vertex == 0) return UNREACHABLE;
-            const uint32_t ray = (vertex - 1) % RAYS, steps = ray == 0 ? RAYS - TARGET_RAY : ray - TARGET_RAY;
-            if (ray > 0 && ray < TARGET_RAY) return UNREACHABLE;
-            return across(steps * facet, radius, double((vertex - 1) / RAYS + 1) / RINGS);
-        },
-        {}};
+    const TargetDistances distances{[&](uint32_t vertex) {
+        if (vertex == 0) return UNREACHABLE;
+        const uint32_t ray = (vertex - 1) % RAYS, steps = ray == 0 ? RAYS - TARGET_RAY : ray - TARGET_RAY;
+        if (ray > 0 && ray < TARGET_RAY) return UNREACHABLE;
+        return across(steps * facet, radius, double((vertex - 1) / RAYS + 1) / RINGS);
+    }};
     auto strip = search_strip(surface, point_of(surface, vertex_of(0, RING)),
                               point_of(surface, vertex_of(TARGET_RAY, RING)), distances);
     REQUIRE(strip);

@@ -12,7 +12,7 @@ TEST_CASE("strip search: gives up after as many steps as it may take") {
     const Surface surface = test::surface_of(test::grid(CELLS, CELLS, 1, 1));
     const SurfacePoint source{0, {0.3, 0.3, 0.4}}, target{2 * CELLS * CELLS - 1, {0.2, 0.5, 0.3}};
     const Eigen::Vector3d goal = position_of(surface, target);
-    TargetDistances distances{[&](uint32_t vertex) { return (surface.positions[vertex] - goal).norm(); }, {}};
+    TargetDistances distances{[&](uint32_t vertex) { return (surface.positions[vertex] - goal).norm(); }};
     const auto found = search_strip(surface, source, target, distances);
     REQUIRE(found);
     size_t enough = 0;
