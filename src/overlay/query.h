@@ -4,6 +4,7 @@
 #include <memory_resource>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "src/overlay/fields/field_lowering.h"
 #include "src/overlay/fields/msad.h"
@@ -29,7 +30,11 @@ public:
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
     float sssd(uint32_t low, uint32_t high) {
         const float* const measured = index_.measured.distance(low, high);
-        return measured ? *measured : pairs().distance(low, high);
+        if (measured) return *measured;
+        const float distance = pairs().distance(low, high);
+        return pairs_->may_misplace_ends(low, high, distance)
+                   ? std::min(distance, distance_in_field(low, high))
+                   : distance;
     }
 
     // Prepares a source: prepared_sssd() then answers distances from it.
@@ -118,11 +123,23 @@ private:
         return pairs_.emplace(index_, memory_);
     }
 
+    // The distance of a pair in a field from its first vertex, over the borders between the two alone. Pairs
+    // are often asked for source by source.
+    float distance_in_field(uint32_t source, uint32_t target) {
+        if (!in_field_) in_field_.emplace(index_, memory_);
+        if (std::exchange(source_in_field_, NONE) != source) in_field_->prepare(source);
+        const float distance = in_field_->distance(target, field_);
+        source_in_field_ = source;
+        return distance;
+    }
+
     WithinSweep& within_sweep() { return within_ ? *within_ : within_.emplace(index_, memory_); }
 
     const OverlayIndex& index_;
     std::pmr::memory_resource* const memory_;
     std::optional<OverlaySssd> pairs_;
+    std::optional<PreparedSource> in_field_;
+    uint32_t source_in_field_ = NONE;
     std::optional<WithinSweep> within_;
     OverlaySsad field_;
     OverlayMsad nearest_;

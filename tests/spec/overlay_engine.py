@@ -14,6 +14,7 @@ INFINITE = f(numpy.inf)
 LARGEST, NO_PATH = 32766, 32767
 MOST_LABEL_PLACES, MOST_LABELS = 400, 2
 STEPS_OF_LONGEST, MOST_OF_COARSEST, FEW_STEPS = f(124), f(3), f(1000)
+SHORT_CHAIN = 48
 
 
 class Border:
@@ -318,6 +319,20 @@ class OverlayEngine:
         low, high = sorted((a, b))
         around = [list(index.ways_up(int(index.entry[number]))) for number in (low, high)]
         top = max(set(around[0]) & set(around[1]))
+        distance = self.over_one_border(low, high, around, top)
+        crossed = [patch for way in around for patch in way[:way.index(top)]]
+        if any(distance < self.misplaces_ends_up_to(patch) for patch in crossed):
+            return min(distance, self.ssad(low)[high])
+        return distance
+
+    def misplaces_ends_up_to(self, patch):
+        """Four of the longest segment of a border with many short chains; of other borders, no distance."""
+        border, places = self.borders[patch], len(self.index.places(patch)[0])
+        chains = (places - len(border.vertices)) // 4  # each chain repeats four
+        return f(4) * border.longest if chains > 1 and places < SHORT_CHAIN * chains else f(0)
+
+    def over_one_border(self, low, high, around, top):
+        index = self.index
         if top >= index.inner_count:
             first = index.inside[top].start
             return decoded(self.internal[top][low - first, high - first], self.quantum[top])

@@ -140,7 +140,10 @@ OverlaySssd::OverlaySssd(const OverlayIndex& index, std::pmr::memory_resource* m
       of_meeting_border_(index.rings, memory), from_(index, memory), to_(index, memory),
       from_samples_(memory), lengths_(memory),
       from_distances_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, memory),
-      from_winners_(from_distances_.size(), memory) {}
+      from_winners_(from_distances_.size(), memory) {
+    for (uint32_t p = 0; p < numbering_.patch_count(); ++p)
+        farthest_misplaced_ = std::max(farthest_misplaced_, misplaces_ends_up_to(p));
+}
 
 float OverlaySssd::distance(uint32_t low, uint32_t high) {
     const uint32_t low_patch = numbering_.innermost_patch(low), high_patch = numbering_.innermost_patch(high);
@@ -160,6 +163,26 @@ float OverlaySssd::distance_of_points(const PathEnd& first, const PathEnd& secon
     const uint32_t top = lowest_common_patch(numbering_, first_patch, second_patch);
     const bool second_climbs = second_patch != top;
     return climb_and_meet(second_climbs ? second : first, second_climbs ? first : second, top);
+}
+
+// Where several faces meet at edges, borders consist of many short chains, and an end may see the middle of a
+// segment alone, as through a window, so that the distances of the segment's ends do not tell where it lies.
+// The way that is found then is longer by up to a quarter of the longest segment.
+bool OverlaySssd::may_misplace_ends(uint32_t low, uint32_t high, float distance) const {
+    if (!(distance < farthest_misplaced_)) return false;
+    const uint32_t low_patch = numbering_.innermost_patch(low), high_patch = numbering_.innermost_patch(high);
+    const uint32_t top = lowest_common_patch(numbering_, low_patch, high_patch);
+    for (uint32_t patch : {low_patch, high_patch})
+        for (; patch != top; patch = numbering_.parent[patch])
+            if (distance < misplaces_ends_up_to(patch)) return true;
+    return false;
+}
+
+// The distance up to which the border of a patch makes a pair worth another question: that of four segments,
+// of which a quarter of one is 6 %.
+float OverlaySssd::misplaces_ends_up_to(uint32_t patch) const {
+    constexpr float SEGMENTS = 4;
+    return has_short_chains(index_, patch) ? SEGMENTS * index_.longest_segment[patch] : 0;
 }
 
 // Labels have coarse steps: a distance of few of them is measured without.

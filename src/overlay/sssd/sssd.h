@@ -27,6 +27,9 @@ public:
 
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.
     float distance(uint32_t low, uint32_t high);
+    // Whether that may be too long, by up to a quarter of the longest segment, where a field from one of
+    // them, which crosses border by border, is right.
+    bool may_misplace_ends(uint32_t low, uint32_t high, float distance) const;
 
     // Of two ends of which at least one is a point. They must not be in one leaf or on its border.
     float distance_of_points(const PathEnd& first, const PathEnd& second);
@@ -58,6 +61,7 @@ private:
 
     float distance_inside(uint32_t patch, uint32_t low, uint32_t high) const;
     float distance_to_border(uint32_t border_vertex, uint32_t vertex) const;
+    float misplaces_ends_up_to(uint32_t patch) const;
     float climb_and_meet(const PathEnd& to, const PathEnd& from, uint32_t top);
     float meet();
     float measure_all_within(float length, const WaysOverSamples& ways);
@@ -92,6 +96,7 @@ private:
     Array<float> lengths_;      // of the ways over these samples
     Array<float> from_distances_;
     Array<uint16_t> from_winners_; // see MeasuredEnd::cross_to()
+    float farthest_misplaced_ = 0; // the largest of misplaces_ends_up_to()
 };
 
 }

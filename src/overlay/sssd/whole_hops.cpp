@@ -9,14 +9,12 @@ namespace {
 // takes long: so many of its pairs count as one.
 constexpr size_t PAIRS_OF_CHAINS_AS_ONE = 128, PLACES_OF_SHORT_CHAIN = 48;
 
-// Whether a border has segments, and consists of several chains with fewer than PLACES_OF_SHORT_CHAIN places
-// each on average.
+}
+
 bool has_short_chains(const OverlayIndex& index, uint32_t patch) {
     const size_t chains = index.rings.chains_of(patch).size();
     return chains > 1 && index.rings.size(patch) < chains * PLACES_OF_SHORT_CHAIN &&
            index.longest_segment[patch] > 0;
-}
-
 }
 
 void WholeHops::add(const OverlayIndex& index, uint32_t first, uint32_t second) {

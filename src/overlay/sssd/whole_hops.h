@@ -8,6 +8,9 @@
 
 namespace geodesic {
 
+// Whether a border has segments, and consists of several chains with few places each on average.
+bool has_short_chains(const OverlayIndex& index, uint32_t patch);
+
 // How many pairs of places the hops of a path look at if each leads from a whole border to the whole next
 // one. Pairs of borders of many short chains count less.
 class WholeHops {
