@@ -813,9 +813,9 @@ GEOIDX_API geoidx_status geoidx_query_point_within(geoidx_query* query, const ge
                                                    float* distances, uint32_t capacity, uint32_t* count);
 
 /* geoidx_query_nearest_targets of points of the surface: few targets are asked for one by one, as by
- * geoidx_query_point_sssd, but without paths; the distances of many come from fields, as those of
- * geoidx_query_point_msad. So near targets may come in another order than by geoidx_query_point_sssd. A point
- * of which a corner cannot be reached is not reached either. */
+ * geoidx_query_point_sssd; the distances of many come from fields, as those of geoidx_query_point_msad, but
+ * for those that are less than four edges away, which are as by geoidx_query_point_sssd. A point of which a
+ * corner cannot be reached is not reached either. */
 GEOIDX_API geoidx_status geoidx_query_point_nearest_targets(
     geoidx_query* query, const geoidx_surface* surface, const geoidx_surface_point* source,
     const geoidx_surface_point* targets, uint32_t target_count, uint32_t* positions, float* distances,

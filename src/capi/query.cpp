@@ -331,8 +331,11 @@ geoidx_status geoidx_query_point_nearest_targets(geoidx_query* query, const geoi
         require(count, "count is NULL");
         const SurfacePoint from = checked_point(surface->surface, *source, "source");
         const auto to = checked_points(surface->surface, {targets, target_count}, "target");
-        const auto found =
-            PointQueries(query->index, query->query, surface->surface).nearest_targets(from, to, capacity);
+        const auto of_pair = [&](size_t i) {
+            return distance_of_points(query->index, query->query, surface->surface, from, to[i]);
+        };
+        const auto found = PointQueries(query->index, query->query, surface->surface)
+                               .nearest_targets(from, to, capacity, of_pair);
         write_found(found, positions, distances, capacity);
         *count = static_cast<uint32_t>(found.size());
     });

@@ -1,6 +1,7 @@
 // The nearest of some points of a surface.
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -100,10 +101,10 @@ public:
                 if (!are_corners_found(targets_.all[i])) continue;
                 const PointView view = view_of(i);
                 const float by_vertices = distance_of(view.point);
-                if (by_vertices < INFINITE)
-                    nearest.add({distance(i, view, by_vertices), i});
-                else
+                if (by_vertices == INFINITE)
                     left_out = std::min(left_out, least_by_corners(view.point));
+                else if (const float answer = distance(i, view, by_vertices); answer < INFINITE)
+                    nearest.add({answer, i});
             }
             const float beyond = query_.nearest_beyond();
             if (nearest.limit() <= left_out || beyond == INFINITE) return std::move(nearest).sorted();
@@ -153,34 +154,38 @@ private:
 }
 
 std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& source,
-                                                        std::span<const SurfacePoint> targets, size_t count) {
+                                                        std::span<const SurfacePoint> targets, size_t count,
+                                                        const std::function<float(size_t)>& of_pair) {
     Targets faces;
     for (const SurfacePoint& target : targets) faces.add(face_point_on(index_, surface_, target, unfolds()));
     count = std::min(count, targets.size());
-    std::vector<Query::Found> found;
-    if (count == 0) return found;
+    if (count == 0) return {};
+    const auto least = least_possible(surface_, source, targets);
     const uint64_t vertex_pairs_per_pair =
         vertices_of_polygon(surface_, surface_.faces[source.face]) / VERTICES_PER_PAIR;
     if (query_.targets_are_few(targets.size(), count, vertex_pairs_per_pair)) {
-        for (uint32_t i = 0; i < targets.size(); ++i)
-            if (const float distance = sssd(source, targets[i]); distance < INFINITE)
-                found.push_back({distance, i});
-        std::ranges::sort(found);
-    } else {
-        const PointView from = view_of(source);
-        const Sources only = sources_of({&source, 1}, {});
-        TargetSweeps sweeps(query_, only, faces);
-        found = sweeps.find(
-            count, least_possible(surface_, source, targets), [&](uint32_t i) { return view_of(targets[i]); },
-            [&](uint32_t i, const PointView& to, float by_vertices) {
-                const bool are_vertices = from.point.vertex != NONE && to.point.vertex != NONE;
-                return are_vertices
-                           ? by_vertices
-                           : known_ways(source, from, targets[i], to, by_vertices).corrected(by_vertices);
-            });
+        Nearest nearest(count);
+        for (const auto& [line, i] : least) {
+            if (line > nearest.limit()) break;
+            if (const float distance = of_pair(i); distance < INFINITE) nearest.add({distance, i});
+        }
+        return std::move(nearest).sorted();
     }
-    found.resize(std::min(count, found.size()));
-    return found;
+    const PointView from = view_of(source);
+    const Sources only = sources_of({&source, 1}, {});
+    TargetSweeps sweeps(query_, only, faces);
+    std::unordered_map<uint32_t, float> of_pairs; // that were asked for, sweep by sweep
+    return sweeps.find(
+        count, least, [&](uint32_t i) { return view_of(targets[i]); },
+        [&](uint32_t i, const PointView& to, float by_vertices) {
+            if (from.point.vertex != NONE && to.point.vertex != NONE) return by_vertices;
+            const KnownWays known = known_ways(source, from, targets[i], to, by_vertices);
+            const float distance = known.corrected(by_vertices);
+            if (is_sure(from.point, to.point, known, distance)) return distance;
+            const auto [asked, is_new] = of_pairs.try_emplace(i);
+            if (is_new) asked->second = of_pair(i);
+            return asked->second;
+        });
 }
 
 }

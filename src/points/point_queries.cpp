@@ -16,6 +16,8 @@ namespace geodesic {
 
 namespace {
 
+bool has_leaf(const FacePoint& point) { return point.vertex != NONE || point.leaf != NONE; }
+
 // What a point sees of the faces around it, whatever the index knows of them: twice as many vertices as its
 // polygon has. Nothing is seen from a vertex, nor from a face that is too flat or that the index was not made
 // on.
@@ -137,12 +139,20 @@ double PointQueries::straight_way_of_near(const SurfacePoint& source, const Surf
 // edges around those that are at no vertex count. Where these are short for the mesh, its average edge does,
 // of which tables are rounded to a share. A search for a path asks for distances that the graph engine, and
 // points without a leaf, have by whole fields only: there, tables have to do.
-PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfacePoint& target) {
+bool PointQueries::is_sure(const FacePoint& source, const FacePoint& target, const KnownWays& known,
+                           float distance) const {
     constexpr double FEW_EDGES = 4;
+    if (known.is_shortest || distance == INFINITE || !has_leaf(source) || !has_leaf(target)) return true;
+    if (!unfolds() || std::holds_alternative<GraphIndex>(index_.engine)) return true;
+    const double longest =
+        std::max({longest_edge_around(source), longest_edge_around(target), double{surface_.average_edge}});
+    return double{distance} >= FEW_EDGES * longest;
+}
+
+PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfacePoint& target) {
     FacePoint first = face_point_on(index_, surface_, source, unfolds()),
               second = face_point_on(index_, surface_, target, unfolds());
     if (first.vertex != NONE && second.vertex != NONE) return {query_.point_sssd(first, second)};
-    const auto has_leaf = [](const FacePoint& point) { return point.vertex != NONE || point.leaf != NONE; };
     const bool have_leaves = has_leaf(first) && has_leaf(second);
     if (have_leaves) share_leaf(index_, first, second);
     const PointView from = have_leaves ? view_of(source, first) : PointView(first),
@@ -150,11 +160,7 @@ PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfaceP
     const float by_tables = query_.point_sssd(from.point, to.point);
     const KnownWays known = known_ways(source, from, target, to, by_tables);
     const float distance = known.corrected(by_tables);
-    const double longest = std::max(
-        {longest_edge_around(from.point), longest_edge_around(to.point), double{surface_.average_edge}});
-    const bool is_sure = known.is_shortest || distance == INFINITE || double{distance} >= FEW_EDGES * longest;
-    if (is_sure || !have_leaves || !unfolds() || std::holds_alternative<GraphIndex>(index_.engine))
-        return {distance};
+    if (is_sure(from.point, to.point, known, distance)) return {distance};
     return {distance, false, known.corrected(INFINITE)};
 }
 

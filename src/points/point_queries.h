@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -47,9 +48,13 @@ public:
     std::span<const Query::Found> within(std::span<const SurfacePoint> sources,
                                          std::span<const float> offsets, float radius);
 
-    // The nearest `count` targets or, if fewer can be reached, all of these, in ascending order.
+    // The nearest `count` targets or, if fewer can be reached, all of these, in ascending order. Few targets
+    // are asked for one by one, and so is each of many whose distance is not sure (see Pair): of_pair(i) is
+    // to return that of targets[i], along a path if need be, which this folder does not know. It may use the
+    // query, but neither within() nor sweeps.
     std::vector<Query::Found> nearest_targets(const SurfacePoint& source,
-                                              std::span<const SurfacePoint> targets, size_t count);
+                                              std::span<const SurfacePoint> targets, size_t count,
+                                              const std::function<float(size_t)>& of_pair);
 
     // The point as the query takes it, with what it sees where the metric unfolds.
     PointView view_of(const SurfacePoint& point) const;
@@ -71,6 +76,8 @@ private:
                         std::vector<Query::KnownWay>& known) const;
     void add_measured_ways(const FacePoint& point, uint32_t position, float offset,
                            std::vector<Query::KnownWay>& known) const;
+    bool is_sure(const FacePoint& source, const FacePoint& target, const KnownWays& known,
+                 float distance) const;
     KnownWays known_ways(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
                          const PointView& to, float distance) const;
     double way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const;

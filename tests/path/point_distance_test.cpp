@@ -102,6 +102,41 @@ TEST_CASE("point distance: the two sides of a thin wall are as far apart as the 
     }
 }
 
+// The nearest of some targets, asked for one by one and in one field.
+TEST_CASE("point distance: targets on the other side of a thin wall are not the nearest") {
+    constexpr uint32_t SIDES = smaller(160, 40), MOST = 4;
+    auto options = path_options();
+    options.target_error = 1;
+    const PathCase on(thin_tube(SIDES, 20, 0.02), options);
+    std::mt19937_64 random(4);
+    for (const uint32_t count : {12u, smaller(600u, 100u)}) {
+        CAPTURE(count);
+        auto source = random_point(on.soup, random, 0);
+        source.triangle = 0;
+        source.weights[0] = source.weights[1] = 0.25; // in the middle between both rims
+        source.weights[2] = 0.5;
+        std::vector<geoidx_surface_point> targets;
+        for (uint32_t i = 0; i < count; ++i) targets.push_back(random_point(on.soup, random, 0));
+        for (uint32_t i = 0; i < count; i += 2) targets[i].triangle = 8 * (i % 3) + 4; // on the inner wall
+        std::vector<double> exact(count);
+        REQUIRE(geoidx_solver_point_distances(on.solver.get(), &source, 1, targets.data(), count,
+                                              exact.data()) == GEOIDX_OK);
+        std::array<uint32_t, MOST> nearest{};
+        std::array<float, MOST> distances{};
+        uint32_t found = 0;
+        REQUIRE(geoidx_query_point_nearest_targets(on.query.get(), on.surface.get(), &source, targets.data(),
+                                                   count, nearest.data(), distances.data(), MOST,
+                                                   &found) == GEOIDX_OK);
+        REQUIRE(found == MOST);
+        std::vector<double> sorted = exact;
+        std::ranges::sort(sorted);
+        for (size_t k = 0; k < MOST; ++k) {
+            CHECK(double{distances[k]} == doctest::Approx(exact[nearest[k]]).epsilon(0.01));
+            CHECK(exact[nearest[k]] <= sorted[k] * 1.02);
+        }
+    }
+}
+
 // Straight ways over the caps are not among the shortest ones.
 TEST_CASE("point distance: on the caps of a star, as the metric says") {
     Soup star = closed_cylinder(40, 0.3);
