@@ -184,14 +184,14 @@ enum {
      * and none that are too short to have a relative error (see geoidx_info): all queries from vertices
      * answer these, MSAD from several ones source by source. Around such pairs up to 1,920 vertices are
      * compared. With GEOIDX_METRIC_WEIGHTED and delta 0 these are pairs of each vertex and the 120 nearest
-     * ones, and no more are compared. Pairs of points within triangles and sources with offsets have none;
-     * in fields from points, those of the vertices around are bounds. On meshes of more than 400,000 vertices
-     * fewer are compared. Building takes some 4 KB of memory a vertex for that, up to 8 KB where many pairs
-     * are wrong. With GEOIDX_METRIC_EXACT as above, an index also holds the edges along which MSAD would
-     * change by more than they are long, and lowers the farther ends of these, measured distances included:
-     * from one vertex, the distances of the ends of any edge of the welded mesh differ by no more than 1.05
-     * times its length and the rounding of a float, on meshes of up to 65,536 vertices. On larger ones, from
-     * several sources and from points, an edge in a million may be steeper. */
+     * ones, and no more are compared. Pairs of points within triangles have none; in fields from points,
+     * those of the vertices around are bounds. On meshes of more than 400,000 vertices fewer are compared.
+     * Building takes some 4 KB of memory a vertex for that, up to 8 KB where many pairs are wrong. With
+     * GEOIDX_METRIC_EXACT as above, an index also holds the edges along which MSAD would change by more than
+     * they are long, and lowers the farther ends of these, measured distances included: from one vertex, the
+     * distances of the ends of any edge of the welded mesh differ by no more than 1.05 times its length and
+     * the rounding of a float, on meshes of up to 65,536 vertices. On larger ones, from several sources and
+     * from points, an edge in a million may be steeper. */
     GEOIDX_ENGINE_OVERLAY = 1
 };
 
@@ -749,7 +749,7 @@ GEOIDX_API geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t 
  * of memory leaves no source prepared. GEOIDX_ENGINE_OVERLAY: 4 bytes of scratch a vertex, and some 15 more
  * where targets in all parts of the mesh are asked for. What is kept is made as targets need it, so that the
  * first target in a part of the mesh takes longer than others there; for targets in all parts that comes to
- * about half the time of MSAD. */
+ * about half the time of MSAD. Near pairs of vertices may take as much scratch of the same kind. */
 GEOIDX_API geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t source);
 
 /* distances[i]: from the prepared source to targets[i]; GEOIDX_ERROR_INVALID_ARGUMENT without one. By
@@ -788,10 +788,9 @@ GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoi
 
 /* geoidx_query_msad from points of the surface: distances[v] is the least of offsets[i] + the distance from
  * sources[i] to v. `offsets` are finite and not negative; NULL: all are 0. An offset that all sources have is
- * added to the distances without it. Where offsets differ, up to four sources take a field each, and with
- * more the distances of the later ones are less exact. By GEOIDX_METRIC_EXACT the distance to a vertex that a
- * source within a triangle sees over the triangles around it, 30 or so and up to 126 where edges are long, is
- * no longer than that straight line and, from one source, no shorter than the line in space. */
+ * added to the distances without it. By GEOIDX_METRIC_EXACT the distance to a vertex that a source within a
+ * triangle sees over the triangles around it, 30 or so and up to 126 where edges are long, is no longer than
+ * that straight line and, from one source, no shorter than the line in space. */
 GEOIDX_API geoidx_status geoidx_query_point_msad(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* sources, uint32_t source_count,
                                                  const float* offsets, float* distances,
@@ -814,7 +813,8 @@ GEOIDX_API geoidx_status geoidx_query_point_within(geoidx_query* query, const ge
 
 /* geoidx_query_nearest_targets of points of the surface: few targets are asked for one by one, as by
  * geoidx_query_point_sssd; the distances of many come from fields, as those of geoidx_query_point_msad, but
- * for those that are less than four edges away, which are as by geoidx_query_point_sssd. A point of which a
+ * for those that are as near as geoidx_query_point_sssd looks for a path: these are as by that, take as long
+ * and the same scratch. The distances of the two kinds differ by the error of the index. A point of which a
  * corner cannot be reached is not reached either. */
 GEOIDX_API geoidx_status geoidx_query_point_nearest_targets(
     geoidx_query* query, const geoidx_surface* surface, const geoidx_surface_point* source,

@@ -44,11 +44,14 @@ void OverlayQuery::add_point(const FacePoint& point, float offset) {
     }
     keys_.push_back(index_.numbering.vertex_count() + static_cast<uint32_t>(points_.size()));
     PointWays& ways = points_.emplace_back(points_.get_allocator().resource());
+    ways.offset = offset;
+    ways.vertex = point.vertex;
+    if (point.vertex != NONE) return;
     ways.leaf = point.leaf;
-    ways.distance.clear();
-    for (const float distance : in_leaf_.to_all(point)) ways.distance.push_back(offset + distance);
+    const auto to_all = in_leaf_.to_all(point);
+    ways.distance.assign(to_all.begin(), to_all.end());
     for (const auto& [number, straight] : std::span(point.beyond).first(point.beyond_count))
-        ways.beyond.push_back({number, offset + static_cast<float>(straight)});
+        ways.beyond.push_back({number, static_cast<float>(straight)});
 }
 
 void OverlayQuery::take_points(std::span<const FacePoint> points, std::span<const float> offsets) {

@@ -1,6 +1,5 @@
 // Points of faces, as the ends of pairs, as sources and as the ends of paths.
 #include <algorithm>
-#include <functional>
 #include <tuple>
 
 #include "src/query/query.h"
@@ -80,18 +79,13 @@ void Query::fill_point_field(const FacePoint& point, float offset) {
     }
 }
 
-// Whether all sources go into one sweep. Of a few whose offsets differ, a field for each is more exact.
+// Whether all sources go into one sweep.
 bool Query::sweep_together(const PointSources& sources) const {
-    constexpr size_t FEW = 4;
-    const auto& offsets = sources.offsets;
-    const bool have_one_offset = std::ranges::adjacent_find(offsets, std::not_equal_to()) == offsets.end();
-    return (have_one_offset || offsets.size() > FEW) &&
-           std::ranges::all_of(sources.points, [&](const FacePoint& point) { return takes(point); });
+    return std::ranges::all_of(sources.points, [&](const FacePoint& point) { return takes(point); });
 }
 
-// Fills offsets_ with the offsets without the least one, which is returned. Sweeps unfold over borders as if
-// a source with an offset were that much farther away, which it is not. So only by what they differ in are
-// offsets part of a sweep, and one source, or several with equal ones, are as exact as without.
+// Fills offsets_ with the offsets without the least one, which is returned. Only by what they differ in are
+// offsets part of a sweep, so that a source alone, or several with equal ones, need none.
 float Query::take_offsets(const PointSources& sources) {
     offsets_.assign(sources.offsets.begin(), sources.offsets.end());
     if (offsets_.empty()) return 0;

@@ -423,6 +423,63 @@ TEST_CASE("points: fields from one and from several, with offsets") {
         }
 }
 
+// Ways from each source are unfolded over borders without its offset: one that begins later is no farther
+// away.
+TEST_CASE("points: fields from sources with offsets are as exact as those without") {
+    const PathCase on(prism(smaller(80, 40), 5, 8));
+    std::mt19937_64 random(12);
+    for (size_t i = 0; i < smaller(12, 3); ++i) {
+        CAPTURE(i);
+        std::vector<geoidx_surface_point> sources;
+        std::vector<float> offsets;
+        std::vector<double> nearest(on.soup.vertex_count(), INFINITE);
+        for (size_t s = 0; s < 8; ++s) {
+            sources.push_back(random_point(on.soup, random, s % 2 == 0 ? 0 : 3));
+            offsets.push_back(static_cast<float>(uniform(random, 0, 2)));
+            const auto exact = on.exact_field(sources.back());
+            for (uint32_t v = 0; v < nearest.size(); ++v)
+                nearest[v] = std::min(nearest[v], exact[v] + double{offsets.back()});
+        }
+        const auto answers = field(on, sources, offsets.data());
+        for (uint32_t v = 0; v < nearest.size(); ++v)
+            CHECK(double{answers[v]} == doctest::Approx(nearest[v]).epsilon(0.015));
+        REQUIRE(geoidx_query_set_threads(on.query.get(), 2) == GEOIDX_OK);
+        CHECK(field(on, sources, offsets.data()) == answers);
+        REQUIRE(geoidx_query_set_threads(on.query.get(), 1) == GEOIDX_OK);
+        // Of a source that is given again and begins later, nothing is seen.
+        const auto count = static_cast<uint32_t>(sources.size());
+        for (uint32_t s = 0; s < count; ++s) {
+            sources.push_back(sources[s]);
+            offsets.push_back(offsets[s] + 0.25f);
+        }
+        std::vector<uint32_t> named(nearest.size());
+        std::vector<float> distances(nearest.size());
+        require_success(geoidx_query_point_nearest_sources(on.query.get(), on.surface.get(), sources.data(),
+                                                           2 * count, offsets.data(), named.data(),
+                                                           distances.data(), on.soup.vertex_count()));
+        CHECK(distances == answers);
+        CHECK(std::ranges::max(named) < count);
+    }
+}
+
+// Pairs of vertices that tables have wrong were measured.
+TEST_CASE("points: vertices with offsets have their measured pairs") {
+    const PathCase on(bumpy_sphere(smaller(4, 3), 3));
+    std::mt19937_64 random(13);
+    for (size_t i = 0; i < 20; ++i) {
+        CAPTURE(i);
+        const geoidx_surface_point sources[] = {random_point(on.soup, random, 3),
+                                                random_point(on.soup, random, 3)};
+        constexpr float LATER = 0.125f;
+        const float offsets[] = {LATER, 0};
+        const auto first = field(on, {&sources[0], 1}), second = field(on, {&sources[1], 1}),
+                   both = field(on, sources, offsets);
+        for (uint32_t v = 0; v < on.soup.vertex_count(); ++v)
+            CHECK(double{both[v]} ==
+                  doctest::Approx(double{std::min(first[v] + LATER, second[v])}).epsilon(2e-3));
+    }
+}
+
 // Bit for bit: an offset that all sources have takes no part in how ways are unfolded over borders.
 TEST_CASE("points: an offset that all sources have is added to their distances") {
     for (const uint32_t engine : {GEOIDX_ENGINE_OVERLAY, GEOIDX_ENGINE_GRAPH})

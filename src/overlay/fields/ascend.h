@@ -58,10 +58,12 @@ void for_each_way_in_leaves(const OverlayIndex& index, uint32_t source, const Fu
     }
 }
 
-// To the vertices of the leaf of a point of a face, and to those of the leaves of each vertex that it sees
-// beyond its polygon, over that. What was measured counts instead of what tables say of the latter.
+// Without the offset: to the vertices of the leaf of a point of a face, and to those of the leaves of each
+// vertex that it sees beyond its polygon, over that. What was measured counts instead of what tables say of
+// the latter.
 template <class Function>
 void for_each_way_from(const OverlayIndex& index, const PointWays& point, const Function& function) {
+    if (point.vertex != NONE) return for_each_way_from(index, point.vertex, function);
     const auto border = index.numbering.border_of(point.leaf);
     for (size_t i = 0; i < border.size(); ++i) function(border[i], point.distance[i]);
     uint32_t number = index.numbering.first_internal(point.leaf);
@@ -74,14 +76,23 @@ void for_each_way_from(const OverlayIndex& index, const PointWays& point, const 
 }
 
 // The sources of a sweep, each with a key: that of a vertex is its number, and those of points follow the
-// numbers of all vertices.
+// numbers of all vertices, as do those of vertices whose fields begin with an offset.
 struct Sources {
     std::span<const uint32_t> keys;
     std::span<const PointWays> points{};
 
-    uint32_t innermost_patch(const Numbering& numbering, uint32_t key) const {
+    // The vertex that a source is, or NONE.
+    uint32_t vertex(const Numbering& numbering, uint32_t key) const {
         const uint32_t vertices = numbering.vertex_count();
-        return key < vertices ? numbering.innermost_patch(key) : points[key - vertices].leaf;
+        return key < vertices ? key : points[key - vertices].vertex;
+    }
+    float offset(const Numbering& numbering, uint32_t key) const {
+        const uint32_t vertices = numbering.vertex_count();
+        return key < vertices ? 0 : points[key - vertices].offset;
+    }
+    uint32_t innermost_patch(const Numbering& numbering, uint32_t key) const {
+        const uint32_t at = vertex(numbering, key);
+        return at != NONE ? numbering.innermost_patch(at) : points[key - numbering.vertex_count()].leaf;
     }
     template <class Function>
     void for_each_way(const OverlayIndex& index, uint32_t key, const Function& function) const {

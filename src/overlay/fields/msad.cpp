@@ -25,12 +25,20 @@ void lower(const OverlayMsad::Field& field, uint32_t first, std::span<const floa
 }
 
 OverlayMsad::Scratch::Scratch(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : sweep(index, 1, memory), own(index, memory) {}
+    : sweep(index, 1, memory), own(index, memory), with_offset(memory) {}
 
 OverlayMsad::OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), up_(index, memory), top_(index, memory), of_thread_(memory),
       sources_inside_(memory), nearest_(index, memory), corrected_(memory) {
     set_threads(1);
+}
+
+// The distances with the offset added, valid until the next call; `found` itself if the offset is 0.
+std::span<const float> OverlayMsad::Scratch::add_offset(std::span<const float> found, float offset) {
+    if (offset == 0) return found;
+    with_offset.assign(found.begin(), found.end());
+    for (float& distance : with_offset) distance += offset;
+    return with_offset;
 }
 
 void OverlayMsad::set_threads(uint32_t count) {
@@ -60,8 +68,9 @@ void OverlayMsad::begin(const Field& field) {
     std::ranges::fill(field.source, NONE);
     for (const uint32_t source : sources_.keys)
         sources_.for_each_way(index_, source, [&](uint32_t number, float way) {
-            lower_corrected(field, number, {&way, 1}, source);
-            if (numbering_.is_border(number)) add_way(number, way, source);
+            const float whole = way + offset(source);
+            lower_corrected(field, number, {&whole, 1}, source);
+            if (numbering_.is_border(number)) add_way(number, whole, source);
         });
 }
 
@@ -73,11 +82,11 @@ void OverlayMsad::lower_corrected(const Field& field, uint32_t first, std::span<
     if (numbering_.is_border(first)) return lower(field, first, found, source);
     uint32_t next = first;
     const uint32_t end = first + static_cast<uint32_t>(found.size());
-    for (const auto& [number, measured] : index_.measured.of(source, first, end)) {
+    for_each_measured(source, first, end, [&](uint32_t number, float measured) {
         lower(field, next, found.subspan(next - first, number - next), source);
         lower(field, number, {&measured, 1}, source);
         next = number + 1;
-    }
+    });
     lower(field, next, found.subspan(next - first), source);
 }
 
@@ -87,21 +96,23 @@ void OverlayMsad::take_measured(const Field& field) {
     const uint32_t vertices = numbering_.vertex_count();
     corrected_.clear();
     for (const uint32_t source : sources_.keys)
-        for (const auto& pair : index_.measured.of(source, 0, numbering_.border_vertex_count()))
-            corrected_.push_back(pair.number);
+        for_each_measured(source, 0, numbering_.border_vertex_count(),
+                          [&](uint32_t number, float) { corrected_.push_back(number); });
     std::ranges::sort(corrected_);
     corrected_.erase(std::unique(corrected_.begin(), corrected_.end()), corrected_.end());
     for (const uint32_t border_vertex : corrected_) correct_border_vertex(field, border_vertex);
     for (const uint32_t source : sources_.keys)
-        for (const auto& [number, measured] : index_.measured.of(source, 0, vertices))
+        for_each_measured(source, 0, vertices, [&](uint32_t number, float measured) {
             lower(field, number, {&measured, 1}, source);
+        });
 }
 
 void OverlayMsad::correct_border_vertex(const Field& field, uint32_t border_vertex) const {
     field.distance[border_vertex] = INFINITE;
     nearest_.for_each_way(border_vertex, [&](const NearestSources::Way& way) {
-        const auto measured = index_.measured.of(way.source, border_vertex, border_vertex + 1);
-        const float distance = measured.empty() ? way.distance : measured.front().distance;
+        float distance = way.distance;
+        for_each_measured(way.source, border_vertex, border_vertex + 1,
+                          [&](uint32_t, float measured) { distance = measured; });
         lower(field, border_vertex, {&distance, 1}, way.source);
     });
 }
@@ -114,16 +125,17 @@ bool OverlayMsad::is_within(uint32_t source, uint32_t patch) const {
 // distances it has.
 void OverlayMsad::hop_up(uint32_t child, std::span<float> distance) {
     const auto is_inside = [&](uint32_t source) { return is_within(source, child); };
-    top_.own.for_each_source(child, nearest_, distance.data(), is_inside, [&](float* from, uint32_t source) {
+    const auto hop = [&](float* from, uint32_t source) {
         if (!up_.begin(child, {from})) return;
-        const std::span<const float> found = up_.cross();
+        const std::span<const float> found = top_.add_offset(up_.cross(), offset(source));
         const std::span<const uint32_t> targets = up_.targets();
         for (size_t r = 0; r < found.size(); ++r) {
             float& known = distance[targets[r]];
             known = std::min(known, found[r]);
             add_way(targets[r], found[r], source);
         }
-    });
+    };
+    top_.own.for_each_source(child, nearest_, distance.data(), offset_of_sources(), is_inside, hop);
 }
 
 // Hops from the sources outside of a patch to its inner vertices. A source that is inside has all of its
@@ -133,13 +145,13 @@ void OverlayMsad::hop_down(uint32_t patch, float radius, const Field& field, Scr
     const uint32_t first = numbering_.first_inner(patch);
     const auto is_outside = [&](uint32_t source) { return !is_within(source, patch); };
     const auto hop = [&](const float* from, uint32_t source) {
-        if (!scratch.sweep.begin(patch, from, radius)) return;
-        const std::span<const float> found = scratch.sweep.cross();
+        if (!scratch.sweep.begin(patch, from, radius - offset(source))) return;
+        const std::span<const float> found = scratch.add_offset(scratch.sweep.cross(), offset(source));
         lower_corrected(field, first, found, source);
         if (patch >= numbering_.first_leaf()) return;
         for (uint32_t r = 0; r < found.size(); ++r) add_way(first + r, found[r], source);
     };
-    scratch.own.for_each_source(patch, nearest_, field.distance.data(), is_outside, hop);
+    scratch.own.for_each_source(patch, nearest_, field.distance.data(), offset_of_sources(), is_outside, hop);
 }
 
 void OverlayMsad::add_way(uint32_t border_vertex, float distance, uint32_t source) {

@@ -37,11 +37,26 @@ private:
     struct Scratch {
         Scratch(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
+        std::span<const float> add_offset(std::span<const float> found, float offset);
+
         InnerSweep sweep;
         OwnDistances own;
+        Array<float> with_offset;
     };
 
     bool is_within(uint32_t source, uint32_t patch) const;
+    float offset(uint32_t source) const { return sources_.offset(numbering_, source); }
+    auto offset_of_sources() const {
+        return [this](uint32_t source) { return offset(source); };
+    }
+    // Calls use(number, distance) for those of some vertices whose distances from a source were measured.
+    template <class Use>
+    void for_each_measured(uint32_t source, uint32_t first, uint32_t end, const Use& use) const {
+        const uint32_t vertex = sources_.vertex(numbering_, source);
+        if (vertex == NONE) return;
+        for (const auto& [number, measured] : index_.measured.of(vertex, first, end))
+            use(number, measured + offset(source));
+    }
     void begin(const Field& field);
     void lower_corrected(const Field& field, uint32_t first, std::span<const float> found,
                          uint32_t source) const;

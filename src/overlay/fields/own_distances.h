@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory_resource>
 
 #include "src/overlay/fields/nearest_sources.h"
@@ -19,21 +20,22 @@ public:
     void set_keys(uint32_t count) { keys_ = count; }
 
     // Calls hop(distances, source) for each source that may be the nearest one somewhere on a patch's border,
-    // if is_wanted(source). distances[number] is infinite where the distance from that source is not known.
-    // `least` are the distances from the nearest sources, by number.
-    template <class IsWanted, class Hop>
-    void for_each_source(uint32_t patch, const NearestSources& nearest, float* least,
+    // if is_wanted(source). distances[number], without offset(source), is infinite where the distance from
+    // that source is not known. `least` are the distances from the nearest sources, by number.
+    template <class Offset, class IsWanted, class Hop>
+    void for_each_source(uint32_t patch, const NearestSources& nearest, float* least, const Offset& offset,
                          const IsWanted& is_wanted, const Hop& hop) {
-        if (const uint32_t only = only_source(patch, nearest); only != NONE) {
+        if (const uint32_t only = only_source(patch, nearest); only != NONE && offset(only) == 0) {
             if (is_wanted(only)) hop(least, only);
             return;
         }
         collect(patch, nearest);
         for (const uint32_t source : sources_) {
             if (!is_wanted(source)) continue;
+            const float of_source = offset(source);
             const uint32_t last = last_way_[source];
             for (uint32_t w = last; w != FIRST; w = ways_[w].before)
-                own_[ways_[w].border_vertex] = ways_[w].distance;
+                own_[ways_[w].border_vertex] = std::max(ways_[w].distance - of_source, 0.f);
             hop(own_.data(), source);
             for (uint32_t w = last; w != FIRST; w = ways_[w].before) own_[ways_[w].border_vertex] = INFINITE;
         }

@@ -13,7 +13,8 @@ namespace geodesic {
 // What a point of a face is to a sweep: the distances to the border and to the internal vertices of a leaf,
 // as if it were an internal vertex of that leaf itself, and to vertices that it sees beyond its polygon. Ways
 // that bend at one of these, hops from the border of the leaf may miss: they unfold a whole segment from one
-// place.
+// place. Or a vertex whose field begins with an offset: then `vertex` is set, and there are no distances. The
+// offset is not part of the distances; a sweep from several sources adds it behind each hop.
 struct PointWays {
     struct Beyond {
         uint32_t number;
@@ -22,7 +23,9 @@ struct PointWays {
 
     explicit PointWays(std::pmr::memory_resource* memory) : distance(memory), beyond(memory) {}
 
-    uint32_t leaf = NONE;
+    float offset = 0;
+    uint32_t vertex = NONE;
+    uint32_t leaf = NONE;  // unless it is a vertex
     Array<float> distance; // border vertices in the order of the border, then internal vertices
     Array<Beyond> beyond;
 };
