@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <span>
 #include <vector>
@@ -10,6 +11,18 @@
 
 // Points of a surface, and fields from them.
 namespace geodesic::test {
+
+struct MeanError {
+    double sum = 0;
+    size_t count = 0;
+
+    void add(double distance, double exact) {
+        if (exact == 0) return;
+        sum += std::abs(distance / exact - 1);
+        ++count;
+    }
+    double mean() const { return sum / static_cast<double>(count); }
+};
 
 inline std::vector<std::vector<uint32_t>> triangles_around_vertices(const Soup& soup) {
     std::vector<std::vector<uint32_t>> around(soup.vertex_count());
