@@ -41,25 +41,43 @@ void read_quanta(const format::Container& container, StoredIndex& stored) {
 // ---- SEGM
 
 std::vector<std::byte> segment_bytes(const StoredIndex& stored) {
+    const auto& [end, length, bridges] = stored.segments;
     format::ByteWriter writer;
-    writer.u32_array(stored.segment_end);
-    writer.f32_array(stored.segment_length);
+    writer.u32_array(end);
+    writer.f32_array(length);
+    for (const Bridge& bridge : bridges) {
+        writer.u32(bridge.slot);
+        writer.u32(bridge.end);
+        writer.f32(bridge.length);
+    }
     return writer.take();
 }
 
+void require_length(float length) {
+    if (!(length > 0) || !std::isfinite(length))
+        refuse_as_corrupt("section SEGM: a segment of length " + number_text(length));
+}
+
 void read_segments(const format::Container& container, StoredIndex& stored) {
+    auto& [end, length, bridges] = stored.segments;
     const size_t count = stored.border.size();
-    const auto bytes = container.read_bytes(TAG_SEGMENTS, count * (sizeof(uint32_t) + sizeof(float)));
+    constexpr size_t OF_SLOT = sizeof(uint32_t) + sizeof(float),
+                     OF_BRIDGE = 2 * sizeof(uint32_t) + sizeof(float);
+    const auto bytes =
+        container.read_bytes(TAG_SEGMENTS, count * (OF_SLOT + Bridge::MOST_OF_SLOT * OF_BRIDGE));
     format::ByteReader reader(bytes, "section SEGM");
-    stored.segment_end.resize(count);
-    stored.segment_length.resize(count);
-    reader.u32_array(stored.segment_end);
-    reader.f32_array(stored.segment_length);
-    reader.expect_end();
+    end.resize(count);
+    length.resize(count);
+    reader.u32_array(end);
+    reader.f32_array(length);
     for (size_t i = 0; i < count; ++i)
-        if (stored.segment_end[i] != NONE &&
-            (!(stored.segment_length[i] > 0) || !std::isfinite(stored.segment_length[i])))
-            refuse_as_corrupt("section SEGM: a segment of length " + number_text(stored.segment_length[i]));
+        if (end[i] != NONE) require_length(length[i]);
+    while (reader.remaining() > 0) {
+        const uint32_t slot = reader.u32(), other_end = reader.u32();
+        bridges.push_back({slot, other_end, reader.f32()});
+        require_length(bridges.back().length);
+    }
+    reader.expect_end();
 }
 
 }

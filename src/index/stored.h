@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "format/container.h"
+#include "src/index/border_segments.h"
 #include "src/index/description.h"
 
 namespace geodesic {
@@ -54,10 +55,9 @@ struct StoredIndex {
     std::vector<float> internal_tables;        // IVIV: of every leaf, below the diagonal
 
     // Overlay engine: codes of distances (src/overlay/tables/codes.h), in steps of the quantum of the patch.
-    std::vector<float> quantum;        // QUAN: per patch
-    std::vector<uint8_t> shift;        // QUAN: per patch; its codes are multiples of 2^shift
-    std::vector<uint32_t> segment_end; // SEGM: per element of `border`, a position there, or NONE
-    std::vector<float> segment_length; // SEGM: per element of `border`
+    std::vector<float> quantum; // QUAN: per patch
+    std::vector<uint8_t> shift; // QUAN: per patch; its codes are multiples of 2^shift
+    BorderSegments segments;    // SEGM: those of chains per element of `border`
     // PAIR: the largest of what tables say of these pairs, by the classes of their distances
     std::array<float, DISTANCE_CLASSES> errors_of_measured{};
     std::vector<VertexPair> measured_pairs;      // PAIR: by the metric; in ascending order, each once

@@ -201,7 +201,7 @@ void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_fac
     if (options.unfold) segments = find_segments(mesh, leaf_of_face, vertex_of_number, tables, numbering);
     if (!can_be_squared(segments)) segments = BorderSegments(numbering.border.size());
     Rings rings(std::pmr::get_default_resource());
-    lay_out_rings(segments.end, segments.length, numbering, rings);
+    lay_out_rings(segments, numbering, rings);
     Slots slots(std::pmr::get_default_resource());
     find_slots(numbering, slots);
     workers.begin_stage("closure", options.stage_end, closure_rows(numbering, exact));
@@ -209,8 +209,7 @@ void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_fac
         if (!exact[p]) close_from_below(p, numbering, slots, rings, workers, tables);
     const auto rounding = rounding_of_patches(numbering, tables, options.rounding);
     close_downwards_and_hand_over(numbering, exact, rings, rounding, workers, tables, stored);
-    stored.segment_end = std::move(segments.end);
-    stored.segment_length = std::move(segments.length);
+    stored.segments = std::move(segments);
 }
 
 }

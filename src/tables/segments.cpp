@@ -33,6 +33,7 @@ public:
             if (i - ring >= 2) join(patch, i, ring);
             ring = i + 1;
         }
+        for (uint32_t i = 0; i < size; ++i) find_bridges(patch, i);
     }
 
 private:
@@ -51,6 +52,23 @@ private:
         segments_.end[first + i] = j;
         segments_.length[first + i] = length;
         return true;
+    }
+
+    // From a position to those behind it.
+    void find_bridges(uint32_t patch, uint32_t i) {
+        const uint32_t first = numbering_.border_begin[patch];
+        std::vector<Bridge> bridges;
+        for (const auto& [other, edge] : edges_[numbering_.border[first + i]]) {
+            const uint32_t j = numbering_.border_position(patch, other);
+            if (j == NONE || j <= i || segments_.end[first + i] == j || segments_.end[first + j] == i ||
+                !parts(edge, patch))
+                continue;
+            const float length = length_of(numbering_.border[first + i], other);
+            if (length > 0) bridges.push_back({first + i, j, length});
+        }
+        std::ranges::sort(bridges, {}, &Bridge::end);
+        bridges.resize(std::min(bridges.size(), Bridge::MOST_OF_SLOT));
+        segments_.bridges.insert(segments_.bridges.end(), bridges.begin(), bridges.end());
     }
 
     // Whether an edge has the patch on some sides and other patches on others.

@@ -36,7 +36,13 @@ struct FileContent {
     std::vector<double> mesh_positions;
     std::vector<uint32_t> triangles;
 
-    std::vector<uint32_t> owned;                // per inner patch
+    std::vector<uint32_t> owned; // per inner patch
+    // A segment between two positions of a border of which none follows the other.
+    struct Bridge {
+        uint32_t slot, end; // counted over all borders, and in its own
+        float length;
+    };
+
     std::vector<uint32_t> internal;             // per leaf
     std::vector<std::vector<uint32_t>> borders; // per patch; the root has none
 
@@ -44,6 +50,7 @@ struct FileContent {
     uint8_t shift = 0;                              // of all patches
     std::vector<std::vector<uint32_t>> next;        // per patch and position of its border: of segments
     std::vector<std::vector<float>> segment_length; // likewise
+    std::vector<Bridge> bridges;
 
     std::vector<Matrix> border_tables, overlay_tables, border_internal_tables, internal_tables;
 

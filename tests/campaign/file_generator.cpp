@@ -382,6 +382,17 @@ private:
                     length[i] = any_length ? LENGTHS[random_.below(LENGTHS.size())] : 0.01f + random_.unit();
             begin = end;
         }
+        if (random_.one_in(3)) make_bridges(patch);
+    }
+
+    void make_bridges(uint32_t patch) {
+        uint32_t slot = 0;
+        for (uint32_t p = 0; p < patch; ++p) slot += static_cast<uint32_t>(content_.borders[p].size());
+        const auto size = static_cast<uint32_t>(content_.borders[patch].size());
+        for (uint32_t i = 0; i + 1 < size; ++i)
+            if (random_.one_in(4))
+                content_.bridges.push_back(
+                    {slot + i, i + 1 + random_.below(size - i - 1), 0.01f + random_.unit()});
     }
 
     static constexpr int32_t MOST = (1 << 23) - 1; // steps of a position

@@ -172,6 +172,11 @@ void add_segments(const FileContent& content, Writer& writer) {
     writer.add("QUAN", bytes);
     for (const auto& next : content.next) bytes.u32_array(next);
     for (const auto& length : content.segment_length) bytes.f32_array(length);
+    for (const auto& [slot, end, length] : content.bridges) {
+        bytes.u32(slot);
+        bytes.u32(end);
+        bytes.f32(length);
+    }
     writer.add("SEGM", bytes);
 }
 

@@ -416,7 +416,7 @@ TEST_CASE("hop: over segments of any length, every distance is written") {
         const Built whole(with_holes(hills(26, 24)), options_of(GEOIDX_METRIC_EXACT, {3, 3}));
         StoredIndex stored =
             restore(with_few_paths(whole, options_of(GEOIDX_METRIC_EXACT, {3, 3})).built.index);
-        std::ranges::fill(stored.segment_length, length);
+        std::ranges::fill(stored.segments.length, length);
         const Built built(whole.mesh, options_of(GEOIDX_METRIC_EXACT, {3, 3}), stored);
         InnerSweep one(built.overlay(), 1, std::pmr::get_default_resource()),
             several(built.overlay(), AT_ONCE, std::pmr::get_default_resource());

@@ -31,18 +31,18 @@ Number root(Number square, Number length) {
     return square < -length * length / 32 ? NAN : std::sqrt(std::max(square, Number{0}));
 }
 
-// The codes of all middles of a border as they are derived: for each row one of each position where a segment
-// begins, NaN if it is left out.
+// The codes of all middles of a border as they are derived: for each row one of each segment, NaN if it is
+// left out.
 inline std::vector<std::vector<float>> derived_middles(const StoredBorder& border, const Rows& rows,
                                                        float quantum) {
-    std::vector<std::vector<float>> codes(rows.size(), std::vector<float>(border.size(), NAN));
+    std::vector<std::vector<float>> codes(rows.size(), std::vector<float>(border.segment_count(), NAN));
     for (size_t x = 0; x < rows.size(); ++x)
-        for (uint32_t p = 0; p < border.size(); ++p) {
-            const uint32_t q = border.end[p];
+        for (uint32_t i = 0; i < border.segment_count(); ++i) {
+            const uint32_t p = border.begin[i], q = border.end[i];
             if (q == NONE || rows[x][p] == NO_PATH || rows[x][q] == NO_PATH) continue;
-            const float at_p = rows[x][p], at_q = rows[x][q], length = border.length[p] / quantum;
+            const float at_p = rows[x][p], at_q = rows[x][q], length = border.length[i] / quantum;
             const float square = 0.5f * (at_p * at_p + at_q * at_q) - 0.25f * (length * length);
-            codes[x][p] = std::trunc(root(square, length) + 0.5f);
+            codes[x][i] = std::trunc(root(square, length) + 0.5f);
         }
     return codes;
 }
@@ -60,9 +60,9 @@ inline std::vector<std::vector<float>> raised_middles(const StoredBorder& border
         for (size_t y = 0; y < apart.size(); ++y) {
             const int t = apart[x][y];
             if (x == y || t == NO_PATH || static_cast<float>(t) > longest / quantum) continue;
-            for (uint32_t p = 0; p < border.size(); ++p) // not where either is NaN
-                if (derived[y][p] - static_cast<float>(t + t / 25) > codes[x][p])
-                    codes[x][p] = derived[y][p] - static_cast<float>(t + t / 25);
+            for (uint32_t i = 0; i < border.segment_count(); ++i) // not where either is NaN
+                if (derived[y][i] - static_cast<float>(t + t / 25) > codes[x][i])
+                    codes[x][i] = derived[y][i] - static_cast<float>(t + t / 25);
         }
     return codes;
 }
@@ -73,15 +73,15 @@ inline std::vector<std::vector<float>> middle_codes(const StoredBorder& border, 
                                                     const Rows& apart, float quantum) {
     auto codes = raised_middles(border, rows, apart, quantum);
     for (size_t x = 0; x < rows.size(); ++x)
-        for (uint32_t p = 0; p < border.size(); ++p) {
-            if (border.end[p] == NONE) continue;
-            const auto mean = static_cast<float>((rows[x][p] + rows[x][border.end[p]] + 1) / 2);
-            const float middle = std::isnan(codes[x][p]) ? mean : codes[x][p];
-            const float in_strides = border.length[p] * (1 / quantum) * (0.5f / 255) + 1;
+        for (uint32_t i = 0; i < border.segment_count(); ++i) {
+            if (border.end[i] == NONE) continue;
+            const auto mean = static_cast<float>((rows[x][border.begin[i]] + rows[x][border.end[i]] + 1) / 2);
+            const float middle = std::isnan(codes[x][i]) ? mean : codes[x][i];
+            const float in_strides = border.length[i] * (1 / quantum) * (0.5f / 255) + 1;
             const float stride = std::trunc(std::min(in_strides, 127.f));
             const float offset = std::trunc((mean - middle) * (1 / stride) + 0.5f);
             const float most = std::min(255.f, std::trunc(mean * (1 / stride)));
-            codes[x][p] = mean - stride * std::max(0.f, std::min(most, offset));
+            codes[x][i] = mean - stride * std::max(0.f, std::min(most, offset));
         }
     return codes;
 }
@@ -94,13 +94,12 @@ public:
     PlainHop(const StoredBorder& border, std::vector<float> distances, float quantum, uint32_t vertex_count)
         : border_(border), distances_(std::move(distances)), quantum_(quantum) {
         const double near_segments = std::clamp(10000.0 / vertex_count, 5.0, 20.0);
-        for (uint32_t k = 0; k < border.size(); ++k)
-            if (border.end[k] != NONE && distances_[k] < INFINITE)
-                near_radius_ = std::max(near_radius_, near_segments * double{border.length[k]});
-        for (uint32_t k = 0; k < border.size(); ++k) {
-            middles_.push_back(middle(k));
-            least_ = std::min(least_, distances_[k]);
+        for (uint32_t i = 0; i < border.segment_count(); ++i) {
+            if (border.end[i] != NONE && distances_[border.begin[i]] < INFINITE)
+                near_radius_ = std::max(near_radius_, near_segments * double{border.length[i]});
+            middles_.push_back(middle(i));
         }
+        for (uint32_t k = 0; k < border.size(); ++k) least_ = std::min(least_, distances_[k]);
         least_or_middle_ = least_;
         for (const float m : middles_)
             if (!std::isnan(m)) least_or_middle_ = std::min(least_or_middle_, m);
@@ -124,7 +123,7 @@ public:
         if (hop.over != NONE) {
             least = way_over(row, hop.over);
             const double over_vertex = least;
-            for (const uint32_t p : border_.beside(hop.over)) least = std::min(least, way_across(row, p));
+            for (const uint32_t k : border_.beside(hop.over)) least = std::min(least, way_across(row, k));
             hop.is_straightened = least < over_vertex;
         }
         return follow_near_rule(row, hop, least);
@@ -135,12 +134,13 @@ public:
         Hop hop;
         if (!is_reached()) return hop;
         int32_t least_sum = 32767;
-        for (uint32_t b = 0; b < border_.size(); ++b) {
+        for (uint32_t b = 0; b < border_.size(); ++b)
             least_sum = std::min(least_sum, steps(distances_[b], least_or_middle_) + row[b]);
-            const float code = middle_codes[b];
-            if (std::isnan(middles_[b]) || std::isnan(code)) continue;
+        for (uint32_t i = 0; i < border_.segment_count(); ++i) {
+            const float code = middle_codes[i];
+            if (std::isnan(middles_[i]) || std::isnan(code)) continue;
             least_sum =
-                std::min(least_sum, steps(middles_[b], least_or_middle_) + static_cast<int32_t>(code));
+                std::min(least_sum, steps(middles_[i], least_or_middle_) + static_cast<int32_t>(code));
         }
         hop.had_sum = least_sum < 32767;
         if (hop.had_sum)
@@ -157,10 +157,11 @@ private:
         return static_cast<int32_t>(std::trunc(std::min((distance - least) * inverse + 0.5f, 32766.0f)));
     }
 
-    // The distance of the source from the middle of the segment that begins at p, NaN if there is none.
-    float middle(uint32_t p) const {
-        if (border_.end[p] == NONE) return NAN;
-        const float at_p = distances_[p], at_q = distances_[border_.end[p]], length = border_.length[p];
+    // The distance of the source from the middle of a segment, NaN if there is none.
+    float middle(uint32_t segment) const {
+        if (border_.end[segment] == NONE) return NAN;
+        const float at_p = distances_[border_.begin[segment]], at_q = distances_[border_.end[segment]],
+                    length = border_.length[segment];
         return root(0.5f * (at_p * at_p + at_q * at_q) - 0.25f * (length * length), length);
     }
 
@@ -182,11 +183,11 @@ private:
         return first;
     }
 
-    // The way over the segment that begins at p, straightened; infinite if there is none.
-    double way_across(const std::vector<uint16_t>& row, uint32_t p) const {
-        const uint32_t q = border_.end[p];
+    // The way over a segment, straightened; infinite if there is none.
+    double way_across(const std::vector<uint16_t>& row, uint32_t segment) const {
+        const uint32_t p = border_.begin[segment], q = border_.end[segment];
         if (q == NONE) return NOWHERE;
-        const double length{border_.length[p]};
+        const double length{border_.length[segment]};
         const auto along = [&](double from_p, double from_q) {
             return (from_p - from_q) * (from_p + from_q) * (0.5 / length) + 0.5 * length;
         };
@@ -205,8 +206,8 @@ private:
         hop.distance = found;
         if (double{least_} > near_radius_ || found > near_radius_) return hop;
         double least = NOWHERE;
-        for (uint32_t b = 0; b < border_.size(); ++b)
-            least = std::min({least, way_over(row, b), way_across(row, b)});
+        for (uint32_t b = 0; b < border_.size(); ++b) least = std::min(least, way_over(row, b));
+        for (uint32_t i = 0; i < border_.segment_count(); ++i) least = std::min(least, way_across(row, i));
         hop.is_near = true;
         hop.is_other = std::abs(least - found) > 1e-3 * found;
         hop.distance = least;
@@ -217,7 +218,7 @@ private:
     std::vector<float> distances_; // per position
     float quantum_;
     double near_radius_ = 0;
-    std::vector<float> middles_; // per position: NaN if no middle is there
+    std::vector<float> middles_; // per segment: NaN if no middle is there
     float least_ = INFINITE, least_or_middle_ = INFINITE;
 };
 

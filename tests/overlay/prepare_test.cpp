@@ -33,8 +33,9 @@ void shuffle_tables(StoredIndex& stored, uint32_t seed) {
     for (auto* table : {&stored.border_tables, &stored.border_internal_tables, &stored.internal_tables})
         for (float& distance : *table) distance = number();
     for (float& quantum : stored.quantum) quantum = number();
-    for (size_t slot = 0; slot < stored.segment_end.size(); ++slot)
-        stored.segment_length[slot] = stored.segment_end[slot] == NONE ? 0 : number();
+    for (size_t slot = 0; slot < stored.segments.end.size(); ++slot)
+        stored.segments.length[slot] = stored.segments.end[slot] == NONE ? 0 : number();
+    for (Bridge& bridge : stored.segments.bridges) bridge.length = number();
     for (auto* codes : {&stored.overlay_codes, &stored.border_internal_codes, &stored.internal_codes})
         for (uint16_t& code : *codes) code = static_cast<uint16_t>(random() % 0x8000);
 }
@@ -53,8 +54,9 @@ void check_same(const StoredIndex& a, const StoredIndex& b) {
     CHECK(a.border_internal_tables == b.border_internal_tables);
     CHECK(a.internal_tables == b.internal_tables);
     CHECK(a.quantum == b.quantum);
-    CHECK(a.segment_end == b.segment_end);
-    CHECK(a.segment_length == b.segment_length);
+    CHECK(a.segments.end == b.segments.end);
+    CHECK(a.segments.length == b.segments.length);
+    CHECK(a.segments.bridges == b.segments.bridges);
     CHECK(a.overlay_codes == b.overlay_codes);
     CHECK(a.border_internal_codes == b.border_internal_codes);
     CHECK(a.internal_codes == b.internal_codes);
@@ -85,9 +87,8 @@ TEST_CASE("prepare: without segments, paths cross borders at their vertices") {
     options.engine = GEOIDX_ENGINE_OVERLAY;
     StoredIndex stored = stored_of(mesh, options);
     const OverlayOf with(stored);
-    CHECK(std::ranges::count(stored.segment_end, NONE) < std::ssize(stored.segment_end) / 2);
-    std::ranges::fill(stored.segment_end, NONE);
-    std::ranges::fill(stored.segment_length, 0.f);
+    CHECK(std::ranges::count(stored.segments.end, NONE) < std::ssize(stored.segments.end) / 2);
+    stored.segments = BorderSegments(stored.border.size());
     const OverlayOf without(stored);
     const OverlayIndex& overlay = without.overlay();
     for (const float longest : overlay.longest_segment) CHECK(longest == 0);

@@ -12,12 +12,15 @@ namespace geodesic::test {
 
 inline constexpr uint16_t NO_PATH = 0x7fff;
 
-// The border of a patch and the segments that begin at its positions.
+// The border of a patch and its segments: first those of chains, of which one may begin at each position,
+// then bridges.
 struct StoredBorder {
-    std::vector<uint32_t> vertices, end, before; // end and before: NONE if there is no such segment
-    std::vector<float> length;
+    std::vector<uint32_t> vertices, before; // per position; NONE if no segment of a chain ends there
+    std::vector<uint32_t> begin, end;       // positions, per segment; end is NONE if there is no such one
+    std::vector<float> length;              // per segment
 
     size_t size() const { return vertices.size(); }
+    size_t segment_count() const { return end.size(); }
 
     // The positions where the segments beside a position begin.
     std::vector<uint32_t> beside(uint32_t position) const {
@@ -49,12 +52,22 @@ public:
         const auto vertices = numbering_.border_of(patch);
         const auto first = static_cast<std::ptrdiff_t>(numbering_.border_begin[patch]);
         const auto last = first + static_cast<std::ptrdiff_t>(vertices.size());
+        const auto& [end, length, bridges] = stored_.segments;
         StoredBorder border{{vertices.begin(), vertices.end()},
-                            {stored_.segment_end.begin() + first, stored_.segment_end.begin() + last},
                             std::vector<uint32_t>(vertices.size(), NONE),
-                            {stored_.segment_length.begin() + first, stored_.segment_length.begin() + last}};
-        for (uint32_t k = 0; k < border.size(); ++k)
+                            std::vector<uint32_t>(vertices.size()),
+                            {end.begin() + first, end.begin() + last},
+                            {length.begin() + first, length.begin() + last}};
+        for (uint32_t k = 0; k < border.size(); ++k) {
+            border.begin[k] = k;
             if (border.end[k] != NONE) border.before[border.end[k]] = k;
+        }
+        for (const Bridge& bridge : bridges) {
+            if (bridge.slot < first || bridge.slot >= last) continue;
+            border.begin.push_back(bridge.slot - static_cast<uint32_t>(first));
+            border.end.push_back(bridge.end);
+            border.length.push_back(bridge.length);
+        }
         return border;
     }
 

@@ -18,27 +18,31 @@ SHORT_CHAIN = 48
 
 
 class Border:
-    """The border of a patch: its segments begin at each position; NaN lengths are gaps."""
+    """The border of a patch and its segments: one from each position, of which NaN lengths are gaps, then bridges."""
 
     def __init__(self, index, patch):
         self.vertices = index.border[patch]
         size = len(self.vertices)
         has = index.segment_end[patch] != 0xFFFFFFFF
-        self.second = numpy.where(has, index.segment_end[patch], 0).astype(int)
-        self.length = numpy.where(has, index.segment_length[patch], f("nan")).astype(f)
-        self.longest = numpy.max(self.length[has], initial=f(0))
+        bridges = index.bridges[patch]
+        second = numpy.where(has, index.segment_end[patch], 0).astype(int)
+        length = numpy.where(has, index.segment_length[patch], f("nan"))
+        self.first = numpy.array([*range(size), *(begin for begin, _, _ in bridges)], int)
+        self.second = numpy.array([*second, *(end for _, end, _ in bridges)], int)
+        self.length = numpy.array([*length, *(length for _, _, length in bridges)], f)
+        self.longest = numpy.max(self.length[~numpy.isnan(self.length)], initial=f(0))
         self.near_segments = min(max(f(10000) / f(index.vertex_count), f(5)), f(20))
         before = numpy.full(size, -1)
-        before[self.second[has]] = numpy.flatnonzero(has)
-        after = numpy.where(has, self.second, -1)
+        before[second[has]] = numpy.flatnonzero(has)
+        after = numpy.where(has, second, -1)
         step = lambda table, at: numpy.where(at >= 0, table[at], -1)
-        # Two segments on each side of each position, by where they begin, or -1.
+        # Two segments of its chain on each side of each position, by where they begin, or -1.
         self.near = numpy.stack([step(before, before), before, numpy.where(has, numpy.arange(size), -1),
                                  numpy.where(step(after, after) >= 0, after, -1)], axis=1) if size else None
 
     def reach(self, source):
         """Up to which distance all segments count: of those that begin where the source is known."""
-        lengths = self.length[source < INFINITE]
+        lengths = self.length[source[self.first] < INFINITE]
         return self.near_segments * numpy.max(lengths[~numpy.isnan(lengths)], initial=f(0))
 
 
@@ -55,13 +59,13 @@ def place(first, second, length):
 
 
 def straight(border, source, target, segments=None):
-    """The straightened ways over segments, by where these begin, from distances of both sides."""
-    at = numpy.arange(len(border.vertices)) if segments is None else segments
+    """The straightened ways over segments, all or the given ones, from distances of both sides."""
+    at = numpy.arange(len(border.length)) if segments is None else segments
     length = numpy.where(at >= 0, border.length[at], f("nan"))
     rows = None if target.ndim == 1 else numpy.arange(len(target))[:, None]
     of = lambda ends: target[ends] if rows is None else target[rows, ends]
-    foot, height = place(source[at], source[border.second[at]], length)
-    to_foot, to_height = place(of(at), of(border.second[at]), length)
+    foot, height = place(source[border.first[at]], source[border.second[at]], length)
+    to_foot, to_height = place(of(border.first[at]), of(border.second[at]), length)
     off, along = height + to_height, foot - to_foot
     crossing = foot * to_height + to_foot * height
     passes = (crossing > 0) & (length * off - crossing > 0)
@@ -149,7 +153,7 @@ class OverlayEngine:
         border, rows, quantum = self.borders[patch], self.rows_down(patch), self.quantum[patch]
         if len(source) == 0 or not source.min() < INFINITE:
             return numpy.full(len(rows), INFINITE)
-        middle = middles(source, source[border.second], border.length)
+        middle = middles(source[border.first], source[border.second], border.length)
         middle = numpy.where(numpy.isnan(middle), INFINITE, middle)
         nearest = min(source.min(), middle.min())
         over = steps_of(source, nearest, quantum)[None, :] + rows
@@ -163,15 +167,15 @@ class OverlayEngine:
 
     def middle_rows(self, patch):
         border, rows = self.borders[patch], self.rows_down(patch)
-        second = rows[:, border.second]
-        middle = middles(rows, second, border.length / self.quantum[patch])
-        reached = (numpy.maximum(rows, second) < NO_PATH) & (middle >= 0)
+        first, second = rows[:, border.first], rows[:, border.second]
+        middle = middles(first, second, border.length / self.quantum[patch])
+        reached = (numpy.maximum(first, second) < NO_PATH) & (middle >= 0)
         codes = numpy.where(reached, numpy.trunc(middle + f(0.5)), f(NO_PATH))
         if patch in self.internal:
             longest = border.longest / self.quantum[patch]
             codes = raised_middles(codes, self.internal[patch], longest, NO_PATH)
         stride = strides(border.length, self.quantum[patch])
-        mean = means(rows, second)
+        mean = means(first, second)
         return numpy.where(stride > 0, mean - offsets(codes, mean, stride) * stride, f(NO_PATH))
 
     def cross_near(self, border, source, target, ways):
@@ -328,7 +332,8 @@ class OverlayEngine:
     def misplaces_ends_up_to(self, patch):
         """Four of the longest segment of a border with many short chains; of other borders, no distance."""
         border, places = self.borders[patch], len(self.index.places(patch)[0])
-        chains = (places - len(border.vertices)) // 4  # each chain repeats four
+        bridges = len(border.length) - len(border.vertices)
+        chains = (places - len(border.vertices) - 2 * bridges) // 4  # each chain repeats four
         return f(4) * border.longest if chains > 1 and places < SHORT_CHAIN * chains else f(0)
 
     def over_one_border(self, low, high, around, top):

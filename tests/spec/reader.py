@@ -168,6 +168,9 @@ class Fields:
         self.at += array.nbytes
         return array
 
+    def remaining(self):
+        return len(self.content) - self.at
+
     def planes(self, count, size=4):
         """Numbers of 4 or 8 bytes, of which all lowest bytes stand first."""
         planes = self.take("u1", size * count).reshape(size, count)
@@ -355,6 +358,12 @@ class Index:
         begin = self.border_begin
         self.segment_end = [ends[a:b] for a, b in zip(begin, begin[1:])]
         self.segment_length = [lengths[a:b] for a, b in zip(begin, begin[1:])]
+        self.bridges = [[] for _ in self.border]
+        while fields.remaining():
+            slot, end, length = *fields.take("<u4", 2).tolist(), fields.take("<f4", 1)[0]
+            patch = numpy.searchsorted(begin, slot, "right") - 1
+            require(slot - begin[patch] < end < begin[patch + 1] - begin[patch], "a bridge leaves its border")
+            self.bridges[patch].append((slot - begin[patch], end, length))
         self.measured = self._read_pairs("PAIR", 3)
         self.steep = self._read_pairs("EDGE", 0)
 
@@ -433,6 +442,8 @@ class Index:
             own += range(len(places) + 2, len(places) + 2 + len(chain))
             places += before + chain + after
             first = last + 1
+        for begin, end, _ in self.bridges[patch]:
+            places += begin, end
         return numpy.array(places, int), numpy.array(own, int)
 
     def _large_overlays(self, rings, insides):
@@ -505,23 +516,32 @@ class Index:
         codes = numpy.where(numpy.isinf(inner), NO_PATH, inner)
         derived = self._middles(patch, on, inner)
         derived = numpy.where(numpy.isinf(derived), NO_PATH, derived)
-        lengths = [self.segment_length[patch][i] if self.segment_end[patch][i] == j else numpy.nan
-                   for i, j in zip(on, on[1:])] + [numpy.nan]
+        lengths = self._lengths_from_places(patch, on)
         mean = means(codes, numpy.roll(codes, -1, axis=1))
-        expected = offsets(derived, mean, strides(numpy.array(lengths), self.quantum[patch]))
+        expected = offsets(derived, mean, strides(lengths, self.quantum[patch]))
         # Where the sum is rounded otherwise, the root may be, too.
         require(not (numpy.abs(middles.astype("f4") - expected) > 1).any(), "a middle is elsewhere")
 
-    def _middles(self, patch, on, inner):
-        middles = numpy.full(inner.shape, numpy.inf)
-        for place, (i, j) in enumerate(zip(on, on[1:])):
+    def _lengths_from_places(self, patch, on):
+        """Of the segments from each place to the next one, NaN where there is none."""
+        bridges = self.bridges[patch]
+        chains = len(on) - 2 * len(bridges)
+        lengths = numpy.full(len(on), numpy.nan, "f4")
+        for place, (i, j) in enumerate(zip(on[:chains], on[1:chains])):
             if self.segment_end[patch][i] == j:
-                length = self.segment_length[patch][i] / self.quantum[patch]
+                lengths[place] = self.segment_length[patch][i]
+        lengths[chains::2] = [length for _, _, length in bridges]
+        return lengths
+
+    def _middles(self, patch, on, inner):
+        middles, lengths = numpy.full(inner.shape, numpy.inf), self._lengths_from_places(patch, on)
+        for place, length in enumerate(lengths / self.quantum[patch]):
+            if not numpy.isnan(length):
                 square = 0.5 * (inner[:, place] ** 2 + inner[:, place + 1] ** 2) - 0.25 * length**2
                 middles[:, place] = numpy.where(square >= 0, numpy.trunc(numpy.sqrt(square) + 0.5), numpy.inf)
         if patch < self.inner_count:
             return middles
-        longest = numpy.max(self.segment_length[patch][self.segment_end[patch] != NONE], initial=0)
+        longest = numpy.max(lengths[~numpy.isnan(lengths)], initial=0)
         return raised_middles(middles, self.internal[patch], longest / self.quantum[patch], numpy.inf)
 
     @staticmethod

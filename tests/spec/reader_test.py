@@ -44,6 +44,20 @@ def sheet(size, origin):
     return points, numpy.concatenate([numpy.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))])
 
 
+def walls(size):
+    """Six half planes that begin at one line: its edges have six triangles each, where borders meet."""
+    parts, count = [], 0
+    for half_plane in range(6):
+        points, triangles = sheet(size, 0)
+        x, y = points[:, 0] - 0.02 * numpy.sin(17 * points[:, 1]), points[:, 1]
+        angle = half_plane * numpy.pi / 3
+        parts.append((numpy.stack([x * numpy.cos(angle), x * numpy.sin(angle), y], axis=-1), triangles + count))
+        count += len(points)
+    points, triangles = (numpy.concatenate(arrays) for arrays in zip(*parts))
+    points[numpy.abs(points) < 1e-9] = 0
+    return points, triangles
+
+
 def write_procedural(path):
     """A torus, a sheet that no path leads to, an id that no triangle uses and one that repeats another's position."""
     parts = [torus(40, 20, 0.08), sheet(14, 4.0)]
@@ -183,6 +197,12 @@ class ReaderTest(unittest.TestCase):
 
     def test_overlay_engine_without_segments(self):
         self.procedural("edges", "--engine", "overlay", "--metric", "edges")
+
+    def test_bridges(self):
+        mesh = FOLDER / "walls.off"
+        write_off(mesh, *walls(14))
+        index = self.check(mesh, "walls", "--patches", "4,4", "--engine", "overlay")
+        self.assertGreater(sum(map(len, index.bridges)), 10)
 
     def test_graph_engine(self):
         self.procedural("graph", "--engine", "graph")

@@ -1,6 +1,7 @@
 #include "src/overlay/fields/point_ways.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "src/overlay/kernels/dispatch.h"
 
@@ -28,6 +29,27 @@ float distance_between(const OverlayIndex& index, uint32_t leaf, const LeafVerte
         index.overlay_code(parent, positions[a.border_position], positions[b.border_position]), parent);
 }
 
+// A vertex of a border, and the segment that leads to it.
+struct Joined {
+    uint32_t position;
+    float segment;
+};
+
+// What a vertex of a border is joined to besides the one before. Nothing if that is not one vertex: an added
+// vertex, between the ends of an edge, is joined to two.
+std::optional<Joined> only_other(const OverlayIndex& index, uint32_t patch, uint32_t position,
+                                 uint32_t before) {
+    Joined other{NONE, 0};
+    size_t count = 0;
+    for_each_joined(index.rings, index.numbering, patch, position, [&](uint32_t joined, float segment) {
+        if (joined == before) return;
+        other = {joined, segment};
+        ++count;
+    });
+    if (count != 1) return std::nullopt;
+    return other;
+}
+
 }
 
 bool is_in_leaf(const Numbering& numbering, uint32_t leaf, uint32_t number) {
@@ -44,24 +66,29 @@ std::optional<size_t> find_on_border(const OverlayIndex& index, uint32_t leaf, u
                                      double length, std::span<VertexBetween> found) {
     constexpr double TOLERANCE = 1e-6;
     const Numbering& numbering = index.numbering;
-    const Rings& rings = index.rings;
     if (!numbering.is_border(a) || !numbering.is_border(b)) return std::nullopt;
-    const uint32_t position = numbering.border_position(leaf, a);
-    if (position == NONE) return std::nullopt;
-    for (const int step : {1, -1}) {
+    const uint32_t begin = numbering.border_position(leaf, a), end = numbering.border_position(leaf, b);
+    if (begin == NONE || end == NONE) return std::nullopt;
+    const auto border = numbering.border_of(leaf);
+    std::optional<size_t> between;
+    for_each_joined(index.rings, numbering, leaf, begin, [&](uint32_t first, float first_segment) {
+        uint32_t before = begin;
+        Joined at{first, first_segment};
         double along = 0;
-        uint32_t place = own_place(rings, numbering, leaf, position);
-        for (size_t count = 0;; ++count) {
-            const uint32_t next = step > 0 ? place + 1 : place - 1;
-            along += double{rings.segment_length[std::min(place, next)]};
-            if (!(along <= length * (1 + TOLERANCE))) break; // also at a gap
-            if (rings.vertex[next] == b) return count;
-            if (rings.vertex[next] == a) break; // all around
-            if (count < found.size()) found[count] = {rings.vertex[next], along};
-            place = own_place(rings, numbering, leaf, rings.position[next]);
+        for (size_t count = 0; !between; ++count) {
+            along += double{at.segment};
+            if (!(along <= length * (1 + TOLERANCE))) return;
+            if (at.position == end) {
+                between = count;
+                return;
+            }
+            if (count < found.size()) found[count] = {border[at.position], along};
+            const auto next = only_other(index, leaf, at.position, before);
+            if (!next) return;
+            before = std::exchange(at, *next).position;
         }
-    }
-    return std::nullopt;
+    });
+    return between;
 }
 
 float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b) {

@@ -183,7 +183,7 @@ void prepare_overlay(const StoredIndex& stored, OverlayIndex& index) {
     number_vertices(stored, index.numbering);
     index.quantum.assign(stored.quantum.begin(), stored.quantum.end());
     index.shift.assign(stored.shift.begin(), stored.shift.end());
-    lay_out_rings(stored.segment_end, stored.segment_length, index.numbering, index.rings);
+    lay_out_rings(stored.segments, index.numbering, index.rings);
     choose_large_overlays(index);
     require_proportion(index);
     measure_segments(index);
@@ -204,9 +204,7 @@ void restore_overlay(const OverlayIndex& index, StoredIndex& stored) {
     restore_numbering(numbering, stored);
     stored.quantum.assign(index.quantum.begin(), index.quantum.end());
     stored.shift.assign(index.shift.begin(), index.shift.end());
-    BorderSegments segments = segments_of_rings(index.rings, numbering);
-    stored.segment_end = std::move(segments.end);
-    stored.segment_length = std::move(segments.length);
+    stored.segments = segments_of_rings(index.rings, numbering);
     for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
         const uint32_t border = numbering.border_size(p), size = numbering.overlay_size(p);
         for (uint32_t i = border; i < size; ++i)

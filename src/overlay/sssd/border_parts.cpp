@@ -14,9 +14,15 @@ BorderRange with_repeated(const Rings::Chain& chain) {
     return {chain.first - Rings::REACH, chain.last + Rings::REACH};
 }
 
+// The same with the bridges of the border: these may lead on from any of its places.
+BorderPart with_bridges(const OverlayIndex& index, uint32_t patch, BorderPart part) {
+    part.add({index.rings.bridges_begin(patch), whole_border(index.rings, patch).last});
+    return part;
+}
+
 // So many places on each side of a vertex's own: around a closed chain, and otherwise as far as the ring
 // goes.
-BorderPart part_about(const OverlayIndex& index, uint32_t patch, uint32_t own, uint32_t each_side) {
+BorderPart places_about(const OverlayIndex& index, uint32_t patch, uint32_t own, uint32_t each_side) {
     const BorderRange whole = whole_border(index.rings, patch);
     const BorderRange about{own - std::min(each_side, own - whole.first),
                             own + std::min(each_side, whole.last - own)};
@@ -28,6 +34,10 @@ BorderPart part_about(const OverlayIndex& index, uint32_t patch, uint32_t own, u
     BorderPart part({all.first, before < each_side ? own + each_side : chain.first + each_side - behind - 1});
     part.add({before < each_side ? chain.last + 1 + before - each_side : own - each_side, all.last});
     return part;
+}
+
+BorderPart part_about(const OverlayIndex& index, uint32_t patch, uint32_t own, uint32_t each_side) {
+    return with_bridges(index, patch, places_about(index, patch, own, each_side));
 }
 
 }
@@ -64,7 +74,7 @@ BorderPart part_within(const OverlayIndex& index, uint32_t patch, std::span<cons
         if (begin != NONE) add(begin, is_end_within(last) ? all.last : ring + places[last]);
     };
     for_each_chain_of_samples(index.rings, samples, patch, add_of_chain);
-    return part.size() > 0 ? part : BorderPart(whole_border(index.rings, patch));
+    return part.size() > 0 ? with_bridges(index, patch, part) : BorderPart(whole_border(index.rings, patch));
 }
 
 // A parabola through the three lengths has its lowest point where the shortest way is expected. Between two

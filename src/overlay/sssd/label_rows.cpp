@@ -75,6 +75,10 @@ float find_runs(const Rings& rings, uint32_t patch, Array<uint16_t>& runs) {
             if (rings.segment_length[place] > longest)
                 runs.push_back(static_cast<uint16_t>(place + 1 - ring));
     }
+    for_each_bridge(rings, patch, [&](uint32_t place, float length) {
+        runs.push_back(static_cast<uint16_t>(place - ring));
+        if (length > longest) runs.push_back(static_cast<uint16_t>(place + 1 - ring));
+    });
     return longest / STEPS_OF_LONGEST;
 }
 

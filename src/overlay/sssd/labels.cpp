@@ -176,6 +176,10 @@ private:
             std::copy_n(codes + index_.rings.position[first], last + 1 - first, of_places + (first - ring));
             for (uint32_t i = 1; i <= Rings::REACH; ++i) repeat(last + i);
         }
+        for_each_bridge(index_.rings, labelled, [&](uint32_t place, float) {
+            repeat(place);
+            repeat(place + 1);
+        });
     }
 
     const OverlayIndex& index_;

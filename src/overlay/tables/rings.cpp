@@ -37,6 +37,25 @@ void add_chain(Rings& rings, uint32_t first, std::span<const float> lengths, boo
     rings.chains.push_back({end - count, end - 1, is_closed});
 }
 
+[[noreturn]] void refuse_segment(uint32_t patch, uint32_t from, uint32_t to) {
+    throw Error(GEOIDX_ERROR_CORRUPT,
+                "a segment joins positions " + std::to_string(from) + " and " + std::to_string(to) +
+                    " on the border of patch " + std::to_string(patch),
+                TAG_SEGMENTS);
+}
+
+// Adds the bridges that begin on one border, the first of `bridges`, and takes these off. The border begins
+// at a slot and has so many positions.
+void add_bridges(Rings& rings, uint32_t patch, uint32_t slot, uint32_t size,
+                 std::span<const Bridge>& bridges) {
+    for (; !bridges.empty() && bridges.front().slot - slot < size; bridges = bridges.subspan(1)) {
+        const auto& [begin, end, length] = bridges.front();
+        if (end <= begin - slot || end >= size) refuse_segment(patch, begin - slot, end);
+        add_place(rings, begin - slot, length, false);
+        add_place(rings, end, GAP, false);
+    }
+}
+
 void end_ring(Rings& rings) {
     const auto end = static_cast<uint32_t>(rings.position.size());
     if (end - rings.begin.back() > Rings::MOST_PLACES)
@@ -45,13 +64,6 @@ void end_ring(Rings& rings) {
                                             " vertices or so, more than the overlay engine can take");
     rings.begin.push_back(end);
     rings.chain_begin.push_back(static_cast<uint32_t>(rings.chains.size()));
-}
-
-[[noreturn]] void refuse_segment(uint32_t patch, uint32_t from, uint32_t to) {
-    throw Error(GEOIDX_ERROR_CORRUPT,
-                "a segment joins positions " + std::to_string(from) + " and " + std::to_string(to) +
-                    " on the border of patch " + std::to_string(patch),
-                TAG_SEGMENTS);
 }
 
 // The end of the chain that begins at position `first` of a patch's border: one more than its last position.
@@ -79,20 +91,23 @@ void number_places(const Numbering& numbering, Rings& rings) {
 
 }
 
-void lay_out_rings(std::span<const uint32_t> segment_end, std::span<const float> segment_length,
-                   const Numbering& numbering, Rings& rings) {
+void lay_out_rings(const BorderSegments& segments, const Numbering& numbering, Rings& rings) {
+    std::span<const Bridge> bridges = segments.bridges;
     rings.begin.assign(1, 0);
     rings.chain_begin.assign(1, 0);
     for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
         const uint32_t slot = numbering.border_begin[p], size = numbering.border_size(p);
-        const auto ends = segment_end.subspan(slot, size);
-        const auto lengths = segment_length.subspan(slot, size);
+        const auto ends = std::span(segments.end).subspan(slot, size);
+        const auto lengths = std::span(segments.length).subspan(slot, size);
         for (uint32_t i = 0, end; i < size; i = end) {
             end = end_of_chain(i, ends, p);
             add_chain(rings, i, lengths.subspan(i, end - i), ends[end - 1] != NONE);
         }
+        add_bridges(rings, p, slot, size, bridges);
         end_ring(rings);
     }
+    if (!bridges.empty())
+        throw Error(GEOIDX_ERROR_CORRUPT, "bridges are not in the order of their slots", TAG_SEGMENTS);
     for (size_t i = 0; i < Rings::PADDING; ++i) add_place(rings, 0, GAP, false);
     const auto shrink = [](auto&... arrays) { (arrays.shrink_to_fit(), ...); };
     shrink(rings.begin, rings.position, rings.segment_length, rings.half_inverse, rings.is_own,
@@ -102,7 +117,7 @@ void lay_out_rings(std::span<const uint32_t> segment_end, std::span<const float>
 
 BorderSegments segments_of_rings(const Rings& rings, const Numbering& numbering) {
     BorderSegments segments(numbering.border.size());
-    for (uint32_t p = 0; p < numbering.patch_count(); ++p)
+    for (uint32_t p = 0; p < numbering.patch_count(); ++p) {
         for (uint32_t i = 0; i < numbering.border_size(p); ++i) {
             const size_t place = own_place(rings, numbering, p, i);
             if (std::isnan(rings.segment_length[place])) continue;
@@ -110,6 +125,11 @@ BorderSegments segments_of_rings(const Rings& rings, const Numbering& numbering)
             segments.end[slot] = rings.position[place + 1];
             segments.length[slot] = rings.segment_length[place];
         }
+        for_each_bridge(rings, p, [&](uint32_t place, float length) {
+            segments.bridges.push_back(
+                {numbering.border_begin[p] + rings.position[place], rings.position[place + 1], length});
+        });
+    }
     return segments;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/base/array.h"
+#include "src/index/border_segments.h"
 #include "src/index/numbering.h"
 
 namespace geodesic {
@@ -17,7 +18,8 @@ namespace geodesic {
 // The border of each patch as a *ring*: an array with a place for each vertex of the border, in the order of
 // the border. Two places side by side are the ends of a segment or of a gap. At each end of a chain, two more
 // places repeat vertices: those that follow around a closed chain, or the end of an open one. So every
-// vertex's own place has two segments or gaps on each side.
+// vertex's own place has two segments or gaps on each side. Behind all chains, two places for each bridge
+// repeat its ends.
 struct Rings {
     // A path over a border vertex is straightened over this many segments on each side of it.
     static constexpr uint32_t REACH = 2;
@@ -56,6 +58,11 @@ struct Rings {
     const Chain& chain_at(uint32_t patch, uint32_t own) const {
         return *std::ranges::lower_bound(chains_of(patch), own, {}, &Chain::last);
     }
+    // Where the places of a patch's bridges begin, counted over all rings. They end with the ring.
+    uint32_t bridges_begin(uint32_t patch) const {
+        const auto chains = chains_of(patch);
+        return chains.empty() ? begin[patch] : chains.back().last + 1 + REACH;
+    }
     uint32_t largest_size() const {
         uint32_t largest = 0;
         for (size_t p = 0; p + 1 < begin.size(); ++p) largest = std::max(largest, begin[p + 1] - begin[p]);
@@ -68,28 +75,42 @@ inline uint32_t own_place(const Rings& rings, const Numbering& numbering, uint32
     return rings.begin[patch] + rings.place_of_slot[numbering.border_begin[patch] + position];
 }
 
-// Calls use(place, length) for each segment of a border. It begins at a place of its own, counted over all
-// rings, and ends at the next place.
+// Calls use(place, length) for each bridge of a border. It begins at a place, counted over all rings, and
+// ends at the next one.
 template <class Use>
-void for_each_segment(const Rings& rings, uint32_t patch, const Use& use) {
-    for (uint32_t k = rings.begin[patch]; k < rings.begin[patch + 1]; ++k)
-        if (rings.is_own[k] && !std::isnan(rings.segment_length[k])) use(k, rings.segment_length[k]);
+void for_each_bridge(const Rings& rings, uint32_t patch, const Use& use) {
+    for (uint32_t k = rings.bridges_begin(patch); k < rings.begin[patch + 1]; k += 2)
+        use(k, rings.segment_length[k]);
 }
 
-// Border segments, per slot (see Numbering). `end` is the position, in the same border, of the vertex at the
-// other end of a segment that begins at the slot, or NONE, and `length` is the length of the segment. The
-// other end is the next position or, where the segment closes a chain, the first position of the chain.
-struct BorderSegments {
-    std::vector<uint32_t> end;
-    std::vector<float> length;
+// Calls use(other, length) for each segment between a position of a patch's border and another one.
+template <class Use>
+void for_each_joined(const Rings& rings, const Numbering& numbering, uint32_t patch, uint32_t position,
+                     const Use& use) {
+    const uint32_t own = own_place(rings, numbering, patch, position);
+    const auto use_between = [&](uint32_t place, uint32_t other) {
+        if (!std::isnan(rings.segment_length[place])) use(rings.position[other], rings.segment_length[place]);
+    };
+    use_between(own, own + 1);
+    use_between(own - 1, own - 1);
+    for_each_bridge(rings, patch, [&](uint32_t place, float) {
+        if (rings.position[place] == position) use_between(place, place + 1);
+        if (rings.position[place + 1] == position) use_between(place, place);
+    });
+}
 
-    explicit BorderSegments(size_t slots) : end(slots, NONE), length(slots, 0) {}
-};
+// The same for each segment, bridges among them.
+template <class Use>
+void for_each_segment(const Rings& rings, uint32_t patch, const Use& use) {
+    for (uint32_t k = rings.begin[patch]; k < rings.bridges_begin(patch); ++k)
+        if (rings.is_own[k] && !std::isnan(rings.segment_length[k])) use(k, rings.segment_length[k]);
+    for_each_bridge(rings, patch, use);
+}
 
 // Fills empty rings from the stored segments. Throws Error CORRUPT where a segment does not end at the next
-// position or at the first of its chain, and LIMIT where a ring has too many places.
-void lay_out_rings(std::span<const uint32_t> segment_end, std::span<const float> segment_length,
-                   const Numbering& numbering, Rings& rings);
+// position or at the first of its chain, or where bridges are not in order, and LIMIT where a ring has too
+// many places.
+void lay_out_rings(const BorderSegments& segments, const Numbering& numbering, Rings& rings);
 
 // The segments from which lay_out_rings() made these rings.
 BorderSegments segments_of_rings(const Rings& rings, const Numbering& numbering);
