@@ -58,13 +58,20 @@ void require_length(float length) {
         refuse_as_corrupt("section SEGM: a segment of length " + number_text(length));
 }
 
+void read_bridges(format::ByteReader& reader, std::vector<Bridge>& bridges) {
+    while (reader.remaining() > 0) {
+        const uint32_t slot = reader.u32(), end = reader.u32();
+        bridges.push_back({slot, end, reader.f32()});
+        require_length(bridges.back().length);
+    }
+}
+
 void read_segments(const format::Container& container, StoredIndex& stored) {
-    auto& [end, length, bridges] = stored.segments;
-    const size_t count = stored.border.size();
     constexpr size_t OF_SLOT = sizeof(uint32_t) + sizeof(float),
                      OF_BRIDGE = 2 * sizeof(uint32_t) + sizeof(float);
-    const auto bytes =
-        container.read_bytes(TAG_SEGMENTS, count * (OF_SLOT + Bridge::MOST_OF_SLOT * OF_BRIDGE));
+    auto& [end, length, bridges] = stored.segments;
+    const size_t count = stored.border.size();
+    const auto bytes = container.read_bytes(TAG_SEGMENTS, count * (OF_SLOT + OF_BRIDGE));
     format::ByteReader reader(bytes, "section SEGM");
     end.resize(count);
     length.resize(count);
@@ -72,12 +79,7 @@ void read_segments(const format::Container& container, StoredIndex& stored) {
     reader.f32_array(length);
     for (size_t i = 0; i < count; ++i)
         if (end[i] != NONE) require_length(length[i]);
-    while (reader.remaining() > 0) {
-        const uint32_t slot = reader.u32(), other_end = reader.u32();
-        bridges.push_back({slot, other_end, reader.f32()});
-        require_length(bridges.back().length);
-    }
-    reader.expect_end();
+    read_bridges(reader, bridges);
 }
 
 }

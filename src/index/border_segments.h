@@ -9,10 +9,8 @@
 namespace geodesic {
 
 // A segment whose ends do not follow each other along a border: where chains meet, as at edges that three or
-// more triangles share.
+// more triangles share, and where a border comes through one vertex twice.
 struct Bridge {
-    static constexpr size_t MOST_OF_SLOT = 8; // the others are not segments
-
     uint32_t slot; // at which it begins (see Numbering)
     uint32_t end;  // the position of its other end in the same border, behind that of the slot
     float length;
@@ -27,7 +25,8 @@ struct Bridge {
 struct BorderSegments {
     std::vector<uint32_t> end;
     std::vector<float> length;
-    std::vector<Bridge> bridges; // in ascending order of their slots, then of their ends
+    // In ascending order of their slots, then of their ends. A border has no more than it has vertices.
+    std::vector<Bridge> bridges;
 
     BorderSegments() = default;
     explicit BorderSegments(size_t slots) : end(slots, NONE), length(slots, 0) {}

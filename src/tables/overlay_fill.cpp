@@ -175,7 +175,9 @@ void close_downwards_and_hand_over(const Numbering& numbering, const std::vector
 // segments.
 bool can_be_squared(const BorderSegments& segments) {
     constexpr float SHORTEST = 1e-16f, LONGEST = 1e14f;
-    const float longest = segments.length.empty() ? 0 : *std::ranges::max_element(segments.length);
+    float longest = 0;
+    for (const float length : segments.length) longest = std::max(longest, length);
+    for (const Bridge& bridge : segments.bridges) longest = std::max(longest, bridge.length);
     return longest >= SHORTEST && longest <= LONGEST;
 }
 

@@ -1,6 +1,8 @@
 #include "src/tables/segments.h"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 namespace geodesic {
 
@@ -33,7 +35,7 @@ public:
             if (i - ring >= 2) join(patch, i, ring);
             ring = i + 1;
         }
-        for (uint32_t i = 0; i < size; ++i) find_bridges(patch, i);
+        find_bridges(patch);
     }
 
 private:
@@ -54,21 +56,27 @@ private:
         return true;
     }
 
-    // From a position to those behind it.
-    void find_bridges(uint32_t patch, uint32_t i) {
-        const uint32_t first = numbering_.border_begin[patch];
+    // Of more bridges than the border has vertices, the longest ones are kept: each takes two places in a
+    // ring, which has few.
+    void find_bridges(uint32_t patch) {
+        const uint32_t first = numbering_.border_begin[patch], size = numbering_.border_size(patch);
         std::vector<Bridge> bridges;
-        for (const auto& [other, edge] : edges_[numbering_.border[first + i]]) {
-            const uint32_t j = numbering_.border_position(patch, other);
-            if (j == NONE || j <= i || segments_.end[first + i] == j || segments_.end[first + j] == i ||
-                !parts(edge, patch))
-                continue;
-            const float length = length_of(numbering_.border[first + i], other);
-            if (length > 0) bridges.push_back({first + i, j, length});
-        }
-        std::ranges::sort(bridges, {}, &Bridge::end);
-        bridges.resize(std::min(bridges.size(), Bridge::MOST_OF_SLOT));
+        for (uint32_t i = 0; i < size; ++i)
+            for (const auto& [other, edge] : edges_[numbering_.border[first + i]]) {
+                const uint32_t j = numbering_.border_position(patch, other);
+                if (j == NONE || j < i || are_in_chain(first, i, j) || !parts(edge, patch)) continue;
+                const float length = length_of(numbering_.border[first + i], other);
+                if (length > 0) bridges.push_back({first + i, j, length});
+            }
+        std::ranges::sort(bridges, {}, [](const Bridge& b) { return std::tuple(-b.length, b.slot, b.end); });
+        bridges.resize(std::min<size_t>(bridges.size(), size));
+        std::ranges::sort(bridges, {}, [](const Bridge& b) { return std::pair(b.slot, b.end); });
         segments_.bridges.insert(segments_.bridges.end(), bridges.begin(), bridges.end());
+    }
+
+    // Whether a segment of a chain joins two positions of the border that begins at a slot.
+    bool are_in_chain(uint32_t first, uint32_t i, uint32_t j) const {
+        return segments_.end[first + i] == j || segments_.end[first + j] == i;
     }
 
     // Whether an edge has the patch on some sides and other patches on others.

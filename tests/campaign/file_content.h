@@ -18,6 +18,12 @@ struct Matrix {
 };
 
 struct FileContent {
+    // A segment between two positions of a border of which none follows the other.
+    struct Bridge {
+        uint32_t slot, end; // counted over all borders, and in its own
+        float length;
+    };
+
     uint32_t engine = 0, metric = 0, metric_flags = 0;
     bool is_packed = false; // overlay engine only
     float bound_scale = 0;
@@ -36,13 +42,7 @@ struct FileContent {
     std::vector<double> mesh_positions;
     std::vector<uint32_t> triangles;
 
-    std::vector<uint32_t> owned; // per inner patch
-    // A segment between two positions of a border of which none follows the other.
-    struct Bridge {
-        uint32_t slot, end; // counted over all borders, and in its own
-        float length;
-    };
-
+    std::vector<uint32_t> owned;                // per inner patch
     std::vector<uint32_t> internal;             // per leaf
     std::vector<std::vector<uint32_t>> borders; // per patch; the root has none
 

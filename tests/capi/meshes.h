@@ -128,6 +128,27 @@ inline TestMesh rough_sheet(uint32_t side, double height) {
     return mesh;
 }
 
+// Half planes of columns x rows cells that begin at one line, whose vertices they share: as many triangles
+// meet at each edge of it.
+inline TestMesh pages(uint32_t count, uint32_t columns, uint32_t rows) {
+    constexpr double TURN = 6.283185307179586;
+    TestMesh mesh;
+    for (uint32_t j = 0; j <= rows; ++j) mesh.add_vertex(0, 0, j);
+    for (uint32_t page = 0; page < count; ++page) {
+        const uint32_t first = mesh.vertex_count();
+        const double x = std::cos(TURN * page / count), y = std::sin(TURN * page / count);
+        for (uint32_t i = 1; i <= columns; ++i)
+            for (uint32_t j = 0; j <= rows; ++j) mesh.add_vertex(i * x, i * y, j);
+        const auto at = [&](uint32_t i, uint32_t j) { return i == 0 ? j : first + (i - 1) * (rows + 1) + j; };
+        for (uint32_t i = 0; i < columns; ++i)
+            for (uint32_t j = 0; j < rows; ++j) {
+                mesh.add_triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+                mesh.add_triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+            }
+    }
+    return mesh;
+}
+
 inline TestMesh torus(uint32_t around, uint32_t along) {
     constexpr double TURN = 6.283185307179586;
     TestMesh mesh;

@@ -113,6 +113,61 @@ TEST_CASE("crafted SEGM") {
         check_corrupt("length", TAG_SEGMENTS, set(slots, length));
 }
 
+TEST_CASE("crafted SEGM: bridges") {
+    struct Stored {
+        uint32_t begin, end;
+        float length;
+    };
+    const auto added = [](const std::vector<Stored>& bridges) {
+        return [=](Bytes& raw) {
+            const auto bytes = std::as_bytes(std::span(bridges));
+            raw.insert(raw.end(), bytes.begin(), bytes.end());
+        };
+    };
+    CHECK(open_status(with(TAG_SEGMENTS, added({{0, 3, 1.5f}, {0, 5, 1}, {2, 4, 1}}))) == GEOIDX_OK);
+    for (float length : {0.0f, -1.0f, INFINITE, NOT_A_NUMBER})
+        check_corrupt("length", TAG_SEGMENTS, added({{0, 3, 1}, {0, 5, length}}));
+    check_corrupt("back", TAG_SEGMENTS, added({{3, 0, 1}}));
+    check_corrupt("to itself", TAG_SEGMENTS, added({{3, 3, 1}}));
+    check_corrupt("beyond the border", TAG_SEGMENTS, added({{0, 100000, 1}}));
+    check_corrupt("from no position", TAG_SEGMENTS, added({{100000000, 3, 1}}));
+    check_corrupt("one twice", TAG_SEGMENTS, added({{0, 3, 1}, {0, 3, 1}}));
+    check_corrupt("other ends out of order", TAG_SEGMENTS, added({{0, 5, 1}, {0, 3, 1}}));
+    check_corrupt("beginnings out of order", TAG_SEGMENTS, added({{2, 4, 1}, {0, 3, 1}}));
+    check_corrupt("very many", TAG_SEGMENTS, added(std::vector<Stored>(100000, {0, 3, 1})));
+    check_told(with(TAG_SEGMENTS, added({{0, 3, -1.0f}})), 110, "SEGM");
+    check_told(with(TAG_SEGMENTS, added({{3, 0, 1}})), 110, "SEGM");
+}
+
+// On the border of the first patch, which is a leaf, three vertices that a chain joins again and again. Edges
+// lead from these to other vertices of the border: a walk along it ends where it began.
+TEST_CASE("crafted SEGM: points beside a closed chain of tiny segments") {
+    const TestMesh mesh = hills(9, 8);
+    const auto tiny = [](Bytes& raw) {
+        const size_t slots = raw.size() / 8;
+        std::vector<uint32_t> next(slots, NONE);
+        std::vector<float> length(slots, 0);
+        for (uint32_t i = 0; i < 3; ++i) {
+            next[i] = (i + 1) % 3;
+            length[i] = 1e-45f;
+        }
+        std::memcpy(raw.data(), next.data(), 4 * slots);
+        std::memcpy(raw.data() + 4 * slots, length.data(), 4 * slots);
+    };
+    const auto index = open(with(TAG_SEGMENTS, tiny));
+    const geoidx_mesh view = mesh.view();
+    geoidx_surface* made = nullptr;
+    require_success(geoidx_surface_create(&view, nullptr, &made));
+    const SurfaceHandle surface(made);
+    const auto query = query_of(index.get());
+    std::vector<float> distances(mesh.vertex_count());
+    for (uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
+        const geoidx_surface_point source{triangle, 0, {0.2, 0.3, 0.5}};
+        CHECK(geoidx_query_point_msad(query.get(), surface.get(), &source, 1, nullptr, distances.data(),
+                                      mesh.vertex_count()) == GEOIDX_OK);
+    }
+}
+
 TEST_CASE("crafted OVOV") {
     for (float code : {0.5f, -1.0f, 32767.0f, 65536.0f, 1e30f, 1e-30f, NOT_A_NUMBER, -INFINITE})
         for (size_t entry : {size_t{0}, size_t{5}}) {

@@ -181,6 +181,37 @@ TEST_CASE("border parts: along each chain, from the sample before those within a
     CHECK(in_more > 20);
 }
 
+TEST_CASE("border parts: each has all bridges of its border") {
+    static const TestMesh mesh = pages(4, 30, 40);
+    const OverlayOf of(mesh, options_of_plane(mesh, {4, 3}));
+    const OverlayIndex& overlay = of.overlay();
+    uint32_t parts = 0;
+    for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p) {
+        const auto places = overlay.pairs.samples.of(p);
+        if (places.size() < 3 || overlay.rings.bridge_places(p) == 0) continue;
+        const auto check = [&](const BorderPart& part) {
+            for_each_bridge(overlay.rings, p, [&](uint32_t place, float) {
+                REQUIRE(part.index(place) != NONE);
+                CHECK(part.index(place + 1) == part.index(place) + 1);
+            });
+            parts += part.size() < overlay.rings.size(p);
+        };
+        std::vector<float> lengths(places.size(), 1e9f);
+        lengths[places.size() / 2] = 1;
+        check(part_within(overlay, p, lengths, 2));
+        for (uint32_t sample = 0; sample < places.size(); ++sample) {
+            const BorderPart part =
+                part_near(overlay, p, ways_near(overlay, p, sample, [&](uint32_t i) { return lengths[i]; }));
+            check(part);
+            const BorderPart beside = part_beside(overlay, p, part, part.place(0));
+            check(beside);
+            // It grows by what lies beside the place alone, however many bridges there are.
+            CHECK(beside.size() <= 3 * part.size() + overlay.rings.bridge_places(p));
+        }
+    }
+    CHECK(parts > 20);
+}
+
 // The ways that get longer on both sides of one place as fast as they can, which is twice the way along the
 // border: the samples beside the place may be far from it.
 TEST_CASE("border parts: no place is left out that a way within the limit may cross") {

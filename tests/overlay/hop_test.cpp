@@ -111,6 +111,10 @@ const Built& in_parts() {
     }();
     return built;
 }
+const Built& with_bridges() {
+    static const Built built(pages(5, 13, 24), options_of(GEOIDX_METRIC_EXACT, {4, 3}));
+    return built;
+}
 const Built& along_edges() {
     static const Built built(hills(24, 22), options_of(GEOIDX_METRIC_EDGES, {3, 3}));
     return built;
@@ -357,6 +361,11 @@ TEST_CASE("hop: as the text has it on a closed, curved surface") {
 TEST_CASE("hop: as the text has it on a surface with holes") {
     check_rules_applied(check_hops(with_open_chains()));
     CHECK(count_chains(with_open_chains()).second > with_open_chains().numbering().patch_count());
+}
+
+TEST_CASE("hop: as the text has it where borders branch") {
+    CHECK(restore(with_bridges().built.index).segments.bridges.size() > 4);
+    check_rules_applied(check_hops(with_bridges()));
 }
 
 // Heights are random, up to four edges, so that paths pass bumps on either side.

@@ -88,6 +88,25 @@ TEST_CASE("label rows: no path stays none, and takes the rest of its run with it
     CHECK(there_and_back(codes, {0, 20}) == Codes(30, TableCode::UNREACHED));
 }
 
+TEST_CASE("label rows: runs begin with each bridge") {
+    static const TestMesh mesh = pages(5, 10, 16);
+    const OverlayOf made(mesh, options_of_plane(mesh, {4, 3}));
+    const Rings& rings = made.overlay().rings;
+    size_t bridges = 0;
+    for (uint32_t patch = 1; patch < made.overlay().numbering.patch_count(); ++patch) {
+        Array<uint16_t> runs(std::pmr::get_default_resource());
+        const float longest = 124 * find_runs(rings, patch, runs);
+        CHECK(std::ranges::is_sorted(runs));
+        for_each_bridge(rings, patch, [&](uint32_t place, float length) {
+            CHECK(std::ranges::binary_search(runs, place - rings.begin[patch]));
+            const bool is_long = length > longest * 1.0001f;
+            CHECK((!is_long || std::ranges::binary_search(runs, place + 1 - rings.begin[patch])));
+            ++bridges;
+        });
+    }
+    CHECK(bridges > 10);
+}
+
 TEST_CASE("label rows: runs begin with each chain and behind long segments, of which there are few") {
     static const TestMesh mesh = hills(30, 24);
     const OverlayOf made(mesh, options_of_plane(mesh, {3, 3}));

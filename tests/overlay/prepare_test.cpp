@@ -81,6 +81,14 @@ TEST_CASE("prepare and restore: every field comes back, of both engines, whateve
             }
 }
 
+TEST_CASE("prepare and restore: bridges come back") {
+    auto options = build_options(GEOIDX_METRIC_EXACT, 2);
+    options.engine = GEOIDX_ENGINE_OVERLAY;
+    const StoredIndex stored = stored_of(pages(4, 8, 12), options);
+    CHECK(stored.segments.bridges.size() > 2);
+    check_same(there_and_back(stored), stored);
+}
+
 TEST_CASE("prepare: without segments, paths cross borders at their vertices") {
     const TestMesh mesh = grid(24, 22, 0.2);
     auto options = build_options(GEOIDX_METRIC_EXACT, 2);

@@ -189,7 +189,9 @@ TEST_CASE("rings: a bridge that leaves its border, leads back or comes out of or
         CHECK(status_of({wrong}) == GEOIDX_ERROR_CORRUPT);
         CHECK(status_of({{0, 3, 1}, wrong}) == GEOIDX_ERROR_CORRUPT);
     }
-    CHECK(status_of({{6, 1, 1}, {0, 1, 1}}) == GEOIDX_ERROR_CORRUPT);
+    for (const auto& [first, second] : std::vector<std::pair<Bridge, Bridge>>{
+             {{6, 1, 1}, {0, 1, 1}}, {{8, 3, 1}, {7, 5, 1}}, {{7, 5, 1}, {7, 3, 1}}, {{7, 5, 1}, {7, 5, 2}}})
+        CHECK(status_of({first, second}) == GEOIDX_ERROR_CORRUPT);
 }
 
 TEST_CASE("rings: what is joined to a vertex is so by a segment of its chain or by a bridge") {

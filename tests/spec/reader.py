@@ -358,12 +358,14 @@ class Index:
         begin = self.border_begin
         self.segment_end = [ends[a:b] for a, b in zip(begin, begin[1:])]
         self.segment_length = [lengths[a:b] for a, b in zip(begin, begin[1:])]
-        self.bridges = [[] for _ in self.border]
+        self.bridges, last = [[] for _ in self.border], (0, 0)
         while fields.remaining():
             slot, end, length = *fields.take("<u4", 2).tolist(), fields.take("<f4", 1)[0]
             patch = numpy.searchsorted(begin, slot, "right") - 1
             require(slot - begin[patch] < end < begin[patch + 1] - begin[patch], "a bridge leaves its border")
+            require((slot, end) > last and 0 < length < numpy.inf, "bridges are out of order, or have no length")
             self.bridges[patch].append((slot - begin[patch], end, length))
+            last = slot, end
         self.measured = self._read_pairs("PAIR", 3)
         self.steep = self._read_pairs("EDGE", 0)
 

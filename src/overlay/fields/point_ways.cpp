@@ -35,19 +35,41 @@ struct Joined {
     float segment;
 };
 
-// What a vertex of a border is joined to besides the one before. Nothing if that is not one vertex: an added
-// vertex, between the ends of an edge, is joined to two.
-std::optional<Joined> only_other(const OverlayIndex& index, uint32_t patch, uint32_t position,
+// What a vertex of a border is joined to besides the one before. Nothing if that is not one vertex. An added
+// vertex, between the ends of an edge on the border of a leaf, is joined to two: the parts of a face stay in
+// its leaf.
+std::optional<Joined> only_other(const OverlayIndex& index, uint32_t leaf, uint32_t position,
                                  uint32_t before) {
     Joined other{NONE, 0};
     size_t count = 0;
-    for_each_joined(index.rings, index.numbering, patch, position, [&](uint32_t joined, float segment) {
+    for_each_joined(index.rings, index.numbering, leaf, position, [&](uint32_t joined, float segment) {
         if (joined == before) return;
         other = {joined, segment};
         ++count;
     });
     if (count != 1) return std::nullopt;
     return other;
+}
+
+// Walks along the border from a position, over the segment to `at`, until it comes to the end or has passed
+// more than a length. Counts the vertices on the way, and writes the first of them. Nothing if it does not
+// come to the end.
+std::optional<size_t> walk_along(const OverlayIndex& index, uint32_t leaf, uint32_t begin, Joined at,
+                                 uint32_t end, double length, std::span<VertexBetween> found) {
+    constexpr double TOLERANCE = 1e-6;
+    const auto border = index.numbering.border_of(leaf);
+    double along = double{at.segment};
+    uint32_t before = begin;
+    for (size_t count = 0; along <= length * (1 + TOLERANCE); ++count) {
+        if (at.position == end) return count;
+        if (at.position == begin) break; // all around
+        if (count < found.size()) found[count] = {border[at.position], along};
+        const auto next = only_other(index, leaf, at.position, before);
+        if (!next) break;
+        before = std::exchange(at, *next).position;
+        along += double{at.segment};
+    }
+    return std::nullopt;
 }
 
 }
@@ -64,29 +86,13 @@ bool are_in_leaf(const Numbering& numbering, uint32_t leaf, const std::array<uin
 // Segments from one end to the other that are no longer than the edge together lie on it.
 std::optional<size_t> find_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b,
                                      double length, std::span<VertexBetween> found) {
-    constexpr double TOLERANCE = 1e-6;
     const Numbering& numbering = index.numbering;
     if (!numbering.is_border(a) || !numbering.is_border(b)) return std::nullopt;
     const uint32_t begin = numbering.border_position(leaf, a), end = numbering.border_position(leaf, b);
     if (begin == NONE || end == NONE) return std::nullopt;
-    const auto border = numbering.border_of(leaf);
     std::optional<size_t> between;
-    for_each_joined(index.rings, numbering, leaf, begin, [&](uint32_t first, float first_segment) {
-        uint32_t before = begin;
-        Joined at{first, first_segment};
-        double along = 0;
-        for (size_t count = 0; !between; ++count) {
-            along += double{at.segment};
-            if (!(along <= length * (1 + TOLERANCE))) return;
-            if (at.position == end) {
-                between = count;
-                return;
-            }
-            if (count < found.size()) found[count] = {border[at.position], along};
-            const auto next = only_other(index, leaf, at.position, before);
-            if (!next) return;
-            before = std::exchange(at, *next).position;
-        }
+    for_each_joined(index.rings, numbering, leaf, begin, [&](uint32_t first, float segment) {
+        if (!between) between = walk_along(index, leaf, begin, {first, segment}, end, length, found);
     });
     return between;
 }

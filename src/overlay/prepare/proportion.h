@@ -12,8 +12,8 @@ namespace geodesic {
 // refused before any memory is taken.
 constexpr uint64_t MOST_DERIVED_EACH = 128, ALWAYS_DERIVED = uint64_t{1} << 22;
 
-// The number of codes that those tables will take, without padding, and labels at most. The index needs its
-// rings.
+// The number of codes that those tables will take, without padding, and labels at most, but for long bridges.
+// The index needs its rings.
 uint64_t derived_codes(const OverlayIndex& index);
 
 // The number of stored table entries, slots and vertices.

@@ -14,7 +14,7 @@ BorderRange with_repeated(const Rings::Chain& chain) {
     return {chain.first - Rings::REACH, chain.last + Rings::REACH};
 }
 
-// The same with the bridges of the border: these may lead on from any of its places.
+// A part with all bridges of its border, which may lead on from any place.
 BorderPart with_bridges(const OverlayIndex& index, uint32_t patch, BorderPart part) {
     part.add({index.rings.bridges_begin(patch), whole_border(index.rings, patch).last});
     return part;
@@ -36,6 +36,7 @@ BorderPart places_about(const OverlayIndex& index, uint32_t patch, uint32_t own,
     return part;
 }
 
+// These places, with all bridges.
 BorderPart part_about(const OverlayIndex& index, uint32_t patch, uint32_t own, uint32_t each_side) {
     return with_bridges(index, patch, places_about(index, patch, own, each_side));
 }
@@ -101,7 +102,8 @@ BorderPart part_beside(const OverlayIndex& index, uint32_t patch, const BorderPa
     if (index.rings.is_own[place] && std::ranges::any_of(part.ranges(), is_well_inside)) return part;
     const uint32_t own = own_place(index.rings, index.numbering, patch, index.rings.position[place]);
     if (part.covers(part_about(index, patch, own, Rings::REACH))) return part;
-    return part_about(index, patch, own, std::max(EACH_SIDE, part.size() / 2));
+    const uint32_t of_chains = part.size() - index.rings.bridge_places(patch);
+    return part_about(index, patch, own, std::max(EACH_SIDE, of_chains / 2));
 }
 
 }

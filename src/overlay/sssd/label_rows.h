@@ -15,10 +15,10 @@ namespace geodesic {
 // segment between them is long. So a row holds the codes of a few places in full; each other place has one
 // byte, the difference from the code before.
 //
-// A *run* is a sequence of places of a ring whose first one has a code of two bytes. It ends with its chain,
-// and before a place that a long segment leads to. A row begins with the codes of all runs. Then comes a byte
-// with a sign for each place of the ring, the steps from the place before; 0 where a run begins. Where every
-// place is a run by itself, there are the codes alone.
+// A *run* is a sequence of places of a ring whose first one has a code of two bytes. It ends with its chain
+// or bridge, and before a place that a long segment leads to. A row begins with the codes of all runs. Then
+// comes a byte with a sign for each place of the ring, the steps from the place before; 0 where a run begins.
+// Where every place is a run by itself, there are the codes alone.
 //
 // At most one segment in 16 of a border is long. The quantum of a label is chosen so that the longest of the
 // others spans 124 steps.
@@ -27,8 +27,9 @@ namespace geodesic {
 // quantum with which the longest segment that is not long spans 124 steps; 0 if there are no segments.
 float find_runs(const Rings& rings, uint32_t patch, Array<uint16_t>& runs);
 
-// In bytes. With the runs that find_runs() finds this is less than two bytes a place: a chain, of five places
-// or more, has one run, and one in 16 of its segments, three where they are repeated, has another.
+// In bytes. With the runs that find_runs() finds this is less than two bytes for a place of a chain: one of
+// five places or more has one run, and one in 16 of its segments, three where they are repeated, has another.
+// A bridge has two bytes for each of its places, or three if it is long.
 inline size_t label_row_size(size_t places, size_t runs) {
     return runs * sizeof(uint16_t) + (runs < places ? places : 0);
 }

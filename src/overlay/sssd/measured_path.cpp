@@ -86,9 +86,10 @@ void begin_hop(const CrossedPart& from, const BorderPart& read, OverlayCrossing&
 
 // Handles the vertices of `to` by where they lie:
 // - In the part `from` of the border that is crossed: they keep the distances that they have there.
-// - On that border, beside the part: if any vertex has kept a finite distance, they are left at infinity. A
-//   best path that led to one of them would cross at an end of the part, and the part would be moved there.
-//   If none has, they are reached along the border, from the first or the last reached place of `from`.
+// - On that border, beside the part: if any vertex of its chains has kept a finite distance, they are left at
+//   infinity. A best path that led to one of them would cross at an end of the part, and the part would be
+//   moved there. If none has, they are reached along the border, from the first or the last reached place of
+//   the chains in `from`.
 // - Not on that border: a hop has to reach them, and add(place, position, i) is called for each, the i-th of
 //   `to`.
 // position(place) is the position of a place of `to` in the overlay of the parent.
@@ -101,6 +102,7 @@ void keep_common(const OverlayIndex& index, const CrossedPart& from, const Borde
         out[i] = length;
         winners[i] = from.winner(place);
     };
+    const uint32_t of_chains = from.part.size() - index.rings.bridge_places(from.patch); // come first
     bool has_common = false;
     crossing.begin();
     uint32_t i = 0;
@@ -109,7 +111,7 @@ void keep_common(const OverlayIndex& index, const CrossedPart& from, const Borde
             add(place, at_parent, i);
         } else if (const auto at = common.find(index.rings.vertex[place]); at.index != NONE) {
             keep(i, from.distances[at.index], at.place);
-            has_common = has_common || from.distances[at.index] < INFINITE;
+            has_common = has_common || (at.index < of_chains && from.distances[at.index] < INFINITE);
         } else {
             keep(i, INFINITE, from.part.place(0));
             crossing.beside.push_back(i);
@@ -117,7 +119,7 @@ void keep_common(const OverlayIndex& index, const CrossedPart& from, const Borde
         ++i;
     });
     if (has_common || crossing.beside.empty()) return;
-    const Reached reached = reached_of({from.distances, from.part.size()});
+    const Reached reached = reached_of({from.distances, of_chains});
     for (const uint32_t beside : crossing.beside) {
         const auto [length, at] = go_along(index, from, reached, position(to.place(beside)));
         keep(beside, length, at);

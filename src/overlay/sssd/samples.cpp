@@ -29,10 +29,13 @@ double share_of(const OverlayIndex& index, uint32_t patch) {
     return std::clamp(std::max(WANTED / size, WANTED_PER_EXTENT / extent), LEAST_SHARE, MOST_SHARE);
 }
 
-// How far samples are to be apart along a border, on average. Segments longer than this are long.
+// How far samples are to be apart along the chains of a border, on average. Segments longer than this are
+// long.
 float spacing_of(const OverlayIndex& index, uint32_t patch) {
     double length = 0;
-    for_each_segment(index.rings, patch, [&](uint32_t, float segment) { length += double{segment}; });
+    for_each_segment(index.rings, patch, [&](uint32_t place, float segment) {
+        if (index.rings.is_own[place]) length += double{segment};
+    });
     return static_cast<float>(length /
                               std::max(1.0, share_of(index, patch) * index.numbering.border_size(patch)));
 }

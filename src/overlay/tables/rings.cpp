@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "format/error.h"
 #include "src/index/section_tags.h"
@@ -48,10 +49,12 @@ void add_chain(Rings& rings, uint32_t first, std::span<const float> lengths, boo
 // at a slot and has so many positions.
 void add_bridges(Rings& rings, uint32_t patch, uint32_t slot, uint32_t size,
                  std::span<const Bridge>& bridges) {
+    std::pair<uint32_t, uint32_t> last{0, 0};
     for (; !bridges.empty() && bridges.front().slot - slot < size; bridges = bridges.subspan(1)) {
-        const auto& [begin, end, length] = bridges.front();
-        if (end <= begin - slot || end >= size) refuse_segment(patch, begin - slot, end);
-        add_place(rings, begin - slot, length, false);
+        const uint32_t begin = bridges.front().slot - slot, end = bridges.front().end;
+        if (end <= begin || end >= size || std::pair(begin, end) <= last) refuse_segment(patch, begin, end);
+        last = {begin, end};
+        add_place(rings, begin, bridges.front().length, false);
         add_place(rings, end, GAP, false);
     }
 }
@@ -61,7 +64,7 @@ void end_ring(Rings& rings) {
     if (end - rings.begin.back() > Rings::MOST_PLACES)
         throw Error(GEOIDX_ERROR_LIMIT, "the border of patch " + std::to_string(rings.begin.size() - 1) +
                                             " has " + std::to_string(end - rings.begin.back()) +
-                                            " vertices or so, more than the overlay engine can take");
+                                            " places, more than the overlay engine can take");
     rings.begin.push_back(end);
     rings.chain_begin.push_back(static_cast<uint32_t>(rings.chains.size()));
 }

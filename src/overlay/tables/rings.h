@@ -63,6 +63,7 @@ struct Rings {
         const auto chains = chains_of(patch);
         return chains.empty() ? begin[patch] : chains.back().last + 1 + REACH;
     }
+    uint32_t bridge_places(uint32_t patch) const { return begin[patch + 1] - bridges_begin(patch); }
     uint32_t largest_size() const {
         uint32_t largest = 0;
         for (size_t p = 0; p + 1 < begin.size(); ++p) largest = std::max(largest, begin[p + 1] - begin[p]);
@@ -83,28 +84,33 @@ void for_each_bridge(const Rings& rings, uint32_t patch, const Use& use) {
         use(k, rings.segment_length[k]);
 }
 
-// Calls use(other, length) for each segment between a position of a patch's border and another one.
-template <class Use>
-void for_each_joined(const Rings& rings, const Numbering& numbering, uint32_t patch, uint32_t position,
-                     const Use& use) {
-    const uint32_t own = own_place(rings, numbering, patch, position);
-    const auto use_between = [&](uint32_t place, uint32_t other) {
-        if (!std::isnan(rings.segment_length[place])) use(rings.position[other], rings.segment_length[place]);
-    };
-    use_between(own, own + 1);
-    use_between(own - 1, own - 1);
-    for_each_bridge(rings, patch, [&](uint32_t place, float) {
-        if (rings.position[place] == position) use_between(place, place + 1);
-        if (rings.position[place + 1] == position) use_between(place, place);
-    });
-}
-
 // The same for each segment, bridges among them.
 template <class Use>
 void for_each_segment(const Rings& rings, uint32_t patch, const Use& use) {
     for (uint32_t k = rings.begin[patch]; k < rings.bridges_begin(patch); ++k)
         if (rings.is_own[k] && !std::isnan(rings.segment_length[k])) use(k, rings.segment_length[k]);
     for_each_bridge(rings, patch, use);
+}
+
+// Calls use(other, length) for each segment between a position of a patch's border and another one.
+template <class Use>
+void for_each_joined(const Rings& rings, const Numbering& numbering, uint32_t patch, uint32_t position,
+                     const Use& use) {
+    const auto use_next = [&](uint32_t place) {
+        if (!std::isnan(rings.segment_length[place]))
+            use(rings.position[place + 1], rings.segment_length[place]);
+    };
+    const auto use_previous = [&](uint32_t place) {
+        if (!std::isnan(rings.segment_length[place - 1]))
+            use(rings.position[place - 1], rings.segment_length[place - 1]);
+    };
+    const uint32_t own = own_place(rings, numbering, patch, position);
+    use_next(own);
+    use_previous(own);
+    for_each_bridge(rings, patch, [&](uint32_t place, float) {
+        if (rings.position[place] == position) use_next(place);
+        if (rings.position[place + 1] == position) use_previous(place + 1);
+    });
 }
 
 // Fills empty rings from the stored segments. Throws Error CORRUPT where a segment does not end at the next
