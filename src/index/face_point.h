@@ -40,6 +40,8 @@ struct FacePoint {
     uint32_t beyond_count = 0; // filled for fields only
     std::array<Beyond, MOST_VERTICES> beyond;
 
+    // Whether tables tell of it by one vertex, or by all of one leaf. If not, the corners of its face do.
+    bool has_tables() const { return vertex != NONE || leaf != NONE; }
     std::array<uint32_t, 3> corners() const { return {numbers[0], numbers[1], numbers[2]}; }
 };
 

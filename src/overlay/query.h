@@ -75,8 +75,7 @@ public:
     // vertices that can be reached are within the radius.
     float nearest_beyond() const { return within_->nearest_beyond(); }
 
-    // Whether points of a face can be answered by the tables of one leaf, as the following require.
-    bool takes(const FacePoint& point) const { return point.leaf != NONE; }
+    // ---- Points of faces, each of which has tables (see FacePoint)
 
     // Of two points that are not both vertices; callers pass both orders of a pair the same way.
     float point_sssd(const FacePoint& first, const FacePoint& second);

@@ -16,8 +16,6 @@ namespace geodesic {
 
 namespace {
 
-bool has_leaf(const FacePoint& point) { return point.vertex != NONE || point.leaf != NONE; }
-
 // What a point sees of the faces around it, whatever the index knows of them: twice as many vertices as its
 // polygon has. Nothing is seen from a vertex, nor from a face that is too flat or that the index was not made
 // on.
@@ -142,7 +140,8 @@ double PointQueries::straight_way_of_near(const SurfacePoint& source, const Surf
 bool PointQueries::is_sure(const FacePoint& source, const FacePoint& target, const KnownWays& known,
                            float distance) const {
     constexpr double FEW_EDGES = 4;
-    if (known.is_shortest || distance == INFINITE || !has_leaf(source) || !has_leaf(target)) return true;
+    if (known.is_shortest || distance == INFINITE || !source.has_tables() || !target.has_tables())
+        return true;
     if (!unfolds() || std::holds_alternative<GraphIndex>(index_.engine)) return true;
     const double longest =
         std::max({longest_edge_around(source), longest_edge_around(target), double{surface_.average_edge}});
@@ -153,10 +152,10 @@ PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfaceP
     FacePoint first = face_point_on(index_, surface_, source, unfolds()),
               second = face_point_on(index_, surface_, target, unfolds());
     if (first.vertex != NONE && second.vertex != NONE) return {query_.point_sssd(first, second)};
-    const bool have_leaves = has_leaf(first) && has_leaf(second);
-    if (have_leaves) share_leaf(index_, first, second);
-    const PointView from = have_leaves ? view_of(source, first) : PointView(first),
-                    to = have_leaves ? view_of(target, second) : PointView(second);
+    const bool have_tables = first.has_tables() && second.has_tables();
+    if (have_tables) share_leaf(index_, first, second);
+    const PointView from = have_tables ? view_of(source, first) : PointView(first),
+                    to = have_tables ? view_of(target, second) : PointView(second);
     const float by_tables = query_.point_sssd(from.point, to.point);
     const KnownWays known = known_ways(source, from, target, to, by_tables);
     const float distance = known.corrected(by_tables);

@@ -17,8 +17,7 @@ void add_to_each(std::span<float> distances, float least) {
 
 // Whether the engine answers from points itself. If not, distances from the corners of their faces do.
 bool Query::takes(const FacePoint& point) const {
-    const auto* const overlay = std::get_if<OverlayQuery>(&engine_);
-    return overlay && overlay->takes(point);
+    return point.has_tables() && std::holds_alternative<OverlayQuery>(engine_);
 }
 
 float Query::vertex_to_point(uint32_t vertex, const FacePoint& point) {
@@ -42,9 +41,7 @@ float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
                        high = std::max(first.vertex, second.vertex);
         return low == high ? 0 : std::visit([&](auto& e) { return e.sssd(low, high); }, engine_);
     }
-    const auto is_taken = [&](const FacePoint& point) { return point.vertex != NONE || takes(point); };
-    if (is_taken(first) && is_taken(second) && std::holds_alternative<OverlayQuery>(engine_))
-        return std::get<OverlayQuery>(engine_).point_sssd(first, second);
+    if (takes(first) && takes(second)) return std::get<OverlayQuery>(engine_).point_sssd(first, second);
     std::array<double, FacePoint::MOST_VERTICES> from_vertices;
     for (size_t k = 0; k < second.vertex_count; ++k)
         from_vertices[k] = double{vertex_to_point(second.numbers[k], first)};
@@ -57,7 +54,7 @@ float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
 void Query::fill_point_field(const FacePoint& point, float offset) {
     const uint32_t count = index_.numbering().vertex_count();
     point_field_.resize(count);
-    if (point.vertex != NONE || takes(point)) {
+    if (point.has_tables()) {
         auto& field = corner_fields_[0];
         field.resize(count);
         if (point.vertex != NONE)
@@ -149,11 +146,7 @@ void Query::fill_by_fields(const PointSources& sources, bool with_nearest) {
 
 void Query::prepare_end(size_t end, const FacePoint& point) {
     end_fields_[end].clear();
-    if (auto* const overlay = std::get_if<OverlayQuery>(&engine_);
-        overlay && (point.vertex != NONE || takes(point))) {
-        overlay->prepare_end(end, point);
-        return;
-    }
+    if (takes(point)) return std::get<OverlayQuery>(engine_).prepare_end(end, point);
     fill_point_field(point, 0);
     end_fields_[end].assign(point_field_.begin(), point_field_.end());
 }
