@@ -4,6 +4,8 @@
 #include <tuple>
 #include <utility>
 
+#include "src/overlay/tables/rings.h"
+
 namespace geodesic {
 
 namespace {
@@ -56,8 +58,7 @@ private:
         return true;
     }
 
-    // Of more bridges than the border has vertices, the longest ones are kept: each takes two places in a
-    // ring, which has few.
+    // Of more bridges than the border has vertices, or than its ring has room for, the longest ones are kept.
     void find_bridges(uint32_t patch) {
         const uint32_t first = numbering_.border_begin[patch], size = numbering_.border_size(patch);
         std::vector<Bridge> bridges;
@@ -69,9 +70,17 @@ private:
                 if (length > 0) bridges.push_back({first + i, j, length});
             }
         std::ranges::sort(bridges, {}, [](const Bridge& b) { return std::tuple(-b.length, b.slot, b.end); });
-        bridges.resize(std::min<size_t>(bridges.size(), size));
+        bridges.resize(std::min<size_t>({bridges.size(), size, room_for_bridges(first, size)}));
         std::ranges::sort(bridges, {}, [](const Bridge& b) { return std::pair(b.slot, b.end); });
         segments_.bridges.insert(segments_.bridges.end(), bridges.begin(), bridges.end());
+    }
+
+    // How many bridges fit into the ring of the border that begins at a slot, behind its chains.
+    size_t room_for_bridges(uint32_t first, uint32_t size) const {
+        size_t places = size;
+        for (uint32_t i = 0; i < size; ++i)
+            if (segments_.end[first + i] != i + 1) places += size_t{2} * Rings::REACH; // a chain ends here
+        return places < Rings::MOST_PLACES ? (Rings::MOST_PLACES - places) / 2 : 0;
     }
 
     // Whether a segment of a chain joins two positions of the border that begins at a slot.
