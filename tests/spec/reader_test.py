@@ -13,9 +13,10 @@ import unittest
 
 import numpy
 
+from container import Refused
 from graph_engine import GraphEngine
 from overlay_engine import OverlayEngine
-from reader import NONE, OVERLAY, Index, Refused
+from reader import NONE, OVERLAY, Index
 
 TOOL, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 MESHES = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
