@@ -31,7 +31,7 @@ TEST_CASE("short distances: a pole of twins decides nothing and is not stated") 
     const TestMesh mesh = lumpy(SINE_OF_PI);
     auto welding = default_options();
     welding.weld_tolerance = 1e-9;
-    const auto index = build(mesh, default_options());
+    const auto index = shared_index(mesh, default_options());
     const geoidx_info info = info_of(index.get()), welded = info_of(build(mesh, welding).get());
     REQUIRE(info.welded_vertex_count == welded.welded_vertex_count + AROUND - 1);
     const Errors errors =
@@ -49,7 +49,7 @@ TEST_CASE("short distances: a pole of twins decides nothing and is not stated") 
 TEST_CASE("short distances: fields do not tell twins from each other") {
     const TestMesh mesh = lumpy(SINE_OF_PI);
     const uint32_t count = mesh.vertex_count(), twins = RINGS * AROUND;
-    const auto index = build(mesh, default_options());
+    const auto index = shared_index(mesh, default_options());
     for (uint32_t source = 0; source < count; source += sparse(3)) {
         const auto field = msad(index.get(), source, count);
         const auto [least, most] = std::minmax_element(field.begin() + twins, field.end());
@@ -78,7 +78,7 @@ TEST_CASE("short distances: by other metrics they are short beside the longest o
 TEST_CASE("short distances: those of edges 1e-4 times as long as others are compared, held and stated") {
     const double edge = average_edge(lumpy(SINE_OF_PI)), radius = 1e-4 * edge;
     const TestMesh mesh = lumpy(radius);
-    const auto index = build(mesh, default_options());
+    const auto index = shared_index(mesh, default_options());
     const Asked short_ones{.step = sparse(1), .shortest = 1e-7, .longest = 0.1 * edge};
     const Errors errors = errors_of(index.get(), mesh, build_options(), short_ones);
     CHECK(errors.max < 0.01 + ROUNDING);
@@ -86,7 +86,7 @@ TEST_CASE("short distances: those of edges 1e-4 times as long as others are comp
 
     auto along_edges = default_options(); // which holds no pairs: tables round such distances to nothing
     along_edges.metric = GEOIDX_METRIC_EDGES;
-    const auto rounded = build(mesh, along_edges);
+    const auto rounded = shared_index(mesh, along_edges);
     const Errors of_rounded = errors_of(rounded.get(), mesh, along_edges, short_ones);
     CHECK(of_rounded.max > 0.5);
     CHECK(info_of(rounded.get()).error_near_max > 0.5 * of_rounded.max);

@@ -76,7 +76,7 @@ void check_consistent(const geoidx_info& info) {
 
 TEST_CASE("stated errors: of few vertices, the largest near error is nearly that of all pairs") {
     for (const TestMesh& mesh : {grid(11, 10), hills(12, 13)}) {
-        const auto index = build(mesh, options_for(GEOIDX_ENGINE_OVERLAY));
+        const auto index = shared_index(mesh, options_for(GEOIDX_ENGINE_OVERLAY));
         const geoidx_info info = info_of(index.get());
         check_consistent(info);
         const auto classes = errors_of(index.get(), mesh, 1);
@@ -94,7 +94,7 @@ TEST_CASE("stated errors: hardly any pair that the builder did not choose is wor
             CAPTURE(engine);
             auto options = options_for(engine);
             options.target_error = 0;
-            const auto index = build(mesh, options);
+            const auto index = shared_index(mesh, options);
             const geoidx_info info = info_of(index.get());
             check_consistent(info);
             const auto classes = errors_of(index.get(), mesh, 11);
@@ -109,7 +109,7 @@ TEST_CASE("stated errors: hardly any pair that the builder did not choose is wor
 TEST_CASE("stated errors: of all fields, one distance in a million is worse, and none of several sources" *
           doctest::skip(SANITIZED)) {
     for (const TestMesh& mesh : {hills(36, 32), sphere(24, 40)}) {
-        const auto index = build(mesh, options_for(GEOIDX_ENGINE_OVERLAY));
+        const auto index = shared_index(mesh, options_for(GEOIDX_ENGINE_OVERLAY));
         const geoidx_info info = info_of(index.get());
         check_consistent(info);
         const double stated[] = {info.error_near_max, info.error_middle_max, info.error_far_max};
@@ -140,7 +140,7 @@ TEST_CASE("stated errors: of all fields, one distance in a million is worse, and
 TEST_CASE("stated errors: of many small parts, there are none but rounding") {
     TestMesh mesh;
     for (uint32_t part = 0; part < 60; ++part) append(mesh, grid(8, 8, 0.2), 10.0 * part);
-    const auto index = build(mesh, default_options());
+    const auto index = shared_index(mesh, default_options());
     const geoidx_info info = info_of(index.get());
     check_consistent(info);
     CHECK(info.error_max < 0.01);
@@ -179,7 +179,7 @@ TEST_CASE("stated errors: three classes of distances, and nothing of those that 
     const TestMesh strip = grid(240, 3), small = grid(8, 8);
     for (const uint32_t engine : ENGINES) {
         CAPTURE(engine);
-        const auto index = build(strip, options_for(engine));
+        const auto index = shared_index(strip, options_for(engine));
         const geoidx_info info = info_of(index.get());
         check_consistent(info);
         const auto classes = errors_of(index.get(), strip, 5);
@@ -225,7 +225,7 @@ TEST_CASE("stated errors: added vertices are not compared, and the index that is
     const TestMesh mesh = hills(26, 24);
     auto options = options_for(GEOIDX_ENGINE_OVERLAY);
     options.target_error = 1e-6;
-    const auto index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     const geoidx_info info = info_of(index.get());
     REQUIRE(info.added_vertex_count > 0);
     check_consistent(info);
@@ -239,7 +239,7 @@ TEST_CASE("stated errors: of several sources, about those of random ones" * doct
     const uint32_t count = mesh.vertex_count();
     for (const uint32_t engine : ENGINES) {
         CAPTURE(engine);
-        const auto index = build(mesh, options_for(engine));
+        const auto index = shared_index(mesh, options_for(engine));
         const geoidx_info info = info_of(index.get());
         const auto metric = solver(mesh, build_options());
         double sum = 0, answers = 0;
@@ -292,7 +292,7 @@ TEST_CASE("stated errors: a callback is asked for few more fields") {
         options.metric_callback = Plane::distances;
         options.metric_user = options.progress_user = &plane;
         options.progress = Plane::progress;
-        const auto index = build(plane.mesh, options);
+        const auto index = shared_index(plane.mesh, options);
         const geoidx_info info = info_of(index.get());
         check_consistent(info);
         CHECK(info.error_near_max > 0);
@@ -322,7 +322,7 @@ TEST_CASE("stated errors: the same whatever the threads, and others with another
 
 TEST_CASE("stated errors: every form of file keeps them") {
     for (const uint32_t engine : ENGINES) {
-        const auto built = build(hills(12, 12), options_for(engine));
+        const auto built = shared_index(hills(12, 12), options_for(engine));
         const geoidx_info before = info_of(built.get()), after = info_of(open(save(built.get())).get());
         constexpr size_t BEGIN = offsetof(geoidx_info, error_near_mean);
         CHECK(std::memcmp(&before.error_near_mean, &after.error_near_mean, sizeof before - BEGIN) == 0);

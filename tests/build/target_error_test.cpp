@@ -64,12 +64,12 @@ Errors errors_of_others(const geoidx* index, const TestMesh& mesh) {
 
 TEST_CASE("target error: is reached, or the index is as large as it may be" * doctest::skip(SANITIZED)) {
     for (const TestMesh& mesh : {rough(), torus(20, 10), sphere(12, 18), dirty_hills()}) {
-        const auto plain = build(mesh, options_with(0));
+        const auto plain = shared_index(mesh, options_with(0));
         const geoidx_info before = info_of(plain.get());
         CHECK(before.added_vertex_count == 0);
         for (const double share : {0.9, 0.5, 0.1}) {
             const double target = share * before.error_mean;
-            const auto index = build(mesh, options_with(target));
+            const auto index = shared_index(mesh, options_with(target));
             const geoidx_info info = info_of(index.get());
             CAPTURE(target);
             CHECK(info.added_vertex_count > 0);
@@ -110,7 +110,7 @@ TEST_CASE("target error: is reached on a coin" * doctest::skip(SANITIZED)) {
 
 TEST_CASE("target error: what is exact enough stays as it is" * doctest::skip(SANITIZED)) {
     const TestMesh plane = grid(40, 40, 0.25);
-    const auto plain = build(plane, options_with(0));
+    const auto plain = shared_index(plane, options_with(0));
     REQUIRE(info_of(plain.get()).error_mean < 0.0005);
     geoidx_build_options defaults;
     geoidx_build_options_init(&defaults);
@@ -137,7 +137,7 @@ TEST_CASE("target error: is not used by other engines and metrics, nor with prun
 TEST_CASE("target error: added vertices are in no answer") {
     const TestMesh mesh = dirty_hills();
     const uint32_t count = mesh.vertex_count();
-    const auto index = build(mesh, options_with(1e-6));
+    const auto index = shared_index(mesh, options_with(1e-6));
     REQUIRE(info_of(index.get()).added_vertex_count > 0);
     const auto metric = solver(mesh, build_options());
     uint64_t pairs = 0;
@@ -162,7 +162,7 @@ TEST_CASE("target error: added vertices are in no answer") {
 TEST_CASE("target error: every form of file has added vertices, and gives the same answers") {
     const TestMesh mesh = dirty_hills();
     const uint32_t count = mesh.vertex_count();
-    const auto built = build(mesh, options_with(1e-6));
+    const auto built = shared_index(mesh, options_with(1e-6));
     const geoidx_info info = info_of(built.get());
     const auto expected = msad(built.get(), 9, count);
     for (const uint32_t codec : {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_LOSSLESS, GEOIDX_CODEC_MAPPED}) {

@@ -53,7 +53,7 @@ Counts count_wrong(const geoidx* index, const TestMesh& mesh, uint32_t step, siz
 TEST_CASE("wrong pairs: no answer for near vertices is off by more than a hundredth" *
           doctest::skip(SANITIZED)) {
     for (const TestMesh& mesh : {rough_sheet(24, 4), hills(smaller(30, 25), 20), lattice(smaller(3, 2))}) {
-        const auto index = build(mesh, default_options());
+        const auto index = shared_index(mesh, default_options());
         const Counts counts = count_wrong(index.get(), mesh, sparse(1));
         CHECK(counts.wrong == 0);
     }
@@ -61,7 +61,7 @@ TEST_CASE("wrong pairs: no answer for near vertices is off by more than a hundre
 
 TEST_CASE("wrong pairs: a rough surface has some by its tables alone, and steep edges") {
     const TestMesh mesh = rough_sheet(24, 16);
-    const auto index = build(mesh, default_options());
+    const auto index = shared_index(mesh, default_options());
     const Counts before = count_wrong(tables_only(index.get()).get(), mesh, 3),
                  now = count_wrong(index.get(), mesh, 3);
     CHECK(before.wrong > 0);
@@ -101,7 +101,7 @@ TestMesh disk_with_tiny_hole(double hole, uint32_t rings) {
 // Tables are rounded to a share of the longest distances in them.
 TEST_CASE("wrong pairs: of a small mesh with tiny details, many more are held") {
     const TestMesh mesh = disk_with_tiny_hole(1e-5, 2);
-    const auto index = build(mesh, default_options());
+    const auto index = shared_index(mesh, default_options());
     CHECK(count_wrong(tables_only(index.get()).get(), mesh, 1).wrong > 8 * mesh.vertex_count());
     CHECK(count_wrong(index.get(), mesh, 1).wrong == 0);
 }
@@ -109,7 +109,7 @@ TEST_CASE("wrong pairs: of a small mesh with tiny details, many more are held") 
 TEST_CASE("wrong pairs: where there are too many even of the worst ones, as many as may be are held") {
     constexpr uint64_t MOST = 32768;
     const TestMesh mesh = disk_with_tiny_hole(1e-6, 9);
-    const auto index = build(mesh, default_options());
+    const auto index = shared_index(mesh, default_options());
     const Counts before = count_wrong(tables_only(index.get()).get(), mesh, 1),
                  now = count_wrong(index.get(), mesh, 1);
     CHECK(before.wrong > 2 * MOST);
@@ -122,7 +122,7 @@ TEST_CASE("wrong pairs: on thin bevels, pairs that are only steep leave room for
     for (const auto& [cells, bevel] : {std::pair{6u, 3e-4}, std::pair{7u, 3e-4}, std::pair{8u, 1e-4}}) {
         const TestMesh mesh = bevelled_box(cells, bevel);
         const uint32_t count = mesh.vertex_count();
-        const auto index = build(mesh, default_options());
+        const auto index = shared_index(mesh, default_options());
         const auto metric = solver(mesh, build_options());
         CHECK(count_wrong(tables_only(index.get()).get(), mesh, sparse(5)).wrong > 0);
         double largest = 0, largest_of_pairs = 0;
@@ -154,7 +154,7 @@ TEST_CASE("wrong pairs: of weighted surfaces, hardly any near answer is off by a
         options.metric = GEOIDX_METRIC_WEIGHTED;
         options.face_costs = costs.data();
         options.face_cost_count = costs.size();
-        const auto index = build(mesh, options);
+        const auto index = shared_index(mesh, options);
         const auto metric = solver(mesh, options);
         size_t near = 0, wrong = 0;
         double largest = 0;

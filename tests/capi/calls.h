@@ -10,6 +10,7 @@
 
 #include "geoidx.h"
 #include "tests/capi/meshes.h"
+#include "tests/capi/shared_index.h"
 #include "tests/support/handles.h"
 
 // The C API with owning handles and vectors. Each call is required to succeed.
@@ -68,6 +69,10 @@ inline IndexHandle build(const TestMesh& mesh, const geoidx_build_options& optio
     require_success(geoidx_build(&view, &options, &index));
     REQUIRE(index != nullptr);
     return IndexHandle(index);
+}
+
+inline std::shared_ptr<const geoidx> shared_index(const TestMesh& mesh, const geoidx_build_options& options) {
+    return shared_index(mesh.view(), options);
 }
 
 inline Bytes save(const geoidx* index, const geoidx_save_options* options) {

@@ -104,7 +104,7 @@ TEST_CASE("codecs: an index answers the same bits, whatever the form of its file
                 CAPTURE(levels);
                 auto options = build_options(metric, levels);
                 options.engine = GEOIDX_ENGINE_OVERLAY;
-                const auto built = build(of.mesh, options);
+                const auto built = shared_index(of.mesh, options);
                 std::map<uint32_t, Bytes> files; // per codec
                 for (uint32_t codec : CODECS) files[codec] = save(built.get(), codec);
                 for (uint32_t codec : CODECS) {
@@ -119,7 +119,7 @@ TEST_CASE("codecs: an index answers the same bits, whatever the form of its file
 }
 
 TEST_CASE("codecs: the graph engine has one form") {
-    const auto built = build(hills(18, 18), build_options(GEOIDX_METRIC_EXACT, 2));
+    const auto built = shared_index(hills(18, 18), build_options(GEOIDX_METRIC_EXACT, 2));
     CHECK(info_of(built.get()).codec == GEOIDX_CODEC_LOSSLESS);
     for (uint32_t codec : CODECS) {
         CHECK(save(built.get(), codec) == save(built.get(), GEOIDX_CODEC_LOSSLESS));
@@ -151,9 +151,9 @@ TEST_CASE("codecs: rounded distances are multiples of what the index says, and r
     options.engine = GEOIDX_ENGINE_OVERLAY;
     options.level_count = 0;
     options.rounding = 0;
-    const auto fine = build(mesh, options);
+    const auto fine = shared_index(mesh, options);
     options.rounding = 1.0 / 16;
-    const auto coarse = build(mesh, options);
+    const auto coarse = shared_index(mesh, options);
     CHECK(info_of(coarse.get()).largest_step > 4 * info_of(fine.get()).largest_step);
     CHECK(info_of(coarse.get()).smallest_step > info_of(fine.get()).smallest_step);
     CHECK(save(coarse.get()).size() < save(fine.get()).size() * 3 / 4);
@@ -204,7 +204,7 @@ TEST_CASE("codecs: damaged residuals are refused") {
 }
 
 TEST_CASE("codecs: save options are checked, and NULL means the form of the file that was opened") {
-    const auto built = build(hills(18, 18), build_options(GEOIDX_METRIC_EXACT, 2));
+    const auto built = shared_index(hills(18, 18), build_options(GEOIDX_METRIC_EXACT, 2));
     geoidx_save_options options;
     geoidx_save_options_init(&options);
     options.codec = 3;
@@ -215,7 +215,7 @@ TEST_CASE("codecs: save options are checked, and NULL means the form of the file
                   GEOIDX_ERROR_INVALID_ARGUMENT, "codec");
     auto overlay = build_options(GEOIDX_METRIC_EXACT, 2);
     overlay.engine = GEOIDX_ENGINE_OVERLAY;
-    const auto index = build(hills(18, 18), overlay);
+    const auto index = shared_index(hills(18, 18), overlay);
     const Bytes lossless = save(index.get(), GEOIDX_CODEC_LOSSLESS);
     const auto opened = open(lossless);
     require_success(geoidx_save_memory(opened.get(), nullptr, nullptr, 0, &size));
@@ -225,7 +225,7 @@ TEST_CASE("codecs: save options are checked, and NULL means the form of the file
 }
 
 TEST_CASE("sections: those of the file, none of an index that was built") {
-    const auto built = build(hills(18, 18), build_options(GEOIDX_METRIC_EXACT, 2));
+    const auto built = shared_index(hills(18, 18), build_options(GEOIDX_METRIC_EXACT, 2));
     uint32_t count = 99;
     require_success(geoidx_get_sections(built.get(), nullptr, 0, &count));
     CHECK(count == 0);

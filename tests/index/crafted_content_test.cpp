@@ -27,7 +27,7 @@ struct Original {
     Original() {
         auto options = build_options(GEOIDX_METRIC_EDGES, 2);
         options.patches[0] = options.patches[1] = 3;
-        const auto index = build(hills(9, 8), options);
+        const auto index = shared_index(hills(9, 8), options);
         file = save(index.get());
         fingerprint = info_of(index.get()).mesh_fingerprint;
         parts = take_apart(file);

@@ -461,7 +461,7 @@ bool close(double a, double b) { return a == b || std::abs(a - b) <= 1e-6 * std:
 TEST_CASE("independent reader: what the file says of mesh and options") {
     for (const Written& written : files()) {
         CAPTURE(written.name);
-        const auto handle = build(written.mesh, written.options);
+        const auto handle = shared_index(written.mesh, written.options);
         const IndependentIndex index(save(handle.get()));
         CHECK(index.id_count == written.mesh.vertex_count());
         CHECK(index.triangle_count == written.mesh.triangle_count());
@@ -529,7 +529,7 @@ TEST_CASE("independent reader: borders, overlays and bounds are as SPEC.md has t
 TEST_CASE("independent reader: SSSD and MSAD agree with the library") {
     for (const Written& written : files()) {
         CAPTURE(written.name);
-        const auto handle = build(written.mesh, written.options);
+        const auto handle = shared_index(written.mesh, written.options);
         const IndependentIndex index(save(handle.get()));
         const auto count = static_cast<uint32_t>(index.id_count);
         uint64_t of_tables = 0, searched = 0, wrong = 0;

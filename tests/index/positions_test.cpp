@@ -131,7 +131,7 @@ TEST_CASE("no positions: an index whose tables are rounded, of two parts, is the
 }
 
 TEST_CASE("no positions: the section has 36 bytes and the added vertices, and the file is as much shorter") {
-    const auto built = build(small_hills(), exact_options(GEOIDX_ENGINE_OVERLAY));
+    const auto built = shared_index(small_hills(), exact_options(GEOIDX_ENGINE_OVERLAY));
     const uint64_t added = info_of(built.get()).added_vertex_count;
     CHECK(added > 0);
     std::map<std::string, uint64_t> sizes[2];
@@ -161,7 +161,7 @@ TEST_CASE("no positions: welded vertices are where the first of them is") {
         for (uint32_t engine : ENGINES) {
             auto options = exact_options(engine);
             options.weld_tolerance = 0.06;
-            const auto built = build(mesh, options);
+            const auto built = shared_index(mesh, options);
             REQUIRE(info_of(built.get()).welded_vertex_count == 15 * 11);
             check_round_trip(built.get(), mesh);
             if (engine != GEOIDX_ENGINE_GRAPH) continue;
@@ -210,7 +210,7 @@ TEST_CASE("no positions: without the mesh there is no index, and it is said why"
     const TemporaryDirectory directory;
     for (uint32_t engine : ENGINES)
         for (uint32_t codec : CODECS) {
-            const auto built = build(small_hills(), exact_options(engine));
+            const auto built = shared_index(small_hills(), exact_options(engine));
             const Bytes file = save(built.get(), codec, NO_POSITIONS);
             check_refused(open_status(file), GEOIDX_ERROR_INVALID_ARGUMENT, "no positions");
             CHECK(last_error_contains("expected_mesh"));
@@ -250,7 +250,7 @@ TEST_CASE("no positions: another mesh is refused before anything is taken from i
 }
 
 TEST_CASE("no positions: flags of saving are checked, and a shorter struct has none") {
-    const auto built = build(small_hills(), exact_options(GEOIDX_ENGINE_OVERLAY));
+    const auto built = shared_index(small_hills(), exact_options(GEOIDX_ENGINE_OVERLAY));
     geoidx_save_options options;
     geoidx_save_options_init(&options);
     CHECK(options.flags == 0);

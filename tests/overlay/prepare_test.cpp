@@ -6,6 +6,7 @@
 
 #include "src/overlay/fields/ssad.h"
 #include "tests/overlay/overlay_of.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -69,7 +70,8 @@ TEST_CASE("prepare and restore: every field comes back, of both engines, whateve
     for (const auto& [name, mesh] : mesh_zoo())
         for (const uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY})
             for (const uint32_t levels : {1u, 3u}) {
-                const auto& surface_name = name; // clang 14 captures no structured binding
+                if (SANITIZED && levels == 1) continue; // three have all that one has
+                const auto& surface_name = name;        // clang 14 captures no structured binding
                 CAPTURE(surface_name);
                 CAPTURE(engine);
                 CAPTURE(levels);

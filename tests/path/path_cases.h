@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/capi/shared_index.h"
 #include "tests/support/handles.h"
 #include "tests/support/meshes.h"
 #include "tests/support/stress_meshes.h"
@@ -58,13 +59,11 @@ struct PathCase {
     explicit PathCase(Soup given, const geoidx_build_options& options = path_options())
         : soup(std::move(given)) {
         const geoidx_mesh view = view_of(soup);
-        geoidx* new_index = nullptr;
         geoidx_query* new_query = nullptr;
         geoidx_surface* new_surface = nullptr;
         geoidx_solver* new_solver = nullptr;
-        REQUIRE(geoidx_build(&view, &options, &new_index) == GEOIDX_OK);
-        index.reset(new_index);
-        REQUIRE(geoidx_query_create(new_index, &new_query) == GEOIDX_OK);
+        index = shared_index(view, options);
+        REQUIRE(geoidx_query_create(index.get(), &new_query) == GEOIDX_OK);
         query.reset(new_query);
         const geoidx_surface_options of_surface = surface_options(options);
         REQUIRE(geoidx_surface_create(&view, &of_surface, &new_surface) == GEOIDX_OK);
@@ -105,7 +104,7 @@ struct PathCase {
     }
 
     Soup soup;
-    IndexHandle index;
+    std::shared_ptr<const geoidx> index;
     SurfaceHandle surface;
     SolverHandle solver;
     QueryHandle query;

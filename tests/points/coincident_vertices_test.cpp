@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "tests/path/walks.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 
@@ -71,6 +72,7 @@ std::vector<Soup> surfaces(double pole) {
 template <class Check>
 void for_each_surface(const Check& check) {
     for (const double pole : ROW_RADII) {
+        if (SANITIZED && pole != ROW_RADII[0]) continue;
         CAPTURE(pole);
         size_t number = 0;
         for (Soup& soup : surfaces(pole)) {

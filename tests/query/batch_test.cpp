@@ -98,7 +98,7 @@ TEST_CASE("batch: within a radius shorter than the edges") {
     }
     auto options = build_options(GEOIDX_METRIC_EXACT, 3);
     options.engine = GEOIDX_ENGINE_OVERLAY;
-    const auto index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     const QueryHandle query = query_of(index.get());
     const uint32_t count = mesh.vertex_count();
     std::vector<float> within(count);
@@ -175,7 +175,7 @@ TEST_CASE("batch: what is wrong is refused") {
     for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
         auto options = build_options();
         options.engine = engine;
-        const auto index = build(mesh, options);
+        const auto index = shared_index(mesh, options);
         const QueryHandle query = query_of(index.get());
         const uint32_t ids[] = {0, count};
         std::vector<float> distances(2 * size_t{count});

@@ -82,7 +82,7 @@ TEST_CASE("farthest points: each is as far from those before it as any vertex is
 
 TEST_CASE("farthest points: from one source they are those of its fields, bit for bit") {
     const TestMesh mesh = grid(40, 30, 0.3);
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
+    const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
     Nearest nearest(index.get(), mesh);
     nearest.add(17);
     const Sampling sampling = farthest_points(index.get(), {17}, 100);
@@ -98,7 +98,7 @@ TEST_CASE("farthest points: all vertices but the source, and none twice") {
     TestMesh mesh = grid(5, 4, 0);
     const uint32_t used = mesh.vertex_count();
     mesh.positions.insert(mesh.positions.end(), {9, 9, 9}); // no triangle uses it
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
+    const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
     Sampling sampling = farthest_points(index.get(), {3}, used + 5);
     CHECK(sampling.points.size() == used - 1);
     CHECK(std::ranges::is_sorted(sampling.distances, std::greater{}));
@@ -137,7 +137,7 @@ TEST_CASE("farthest points: one of those that edges without cost join") {
 
 TEST_CASE("farthest points: what is wrong is refused") {
     const TestMesh mesh = grid(5, 4, 0);
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
+    const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
     const QueryHandle query = query_of(index.get());
     const uint32_t ids[] = {0, mesh.vertex_count()};
     uint32_t points[2], count = 7;

@@ -79,7 +79,7 @@ TEST_CASE("matrix: vertices that no triangle uses, and those that were welded") 
     TestMesh mesh = grid(6, 5, 0);
     const uint32_t used = mesh.vertex_count();
     mesh.positions.insert(mesh.positions.end(), {9, 9, 9, 8, 8, 8});
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
+    const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
     Ids all = spread_ids(used + 2, used + 2);
     all.push_back(used);
     for (const Ids& sources : {Ids{used}, Ids{used, 3}, all}) {
@@ -97,7 +97,7 @@ TEST_CASE("matrix: vertices that no triangle uses, and those that were welded") 
 
 TEST_CASE("matrix: nothing is asked for") {
     const TestMesh mesh = grid(5, 4, 0);
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
+    const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
     const uint32_t id = 0;
     require_success(geoidx_matrix(index.get(), nullptr, 0, nullptr, 0, nullptr, 0));
     require_success(geoidx_matrix(index.get(), &id, 1, nullptr, 0, nullptr, 0));
@@ -106,7 +106,7 @@ TEST_CASE("matrix: nothing is asked for") {
 
 TEST_CASE("matrix: what is wrong is refused, and nothing is written") {
     const TestMesh mesh = grid(5, 4, 0);
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
+    const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
     const QueryHandle query = query_of(index.get());
     const uint32_t ids[] = {0, 1, mesh.vertex_count()};
     float entries[4] = {-1, -1, -1, -1};

@@ -75,7 +75,7 @@ TEST_CASE("SSSD: sound, symmetric bit for bit, exact within a leaf") {
 TEST_CASE("SSSD is symmetric for all pairs") {
     for (uint32_t levels : {1u, 2u, 3u}) {
         const TestMesh mesh = hills(13, 12);
-        const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, levels));
+        const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, levels));
         const uint32_t count = mesh.vertex_count();
         std::vector<uint32_t> pairs;
         for (uint32_t a = 0; a < count; ++a)
@@ -166,7 +166,7 @@ TEST_CASE("random edge costs, zero among them: MSAD is exact") {
         options.edge_cost_count = static_cast<uint32_t>(costs.size());
         options.edge_cost_vertices = vertices.data();
         options.edge_costs = costs.data();
-        const auto handle = build(mesh, options);
+        const auto handle = shared_index(mesh, options);
         const auto metric = solver(mesh, options);
         uint64_t inexact = 0, below = 0;
         for (uint32_t a : {0u, 77u, 200u}) {
@@ -185,7 +185,7 @@ TEST_CASE("random edge costs, zero among them: MSAD is exact") {
 TEST_CASE("on a plane the distance is the straight line, with a small mean error") {
     const TestMesh mesh = grid(30, 25, 0.25);
     for (uint32_t levels : {1u, 2u}) {
-        const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, levels));
+        const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, levels));
         double sum = 0;
         uint64_t below = 0, count = 0;
         for (uint32_t a : random_ids(mesh, 8, 4)) {
@@ -241,7 +241,7 @@ TEST_CASE("the measured error in the info is that of MSAD") {
         CAPTURE(engine);
         options = build_options(GEOIDX_METRIC_EXACT, 2);
         options.engine = engine;
-        const auto index = build(mesh, options);
+        const auto index = shared_index(mesh, options);
         const geoidx_info info = info_of(index.get());
         ErrorsFrom all;
         double largest_of_all = 0;
@@ -273,7 +273,7 @@ TEST_CASE("vertices that cannot be reached and vertices that no triangle uses") 
     const TestMesh mesh = components_and_unused(); // unused: 0, 183 and the last
     const uint32_t count = mesh.vertex_count(), last = count - 1;
     const uint32_t hill = 1, unused = 183, triangle = 184;
-    const auto handle = build(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
+    const auto handle = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
     CHECK(info_of(handle.get()).welded_vertex_count == count - 3);
     CHECK(sssd(handle.get(), hill, triangle) == INFINITE);
     CHECK(sssd(handle.get(), triangle, hill) == INFINITE);
@@ -297,7 +297,7 @@ TEST_CASE("vertices that cannot be reached and vertices that no triangle uses") 
 TEST_CASE("equal positions are one vertex") {
     const uint32_t columns = 21, rows = 15;
     const TestMesh cut = seam(columns, rows), whole = grid(columns, rows, 0.2);
-    const auto index = build(cut, build_options(GEOIDX_METRIC_EXACT, 2));
+    const auto index = shared_index(cut, build_options(GEOIDX_METRIC_EXACT, 2));
     CHECK(info_of(index.get()).welded_vertex_count == whole.vertex_count());
     for (uint32_t y = 0; y < rows; ++y) {
         const uint32_t original = y * columns + columns / 2, copy = whole.vertex_count() + y;
@@ -325,7 +325,7 @@ TEST_CASE("an unused vertex at the place of a used one is that one; unused ones 
             auto options = build_options(GEOIDX_METRIC_EXACT, 2);
             options.engine = engine;
             options.weld_tolerance = 2 * apart;
-            const auto index = build(mesh, options);
+            const auto index = shared_index(mesh, options);
             CHECK(info_of(index.get()).welded_vertex_count == surface.vertex_count());
             const auto metric = solver(mesh, options);
             for (const uint32_t unused : {before, after}) {
@@ -350,7 +350,7 @@ TEST_CASE("an unused vertex at the place of a used one is that one; unused ones 
 TEST_CASE("geoidx_query_* answers as geoidx_* does, batch as single") {
     const TestMesh mesh = components_and_unused();
     const uint32_t count = mesh.vertex_count();
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
+    const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
     geoidx_query* made = nullptr;
     require_success(geoidx_query_create(index.get(), &made));
     const QueryHandle query(made);
@@ -377,7 +377,7 @@ TEST_CASE("the graph engine is not below the metric where borders have many shor
     TestMesh mesh = grid(COLUMNS, ROWS);
     for (size_t y = 1; y < mesh.positions.size(); y += 3) mesh.positions[y] *= 0.00012048;
     const auto options = build_options(GEOIDX_METRIC_EDGES, 1);
-    const auto index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     const auto metric = solver(mesh, options);
     uint64_t below = 0, farther = 0;
     for (uint32_t a : {0u, 3u, COLUMNS * ROWS / 2}) {
@@ -403,7 +403,7 @@ TEST_CASE("very large and very small meshes") {
             for (double& coordinate : mesh.positions) coordinate *= scale;
             auto options = build_options(GEOIDX_METRIC_EXACT, 2);
             options.engine = engine;
-            const auto index = build(mesh, options);
+            const auto index = shared_index(mesh, options);
             const uint32_t count = mesh.vertex_count();
             const auto answers = msad(index.get(), 0, count);
             uint64_t wrong = 0;

@@ -42,7 +42,7 @@ TEST_CASE("overlay: pairs and fields on triangles 40 times as long as wide" * do
     const uint32_t count = mesh.vertex_count();
     geoidx_build_options options;
     geoidx_build_options_init(&options);
-    const auto built = build(mesh, options);
+    const auto built = shared_index(mesh, options);
     const auto opened = without_labels(built.get());
     const auto exact = solver(mesh, options);
     Differences fields, pairs, pairs_without_labels;
@@ -74,7 +74,7 @@ TEST_CASE("overlay: SSSD on a stretched plane" * doctest::skip(SANITIZED)) {
     auto options = overlay_options(GEOIDX_METRIC_EXACT, 0, 400);
     options.edge_lengths = lengths.data();
     options.edge_length_count = lengths.size();
-    const auto index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     const QueryHandle query = query_of(index.get());
     Differences errors;
     for (uint32_t source = 0; source < count; source += sparse(7))
@@ -110,7 +110,7 @@ TEST_CASE("overlay: SSSD on a tube of long and narrow triangles" * doctest::skip
     auto options = overlay_options(GEOIDX_METRIC_EXACT, 0, 400);
     options.edge_lengths = lengths.data();
     options.edge_length_count = lengths.size();
-    const auto index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     Differences errors;
     uint64_t longer_than_in_field = 0;
     for (uint32_t source = 0; source < mesh.vertex_count(); source += 41) {
@@ -143,7 +143,7 @@ TEST_CASE("overlay: near pairs on an uneven stretched plane are as far apart as 
     const uint32_t count = mesh.vertex_count();
     auto options = options_of_plane(mesh, {3, 4, 3});
     options.engine = GEOIDX_ENGINE_OVERLAY;
-    const auto index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     const QueryHandle query = query_of(index.get());
     uint64_t pairs = 0, longer = 0;
     for (uint32_t source = 5; source < count; source += 400) {

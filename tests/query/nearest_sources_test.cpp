@@ -82,7 +82,7 @@ TEST_CASE("nearest sources: none in a component that has none, whichever vertice
         mesh.triangles.push_back(mesh.triangles[k] + half);
     auto options = build_options(GEOIDX_METRIC_EXACT, 1);
     options.patches[0] = 4;
-    const auto index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     for (uint32_t a = 0; a < half; ++a)
         for (uint32_t b = a + 1; b < half; b += 3) check_nearest(index.get(), {a, b}, 0.02);
     check_nearest(index.get(), {3, half + 5}, 0.02);
@@ -91,7 +91,7 @@ TEST_CASE("nearest sources: none in a component that has none, whichever vertice
 TEST_CASE("nearest sources: a cut in the middle of a flat strip") {
     // Straight lines: the source on the own side is nearer by more than any error.
     const TestMesh mesh = grid(41, 5, 0);
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
+    const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
     Ids ends;
     for (uint32_t y = 0; y < 5; ++y) ends.push_back(y * 41);
     for (uint32_t y = 0; y < 5; ++y) ends.push_back(y * 41 + 40);
@@ -109,7 +109,7 @@ TEST_CASE("nearest sources: positions in the caller's order, the first of repeat
     for (const uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
         auto options = build_options(GEOIDX_METRIC_EXACT, 1);
         options.engine = engine;
-        const auto index = build(mesh, options);
+        const auto index = shared_index(mesh, options);
         const QueryHandle query = query_of(index.get());
         const Answer answer = nearest_sources(query.get(), {used - 1, 0, 0, used, used - 1, used}, used + 2);
         CHECK(answer.nearest[used - 1] == 0);
@@ -130,7 +130,7 @@ TEST_CASE("nearest sources: positions in the caller's order, the first of repeat
 TEST_CASE("nearest sources: distances may be left out, and what is wrong is refused") {
     const TestMesh mesh = grid(5, 4, 0);
     const uint32_t count = mesh.vertex_count();
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
+    const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
     const QueryHandle query = query_of(index.get());
     const Ids ids{0, count};
     Ids nearest(count, 7);

@@ -109,7 +109,7 @@ void ask_with_overlaps(const geoidx* index, geoidx_query* query, const Ids& ids,
 void check_overlaps(const TestMesh& mesh, uint32_t engine, uint32_t first) {
     auto options = build_options(GEOIDX_METRIC_EXACT, 2);
     options.engine = engine;
-    const IndexHandle index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     const QueryHandle query = query_of(index.get());
     const uint32_t count = mesh.vertex_count();
     Ids ids;

@@ -88,7 +88,7 @@ TEST_CASE("overlay: a vertex far from all borders finds its way as MSAD does") {
     mesh.positions[3 * TIP + 2] = 3000; // a needle: far longer than the mesh is wide
     for (uint32_t metric : {GEOIDX_METRIC_EDGES, GEOIDX_METRIC_EXACT}) {
         CAPTURE(metric);
-        const auto index = build(mesh, overlay_options(metric, 3, 400));
+        const auto index = shared_index(mesh, overlay_options(metric, 3, 400));
         const auto field = msad(index.get(), TIP, COUNT);
         uint64_t wrong = 0;
         for (uint32_t target = 0; target < COUNT; ++target) {
@@ -154,7 +154,7 @@ TEST_CASE("overlay: pairs of separate parts have no path, over borders of any le
                 distances[i] = static_cast<const TestMesh*>(user)->straight(source, targets[i]);
             return geoidx_status{GEOIDX_OK};
         };
-        const auto built = build(mesh, options);
+        const auto built = shared_index(mesh, options);
         const IndexHandle opened = without_labels(built.get());
         std::mt19937 random(3);
         uint32_t wrong = 0;
@@ -182,7 +182,7 @@ TEST_CASE("overlay: pairs on a lattice of tubes are as far apart as in a field" 
     const uint32_t count = mesh.vertex_count();
     auto options = overlay_options(GEOIDX_METRIC_EXACT, 3, 400);
     options.patches[0] = options.patches[1] = options.patches[2] = 4;
-    const auto index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     Differences differences;
     for (uint32_t source = 0; source < count; source += 40) {
         const auto field = msad(index.get(), source, count);
@@ -200,7 +200,7 @@ TEST_CASE("overlay: near vertices in different leaves are nearly as far apart as
     const uint32_t count = mesh.vertex_count();
     auto options = overlay_options(GEOIDX_METRIC_EXACT, 3, 400);
     options.patches[0] = options.patches[1] = options.patches[2] = 4;
-    const auto index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     const auto exact = solver(mesh, options);
     const double near = info_of(index.get()).bounding_box_diagonal / 10;
     Differences field_errors, pair_errors;
@@ -232,7 +232,7 @@ TEST_CASE("overlay: costs next to nothing") {
     options.edge_cost_count = static_cast<uint32_t>(costs.size());
     options.edge_cost_vertices = vertices.data();
     options.edge_costs = costs.data();
-    const auto index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     const auto metric = solver(mesh, options);
     const uint32_t count = mesh.vertex_count();
     uint64_t wrong = 0;
@@ -270,7 +270,7 @@ TEST_CASE("overlay: exact distances, crossing borders between vertices" * doctes
             CAPTURE(exact_vertices);
             const uint32_t count = mesh.vertex_count();
             const auto options = overlay_options(GEOIDX_METRIC_EXACT, 3, exact_vertices);
-            const auto index = build(mesh, options);
+            const auto index = shared_index(mesh, options);
             const auto exact = solver(mesh, options);
             Differences field_errors, pair_errors, disagreement;
             for (uint32_t source : {0u, count / 3, count / 2, count - 1}) {
@@ -310,7 +310,7 @@ TEST_CASE("overlay: two surfaces that share one vertex") {
         CAPTURE(levels);
         auto options = overlay_options(GEOIDX_METRIC_EXACT, levels, 400);
         options.patches[0] = 2;
-        const auto index = build(mesh, options);
+        const auto index = shared_index(mesh, options);
         const QueryHandle query = query_of(index.get());
         Differences pairs, prepared;
         for (uint32_t source = 0; source <= shared; ++source) {
@@ -336,7 +336,7 @@ TEST_CASE("overlay: straight lines on a plane, from everywhere to everywhere" * 
     const uint32_t count = mesh.vertex_count();
     for (uint32_t levels : {0u, 3u}) {
         CAPTURE(levels);
-        const auto index = build(mesh, overlay_options(GEOIDX_METRIC_EXACT, levels, 400));
+        const auto index = shared_index(mesh, overlay_options(GEOIDX_METRIC_EXACT, levels, 400));
         Differences errors;
         for (uint32_t source = 0; source < count; source += sparse(1)) {
             const auto field = msad(index.get(), source, count);
@@ -359,7 +359,7 @@ TEST_CASE("overlay: on a small staircase, distances of the plane that it is fold
         stairs.positions[i] = std::ceil(along / 2);
         stairs.positions[i + 2] = std::floor(along / 2);
     }
-    const auto index = build(stairs, default_options());
+    const auto index = shared_index(stairs, default_options());
     Differences errors;
     for (uint32_t source = 0; source < plane.vertex_count(); source += 7) {
         const auto field = msad(index.get(), source, plane.vertex_count());
@@ -390,7 +390,7 @@ TEST_CASE("overlay: only a metric that unfolds crosses borders between vertices"
     double at_vertices = 0; // as the builder measured it
     for (uint32_t flags : {0u, uint32_t{GEOIDX_METRIC_UNFOLDABLE}}) {
         options.metric_flags = flags;
-        const auto index = build(mesh, options);
+        const auto index = shared_index(mesh, options);
         const geoidx_info info = info_of(index.get());
         if (flags)
             at_vertices = info.error_mean_at_vertices;
@@ -415,7 +415,7 @@ TEST_CASE("overlay: SSSD is symmetric bit for bit, MSAD is 0 at its sources") {
     for (const QueryCase& test : overlay_cases(GEOIDX_METRIC_EXACT)) {
         CAPTURE(test.name);
         const uint32_t count = test.mesh.vertex_count();
-        const auto index = build(test.mesh, test.options);
+        const auto index = shared_index(test.mesh, test.options);
         uint64_t wrong = 0;
         for (uint32_t i = 0; i < 200; ++i) {
             const uint32_t a = (i * 131 + 1) % count, b = (i * 37 + 5) % count;
@@ -433,7 +433,7 @@ TEST_CASE("overlay: threads, saving and opening change no bit") {
         for (uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES}) {
             auto options = overlay_options(metric, 3, 30);
             options.threads = 1;
-            const auto built = build(mesh, options);
+            const auto built = shared_index(mesh, options);
             const Bytes bytes = save(built.get());
             options.threads = 5;
             CHECK(save(build(mesh, options).get()) == bytes);

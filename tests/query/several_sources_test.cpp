@@ -75,7 +75,7 @@ struct Errors {
 TEST_CASE("several sources: the nearest straight line on a plane" * doctest::skip(SANITIZED)) {
     const TestMesh mesh = grid(61, 51, 0.25);
     const uint32_t count = mesh.vertex_count();
-    const auto index = build(mesh, overlay_options());
+    const auto index = shared_index(mesh, overlay_options());
     std::mt19937 random(5);
     for (uint32_t source_count : {2u, 5u, 20u, 100u}) {
         CAPTURE(source_count);
@@ -100,7 +100,7 @@ TEST_CASE("several sources: as exact as the nearest of them alone" * doctest::sk
         const TestMesh& mesh = made;
         CAPTURE(mesh.vertex_count());
         const uint32_t count = mesh.vertex_count();
-        const auto index = build(mesh, overlay_options());
+        const auto index = shared_index(mesh, overlay_options());
         std::mt19937 random(7);
         for (const uint32_t source_count : {2u, 6u, 30u}) {
             CAPTURE(source_count);
@@ -123,7 +123,7 @@ TEST_CASE("several sources: as exact as the nearest of them alone" * doctest::sk
 TEST_CASE("several sources: many that are as near to the ends of a long segment") {
     const TestMesh mesh = wheel(400);
     const uint32_t count = mesh.vertex_count();
-    const auto index = build(mesh, default_options());
+    const auto index = shared_index(mesh, default_options());
     std::mt19937 random(9);
     for (const uint32_t source_count : {40u, 40u, 40u, 64u, 64u, 64u, 200u}) {
         std::vector<uint32_t> sources;
@@ -147,7 +147,7 @@ TEST_CASE("several sources: order and repetition change no bit") {
         const TestMesh& mesh = made;
         CAPTURE(mesh.vertex_count());
         const uint32_t count = mesh.vertex_count();
-        const auto index = build(mesh, overlay_options());
+        const auto index = shared_index(mesh, overlay_options());
         const std::vector<uint32_t> sources{count / 2, 0, count - 1, count / 3};
         const auto field = msad(index.get(), sources, count);
         const std::vector<uint32_t> shuffled{count / 3, 0, 0, count - 1, count / 2, 0, count / 3};

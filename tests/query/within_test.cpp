@@ -116,7 +116,7 @@ TEST_CASE("within: on long triangles, at every distance of a field") {
     for (const float stretch : {4.0f, 8.0f}) {
         TestMesh mesh = grid(40, 30, 0.45);
         for (size_t k = 0; k < mesh.positions.size(); k += 3) mesh.positions[k] *= stretch;
-        const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
+        const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
         const QueryHandle query = query_of(index.get());
         for (uint32_t source = 5; source < mesh.vertex_count(); source += 97) {
             const Ranked field = expected_within(index.get(), {source}, INFINITE);
@@ -133,7 +133,7 @@ TEST_CASE("within: on long triangles, at every distance of a field") {
 
 TEST_CASE("within: the nearest ones where there is room for some") {
     const TestMesh mesh = grid(9, 8, 0.2);
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
+    const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
     const QueryHandle query = query_of(index.get());
     const Ranked all = within(query.get(), {5}, 3);
     REQUIRE(all.size() > 4);
@@ -162,7 +162,7 @@ TEST_CASE("within: vertices that no triangle uses, and those that were welded") 
     mesh.positions.insert(mesh.positions.end(), {9, 9, 9, 8, 8, 8});
     auto options = build_options(GEOIDX_METRIC_EXACT, 1);
     options.weld_tolerance = 1e-6;
-    const auto index = build(mesh, options);
+    const auto index = shared_index(mesh, options);
     const QueryHandle query = query_of(index.get());
     CHECK(within(query.get(), {used + 3}, INFINITE) == Ranked{{0.0f, used + 3}});
     CHECK(within(query.get(), {used + 4, used + 3, used + 4}, 1) ==
@@ -204,7 +204,7 @@ TEST_CASE("nearest targets: few and many on a mesh of some size") {
 
 TEST_CASE("within and nearest targets: what is wrong is refused, and the count is 0") {
     const TestMesh mesh = grid(5, 4, 0);
-    const auto index = build(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
+    const auto index = shared_index(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
     const QueryHandle query = query_of(index.get());
     const uint32_t ids[] = {0, mesh.vertex_count()};
     uint32_t found[2] = {7, 7}, count = 9;

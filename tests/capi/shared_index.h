@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+
+#include "geoidx.h"
+
+namespace geodesic::test {
+
+// The index of a mesh by these options. It is built once for all tests of a process that ask for the same,
+// since nothing changes an index; with callbacks or an allocator of the caller it is built anew. Building
+// must succeed.
+std::shared_ptr<const geoidx> shared_index(const geoidx_mesh& mesh, const geoidx_build_options& options);
+
+}
