@@ -34,8 +34,7 @@ public:
     //   half of the limit, or where the distance is so short that the rounding of tables alone may be as
     //   much.
     // - If steep edges are asked for, ends of edges along which the distances of MSAD, with the pairs above
-    // put
-    //   right, change by more than STEEPEST times the length of the edge: of both ends the one that is
+    //   put right, change by more than STEEPEST times the length of the edge: of both ends the one that is
     //   farther off, though its error is within the limit.
     void compare(uint32_t source, std::vector<WrongPair>& wrong);
 

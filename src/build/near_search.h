@@ -10,7 +10,7 @@
 
 namespace geodesic {
 
-// How much near_errors() looks at.
+// How much NearSearch looks at.
 struct NearEffort {
     uint32_t candidates;        // on and next to borders, and anywhere, of which
     uint32_t first_sources;     // so many become sources

@@ -86,7 +86,6 @@ void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex 
     double error = first_error(metric);
     std::optional<FinerSurface> finer; // of the latest round, with its metric
     std::unique_ptr<const Metric> finer_metric;
-    bool is_best = true; // what the index is prepared from
     for (uint32_t i = 0; i < MOST_ROUNDS && error > options_.target_error; ++i) {
         const SplitSurface latest = finer ? SplitSurface{finer->mesh, finer->hierarchy} : surface;
         Workers choosing(finer ? *finer_metric : metric, options_.threads,
@@ -100,13 +99,14 @@ void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex 
         auto again = unless_over_limit([&] {
             return filling_.fill({finer->mesh, finer->hierarchy}, workers, &measured);
         });
-        const double error_now = again ? error_of_index(workers) : error;
-        is_best = error_now <= std::max(options_.target_error, WORTHWHILE * error);
-        if (!is_best) break;
+        const double error_now = again ? error_of_index(workers) : INFINITE;
+        if (!again || error_now > std::max(options_.target_error, WORTHWHILE * error)) {
+            prepare(filled, index_);
+            break;
+        }
         filled = std::move(*again);
         error = error_now;
     }
-    if (!is_best) prepare(filled, index_);
     if (progress_ && !progress_(1, "accuracy")) throw_cancelled();
 }
 

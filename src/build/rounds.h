@@ -15,8 +15,8 @@ inline constexpr double FIRST_FILLING_END = 0.7;
 ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, double end);
 
 // Where answers are less exact than the options ask for, vertices are added to the borders of patches and the
-// index is filled again. This is done in up to five rounds, until the error is small enough or does not
-// become smaller, or until there is nothing to cut or no room for more.
+// index is filled again. This is done in up to five rounds, until the error is small enough or hardly becomes
+// smaller, or until there is nothing to cut or no room for more.
 class Rounds {
 public:
     // `flipped` is what flip_flat_edges() returns for the mesh of the intake.
@@ -27,8 +27,8 @@ public:
           index_(index) {}
 
     // `filled` is what the filling made of this surface, which has no added vertices, and what the index was
-    // prepared from; `measured` is what it measured for that. Afterwards the index is the one with the
-    // smallest error of all that were tried.
+    // prepared from; `measured` is what it measured for that. Afterwards the index is that of the last round
+    // that was worth its added vertices, or the first one.
     void run(const SplitSurface& surface, const Metric& metric, StoredIndex filled,
              std::optional<MeasuredTables> measured);
 

@@ -20,9 +20,10 @@ constexpr uint32_t VERY_FEW = 256; // vertices
 // How much is compared. What takes longer to ask is asked less.
 struct Effort {
     NearEffort near;
-    TwoWayEffort two_way; // no sources: it is left out
-    uint32_t pairs;       // of each source of which the whole field is known
-    uint32_t rounds;      // of groups of sources
+    TwoWayEffort two_way;     // no sources: it is left out
+    uint32_t pairs;           // of each source of which the whole field is known
+    uint32_t rounds;          // of groups of sources
+    bool is_complete = false; // nearly all pairs are looked at
 };
 
 // Of so many sources, half are the first ones, chosen from `screened` times as many, and half lie around the
@@ -58,7 +59,7 @@ Effort effort_for(const Description& about, bool is_near_known, uint32_t vertex_
     const uint32_t screened = is_graph ? 1 : 4;
     constexpr TwoWayEffort NONE_OF_TWO_WAYS{0, 0, 0, 0};
     if (about.metric == GEOIDX_METRIC_CALLBACK)
-        return {near_effort(40, 4), NONE_OF_TWO_WAYS, is_graph ? 0u : 20u, 0};
+        return {near_effort(40, screened), NONE_OF_TWO_WAYS, is_graph ? 0u : 20u, 0};
     const uint32_t sources = source_count(vertex_count);
     constexpr uint32_t PAIRS = 50;
     const uint32_t pairs = is_graph ? 0 : PAIRS;
@@ -66,7 +67,8 @@ Effort effort_for(const Description& about, bool is_near_known, uint32_t vertex_
         return {near_effort(std::max(sources / 4, 12u), screened), NONE_OF_TWO_WAYS, pairs, 1};
     const TwoWayEffort two_way = is_graph ? NONE_OF_TWO_WAYS : two_way_effort(vertex_count);
     // Where near errors of MSAD are known, near sources only show where SSSD has larger ones.
-    return {near_effort(is_near_known ? sources / 2 : sources, screened), two_way, pairs, 1};
+    const bool is_complete = vertex_count <= VERY_FEW;
+    return {near_effort(is_near_known ? sources / 2 : sources, screened), two_way, pairs, 1, is_complete};
 }
 
 struct FieldErrors {
@@ -146,11 +148,11 @@ void add_largest_errors(const Index& index, const Intake& intake, double average
     errors.add(two_way.errors());
 }
 
-void state_largest(const ErrorsByDistance& errors, const ErrorSum& several, uint32_t vertex_count,
+// The largest errors that were seen, if these are of nearly all pairs, or those that are to be expected.
+void state_largest(const ErrorsByDistance& errors, const ErrorSum& several, bool is_complete,
                    MeasuredError& stated) {
-    // Of very few vertices, nearly all pairs have been looked at.
     const auto largest = [&](const ErrorSum& sum) {
-        return vertex_count <= VERY_FEW ? sum.largest() : sum.expected_largest();
+        return is_complete ? sum.largest() : sum.expected_largest();
     };
     for (size_t c = 0; c < DISTANCE_CLASSES; ++c) {
         stated.by_distance[c] = {errors.sums()[c].mean(), largest(errors.sums()[c])};
@@ -182,7 +184,7 @@ void state_errors(const Intake& intake, const DistanceScale& scale,
     }
     add_largest_errors(index, intake, edge, too_short, effort, workers, errors);
     state_largest(errors, error_of_several(index, intake, measuring, too_short, effort.rounds, workers),
-                  vertex_count, stated);
+                  effort.is_complete, stated);
     index.description.error = stated;
     release_pairs(index);
 }

@@ -107,41 +107,54 @@ private:
         return vertices;
     }
 
-    // Looks from these vertices. Returns whether any pair is new.
-    bool find(std::span<const uint32_t> sources, bool finds_steep) {
+    // Looks from these vertices, until there are too many pairs in all. Returns whether any pair is new.
+    bool find(std::vector<uint32_t> sources, bool finds_steep) {
+        const size_t before = held_.size();
+        while (!sources.empty() && held_.size() <= most()) sources = find_from(sources, finds_steep);
+        return held_.size() > before;
+    }
+
+    // Returns the sources that are left, since others beside them had very many wrong pairs.
+    std::vector<uint32_t> find_from(std::span<const uint32_t> sources, bool finds_steep) {
         const size_t at_once = std::max<size_t>(FEWEST_AT_ONCE, sources.size() / MOST_TASKS);
         std::vector<std::vector<WrongPair>> of_task((sources.size() + at_once - 1) / at_once);
         std::vector<ErrorsByDistance> let_pass(of_task.size(), ErrorsByDistance(scale_.average_edge));
+        std::vector<size_t> done(of_task.size()); // where a task ended
         workers_.run(of_task.size(), [&](FieldSolver&, size_t task) {
             NearComparison comparison(index_, intake_, near_, edge_ends_, scale_, limit_, finds_steep);
             const size_t begin = task * at_once, end = std::min(begin + at_once, sources.size());
-            const size_t far_too_many = most() > FEW_IN_ALL ? 16 * MOST_PAIRS * (end - begin) : FEW_IN_ALL;
-            for (size_t i = begin; i < end && of_task[task].size() < far_too_many; ++i) {
+            const size_t very_many = most() > FEW_IN_ALL ? 16 * MOST_PAIRS * (end - begin) : FEW_IN_ALL;
+            size_t i = begin;
+            for (; i < end && of_task[task].size() < very_many; ++i) {
                 workers_.check_cancelled();
                 comparison.compare(sources[i], of_task[task]);
             }
+            done[task] = i;
             let_pass[task] = comparison.let_pass();
         });
         for (const ErrorsByDistance& errors : let_pass) let_pass_.add(errors);
-        const size_t before = held_.size();
-        for (auto& found : of_task) {
-            held_.insert(held_.end(), found.begin(), found.end());
-            found = {};
+        std::vector<uint32_t> left;
+        for (size_t task = 0; task < of_task.size(); ++task) {
+            held_.insert(held_.end(), of_task[task].begin(), of_task[task].end());
+            of_task[task] = {};
+            const size_t end = std::min((task + 1) * at_once, sources.size());
+            left.insert(left.end(), sources.begin() + static_cast<ptrdiff_t>(done[task]),
+                        sources.begin() + static_cast<ptrdiff_t>(end));
         }
         keep_different(held_);
-        return held_.size() > before;
+        return left;
     }
 
     // Widens what is known around wrong pairs until no more are found at its rim, or half as many are held as
     // may be: then more would soon be too many.
     void look_farther() {
         while (held_.size() <= most() / 2) {
-            const auto sources = choose_to_widen();
+            auto sources = choose_to_widen();
             if (sources.empty()) return;
             begin_stage_of_widening();
             workers_.run(sources.size(),
                          [&](FieldSolver& solver, size_t i) { near_.widen(sources[i], solver); });
-            find(sources, false);
+            find(std::move(sources), false);
         }
     }
 

@@ -38,7 +38,7 @@ struct Description {
     uint64_t mesh_fingerprint = 0;
     uint64_t id_count = 0, triangle_count = 0, seed = 0;
     uint32_t metric = 0;   // GEOIDX_METRIC_*
-    float bound_scale = 0; // distance(a, b) >= bound_scale * |a - b|, as A* needs
+    float bound_scale = 0; // every entry that a search crosses is >= bound_scale * |a - b|, as A* needs
     double delta = 0;      // in % of the diagonal
     double bounding_box_diagonal = 0;
     MeasuredError error;
