@@ -80,7 +80,8 @@ public:
     // Of two points that are not both vertices; callers pass both orders of a pair the same way.
     float point_sssd(const FacePoint& first, const FacePoint& second);
 
-    // Fills distance[number] of every vertex: the least of offsets[i] + the distance from points[i].
+    // Fills distance[number] of every vertex: the least of offsets[i] + the distance from points[i]. The
+    // least offset must be 0.
     void point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
                     std::span<float> distance);
 

@@ -36,8 +36,8 @@ struct Index {
     }
 };
 
-// Fills an empty index from what is stored. Throws Error where what is stored cannot be an index. Hop codes
-// and the mesh of a mapped file stay where they are.
+// Fills an index from what is stored, in place of what it held. Throws Error where what is stored cannot be
+// an index. Hop codes and the mesh of a mapped file stay where they are.
 void prepare(const StoredIndex& stored, Index& index);
 
 // Copies a packed mesh into the index's memory.

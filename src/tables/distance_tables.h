@@ -19,9 +19,9 @@ struct DistanceTables {
     std::vector<float> border_internal, internal;
 };
 
-// Rounds the distances of one patch to codes, adds them to `stored` and frees their table. Patches are handed
-// over in the order of their numbers, each as soon as no other table is filled from its own. Distances are
-// rounded to about `rounding`, see choose_steps().
+// Rounds the distances of one patch to codes and adds them to `stored`; the table of an inner patch is freed.
+// Patches are handed over in the order of their numbers, each as soon as no other table is filled from its
+// own. Distances are rounded to about `rounding`, see choose_steps().
 void hand_over(uint32_t patch, const Numbering& numbering, float rounding, DistanceTables& tables,
                StoredIndex& stored);
 

@@ -21,7 +21,7 @@ struct Steps {
 std::vector<float> rounding_of_patches(const Numbering& numbering, const DistanceTables& tables,
                                        double rounding);
 
-// The steps nearest below `wanted`, or longer ones where the longest distance would not be a code otherwise.
+// Steps of `wanted`, or longer ones where the longest distance would not be a code otherwise.
 Steps choose_steps(float longest, float wanted);
 
 }

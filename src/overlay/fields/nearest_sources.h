@@ -90,9 +90,9 @@ private:
     // By number of border vertices:
     Array<float> longest_segment_; // of all borders that the vertex lies on
     Array<uint8_t> count_;         // of few_
-    Array<Way> few_;               // the nearest ones, FEW each, in ascending order
-    // Sources that are not in few_, in ascending order. They are of use only while few_ is full. Those beyond
-    // farthest_kept() are passed over: it falls when nearer sources come.
+    Array<Way> few_;               // the nearest ones, FEW each, in ascending order of their distances
+    // Sources that are not in few_, in ascending order of their keys. They are of use only while few_ is
+    // full. Those beyond farthest_kept() are passed over: it falls when nearer sources come.
     Array<Array<Way>> others_;
 };
 

@@ -11,8 +11,7 @@ OverlaySsad::OverlaySsad(const OverlayIndex& index, std::pmr::memory_resource* m
     : index_(index), numbering_(index.numbering), fields_(fields), gaps_(memory), up_(index, memory),
       down_(memory), sources_inside_(memory), is_known_inside_(memory) {
     set_threads(1);
-    if (crossing == Crossing::AT_VERTICES)
-        gaps_.resize(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, Rings::GAP);
+    if (crossing == Crossing::AT_VERTICES) gaps_.resize(index.rings.room_for_places(), Rings::GAP);
 }
 
 RingSegments OverlaySsad::segments_of(uint32_t patch) const {

@@ -30,7 +30,7 @@ public:
 
     // Fills distances[number * fields + i] of every vertex with its distance from the i-th source; there are
     // as many sources as fields. Patches whose whole border is farther than `radius` are skipped: of their
-    // vertices, all are infinite but those to which a point knows a way.
+    // vertices, all are infinite but those to which a point knows a way. Offsets of points are not looked at.
     void sweep(std::span<const uint32_t> sources, float radius, std::span<float> distances) {
         sweep(Sources{sources}, radius, distances);
     }

@@ -8,8 +8,8 @@ namespace geodesic {
 
 BorderField::BorderField(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : kernels_(runnable_kernels().back()), near_segments_(near_segments(index.numbering.vertex_count())),
-      distance_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, memory),
-      code_(distance_.size(), memory), foot_(distance_.size(), memory), height_(distance_.size(), memory) {}
+      distance_(index.rings.room_for_places(), memory), code_(distance_.size(), memory),
+      foot_(distance_.size(), memory), height_(distance_.size(), memory) {}
 
 bool BorderField::finish() {
     std::fill_n(distance_.data() + border_.places, SourceCode::BLOCK, INFINITE);

@@ -80,6 +80,11 @@ inline BorderRange whole_border(const Rings& rings, uint32_t patch) {
     return {rings.begin[patch], rings.begin[patch + 1] - 1};
 }
 
+// How many places of a part, which has all bridges of the border, are of its chains. They come first.
+inline uint32_t places_of_chains(const Rings& rings, uint32_t patch, const BorderPart& part) {
+    return part.size() - rings.bridge_places(patch);
+}
+
 // What kernels read of the places of a part, by their indices: arrays of the rings where it has one range,
 // and copies otherwise, in which each range ends with a gap.
 class PartOfRing {

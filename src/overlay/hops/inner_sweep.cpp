@@ -18,7 +18,7 @@ InnerSweep::InnerSweep(const OverlayIndex& index, size_t sources, std::pmr::memo
       sources_(sources), distance_(memory), middle_distance_(memory), code_(memory), middle_(memory),
       bound_(memory), result_(index.numbering.largest_inner_size() * sources, memory), field_(index, memory),
       rows_(memory), from_one_(memory) {
-    const size_t room = (SourceCode::whole_blocks(rings_.largest_size()) + BLOCK) * sources;
+    const size_t room = rings_.room_for_places() * sources;
     for (Array<float>* distances : {&distance_, &middle_distance_}) distances->resize(room);
     for (Array<int16_t>* codes : {&code_, &middle_}) codes->resize(room);
     if (sources == 1) bound_.resize(InnerBounds::blocks(rings_.largest_size()));

@@ -20,9 +20,8 @@ constexpr uint32_t FEW_ROWS = 128, CODES_AHEAD = 64;
 
 OverlayCrossing::OverlayCrossing(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), field_(index, memory), of_part_(index.rings, memory), rows_(memory),
-      near_row_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK,
-                TableCode::UNREACHED, memory),
-      from_(memory), from_ring_(memory), from_owned_(memory), columns_in_rows_(memory) {
+      near_row_(index.rings.room_for_places(), TableCode::UNREACHED, memory), from_(memory),
+      from_ring_(memory), from_owned_(memory), columns_in_rows_(memory) {
     rows_.reserve(index.rings.largest_size());
 }
 

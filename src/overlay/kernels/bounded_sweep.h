@@ -98,7 +98,7 @@ struct SweepBounded {
         for (size_t done = 0; done < rows.count; done += ROWS) {
             const size_t count = std::min(ROWS, rows.count - done);
             size_t row_begin[ROWS] = {};
-            Eight sums{};
+            Eight sums = Eight{} + static_cast<int16_t>(SourceCode::NEAREST); // where there is no row
             for (size_t r = 0; r < count; ++r) {
                 row_begin[r] = (done + r) * border.places;
                 const Row row{rows.codes + row_begin[r], rows.middles + row_begin[r], border.stride,

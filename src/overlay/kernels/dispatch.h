@@ -14,7 +14,7 @@ namespace geodesic {
 
 // What the kernels read and write, and the one table through which they are called.
 
-// Rows of a table, each one code a place.
+// Rows of a table: one a place, each with a code a column, or one a target, each with a code a place.
 using Rows = std::span<const uint16_t* const>;
 // The same of rows that lie one after the other.
 struct TableRows {
@@ -96,7 +96,8 @@ struct BorderDistances {
 };
 
 // The distances as codes of SourceCode, from the places and from the middles of the segments that begin at
-// them.
+// them. Of several sources, codes of two places alternate: those of places 2 k and 2 k + 1 from source s are
+// at 2 (k * SOURCES + s) and behind it.
 struct BorderCodes {
     int16_t *code, *middle;
     float* nearest; // per source; infinity: none is reached, and its codes say nothing

@@ -102,8 +102,8 @@ BorderPart part_beside(const OverlayIndex& index, uint32_t patch, const BorderPa
     if (index.rings.is_own[place] && std::ranges::any_of(part.ranges(), is_well_inside)) return part;
     const uint32_t own = own_place(index.rings, index.numbering, patch, index.rings.position[place]);
     if (part.covers(part_about(index, patch, own, Rings::REACH))) return part;
-    const uint32_t of_chains = part.size() - index.rings.bridge_places(patch);
-    return part_about(index, patch, own, std::max(EACH_SIDE, of_chains / 2));
+    const uint32_t on_each_side = std::max(EACH_SIDE, places_of_chains(index.rings, patch, part) / 2);
+    return part_about(index, patch, own, on_each_side);
 }
 
 }

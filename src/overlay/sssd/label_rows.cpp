@@ -26,7 +26,7 @@ float longest_of_short_segments(const Rings& rings, uint32_t patch) {
     return *longest;
 }
 
-// Calls use(run, first, last) for each run of a ring with so many places.
+// Calls use(run, begin, end) for each run of a ring with so many places.
 template <class Use>
 void for_each_run(std::span<const uint16_t> runs, size_t places, const Use& use) {
     for (size_t run = 0; run < runs.size(); ++run)

@@ -102,7 +102,7 @@ void keep_common(const OverlayIndex& index, const CrossedPart& from, const Borde
         out[i] = length;
         winners[i] = from.winner(place);
     };
-    const uint32_t of_chains = from.part.size() - index.rings.bridge_places(from.patch); // come first
+    const uint32_t of_chains = places_of_chains(index.rings, from.patch, from.part);
     bool has_common = false;
     crossing.begin();
     uint32_t i = 0;
@@ -196,8 +196,8 @@ void cross_over(const OverlayIndex& index, const CrossedPart& from, uint32_t sib
 }
 
 MeasuredEnd::MeasuredEnd(const OverlayIndex& index, std::pmr::memory_resource* memory)
-    : index_(index), stride_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK),
-      parts_(memory), distances_(memory), winners_(memory) {
+    : index_(index), stride_(index.rings.room_for_places()), parts_(memory), distances_(memory),
+      winners_(memory) {
     const size_t borders = index.numbering.level_count();
     parts_.reserve(borders);
     distances_.resize(borders * stride_);

@@ -39,8 +39,8 @@ private:
     Array<Target> targets_;
 };
 
-// The first sample of a border, counted from the first of all, that comes at a place or behind it; the number
-// of samples if there is none. Places are counted over all rings.
+// The first sample of a border, counted from the border's first one, that comes at a place or behind it; the
+// number of the border's samples if there is none. Places are counted over all rings.
 inline uint32_t first_sample_from(const Rings& rings, const Samples& samples, uint32_t patch,
                                   uint32_t place) {
     const auto places = samples.of(patch);

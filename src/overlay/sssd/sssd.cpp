@@ -138,8 +138,7 @@ bool OverlaySssd::End::move_parts(const OverlayIndex& index, uint32_t place) {
 OverlaySssd::OverlaySssd(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), crossing_(index, memory),
       of_meeting_border_(index.rings, memory), from_(index, memory), to_(index, memory),
-      from_samples_(memory), lengths_(memory),
-      from_distances_(SourceCode::whole_blocks(index.rings.largest_size()) + SourceCode::BLOCK, memory),
+      from_samples_(memory), lengths_(memory), from_distances_(index.rings.room_for_places(), memory),
       from_winners_(from_distances_.size(), memory) {
     for (uint32_t p = 0; p < numbering_.patch_count(); ++p)
         farthest_misplaced_ = std::max(farthest_misplaced_, misplaces_ends_up_to(p));

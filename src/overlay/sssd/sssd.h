@@ -22,7 +22,7 @@ namespace geodesic {
 // given by their numbers. An object is the scratch of one thread.
 class OverlaySssd {
 public:
-    // The index must have its samples.
+    // The index must have had require_pair_tables().
     OverlaySssd(const OverlayIndex& index, std::pmr::memory_resource* memory);
 
     // Requires low < high; callers pass both orders of a pair this way, so that both get the same bits.

@@ -12,6 +12,7 @@
 #include "src/base/array.h"
 #include "src/index/border_segments.h"
 #include "src/index/numbering.h"
+#include "src/overlay/tables/codes.h"
 
 namespace geodesic {
 
@@ -69,6 +70,9 @@ struct Rings {
         for (size_t p = 0; p + 1 < begin.size(); ++p) largest = std::max(largest, begin[p + 1] - begin[p]);
         return largest;
     }
+    // Room for the places of any ring in whole blocks of codes, and for the block of infinite distances that
+    // kernels may read behind the last place.
+    size_t room_for_places() const { return SourceCode::whole_blocks(largest_size()) + SourceCode::BLOCK; }
 };
 
 // The own place of a vertex of a patch's border, counted over all rings.

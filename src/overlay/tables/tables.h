@@ -167,7 +167,7 @@ struct Labels {
     Array<uint64_t> begin;                // where the rows to its border begin in `rows`
     Array<uint32_t> run_begin, run_count; // where the runs of its rows are in `runs`
     Array<uint16_t> runs;                 // see find_runs()
-    Array<float> least_quantum;           // see find_runs(); 0 where each place is a run
+    Array<float> least_quantum;           // see find_runs(); 0 where runs do not round
     Array<float> quantum;                 // of its rows, once they are made
     Array<std::atomic<bool>> are_made;
     Room<uint8_t> rows; // NULL if no patch is labelled
