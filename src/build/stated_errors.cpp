@@ -23,7 +23,7 @@ struct Effort {
     TwoWayEffort two_way;     // no sources: it is left out
     uint32_t pairs;           // of each source of which the whole field is known
     uint32_t rounds;          // of groups of sources
-    bool is_complete = false; // nearly all pairs are looked at
+    bool is_complete = false; // nearly all pairs are looked at, those of ten edges and less
 };
 
 // Of so many sources, half are the first ones, chosen from `screened` times as many, and half lie around the

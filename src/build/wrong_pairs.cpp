@@ -55,10 +55,12 @@ public:
     void run() {
         workers_.begin_stage("accuracy", FIRST_LOOK_END * end_fraction_);
         while (!hold_all() && limit_ < 1) limit_ *= RAISE;
-        if (held_.size() > most())
+        if (held_.size() > most()) {
             keep_worst(most());
-        else if (is_by_positions())
+            hold();
+        } else if (is_by_positions()) {
             hold_steep();
+        }
     }
 
     // The largest errors of pairs that were compared and are not held.
@@ -75,7 +77,7 @@ private:
         held_.clear();
         hold();
         for (uint32_t pass = 0; pass < MOST_PASSES; ++pass) {
-            if (!find(pass == 0 ? all_vertices() : vertices_with_pairs(), false)) return true;
+            if (!find(pass == 0 ? all_vertices() : vertices_with_pairs())) return true;
             if (pass == 0 && is_by_positions()) look_farther();
             if (held_.size() > most()) return false;
             hold();
@@ -89,10 +91,9 @@ private:
     void hold_steep() {
         const size_t room = std::max(few_for_each(), held_.size());
         for (uint32_t pass = 0; pass < MOST_PASSES && held_.size() < room; ++pass) {
-            if (!find(pass == 0 ? all_vertices() : vertices_with_pairs(), true)) return;
-            if (held_.size() <= room) hold();
+            if (!find_steep(pass == 0 ? all_vertices() : vertices_with_pairs(), room)) return;
+            hold();
         }
-        if (held_.size() > room) keep_worst(room);
     }
 
     std::vector<uint32_t> all_vertices() const {
@@ -108,9 +109,19 @@ private:
     }
 
     // Looks from these vertices, until there are too many pairs in all. Returns whether any pair is new.
-    bool find(std::vector<uint32_t> sources, bool finds_steep) {
+    bool find(std::vector<uint32_t> sources) {
         const size_t before = held_.size();
-        while (!sources.empty() && held_.size() <= most()) sources = find_from(sources, finds_steep);
+        while (!sources.empty() && held_.size() <= most()) sources = find_from(sources, false);
+        return held_.size() > before;
+    }
+    // Looks for pairs at steep edges besides, and keeps so many of all pairs, the worst ones. Returns whether
+    // there are more than before.
+    bool find_steep(std::vector<uint32_t> sources, size_t room) {
+        const size_t before = held_.size();
+        while (!sources.empty()) {
+            sources = find_from(sources, true);
+            keep_worst(room);
+        }
         return held_.size() > before;
     }
 
@@ -154,7 +165,7 @@ private:
             begin_stage_of_widening();
             workers_.run(sources.size(),
                          [&](FieldSolver& solver, size_t i) { near_.widen(sources[i], solver); });
-            find(std::move(sources), false);
+            find(std::move(sources));
         }
     }
 
@@ -205,11 +216,12 @@ private:
         take_pairs(pairs, index_.numbering().vertex_count(), measured());
     }
 
+    // Keeps all if they are no more than so many.
     void keep_worst(size_t count) {
+        if (held_.size() <= count) return;
         std::ranges::stable_sort(held_, std::ranges::greater{}, &WrongPair::error);
         held_.resize(count);
         keep_different(held_); // in the order of pairs again
-        hold();
     }
 
     MeasuredPairs& measured() const { return std::get<OverlayIndex>(index_.engine).measured; }
