@@ -13,7 +13,7 @@ struct GraphIndex {
 
     Numbering numbering;
     Slots slots;
-    float bound_scale = 0;               // distance(a, b) >= bound_scale * |a - b|
+    float bound_scale = 0;               // of the description
     Array<uint64_t> border_table_begin;  // per patch
     Array<float> border_tables;          // Bv x Bv, full, rows and columns in border order
     Array<float> border_internal_tables; // per leaf: Bv x Iv, a row per border vertex

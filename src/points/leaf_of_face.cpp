@@ -88,7 +88,8 @@ uint32_t best_of(std::span<const uint32_t> leaves, Surroundings& around) {
 
 }
 
-// Of a part of a leaf that has no vertex inside, a leaf beside it may have all vertices, too.
+// All corners of a face that touches no vertex inside of its leaf are on borders, perhaps all on that of a
+// leaf beside it, too: then the leaf counts that more of the faces around can lie in.
 uint32_t leaf_of_face(const Index& index, const Surface& surface, const AnyFace& face) {
     const Numbering& numbering = index.numbering();
     Surroundings around(index, surface, face);

@@ -133,16 +133,18 @@ double PointQueries::straight_way_of_near(const SurfacePoint& source, const Surf
     return std::min(seen_from(source, target), seen_from(target, source));
 }
 
-// Pairs of vertices that tables have wrong are measured; pairs of points do not use these, so that only the
-// edges around those that are at no vertex count. Where these are short for the mesh, its average edge does,
-// of which tables are rounded to a share. A search for a path asks for distances that the graph engine, and
-// points without a leaf, have by whole fields only: there, tables have to do.
+// Whether the distance that tables tell, with ways that are known besides, needs no search for a path. A
+// search asks for distances that points without tables, and the graph engine, have by whole fields only:
+// there the distance has to do.
 bool PointQueries::is_sure(const FacePoint& source, const FacePoint& target, const KnownWays& known,
                            float distance) const {
     constexpr double FEW_EDGES = 4;
     if (known.is_shortest || distance == INFINITE || !source.has_tables() || !target.has_tables())
         return true;
     if (!unfolds() || std::holds_alternative<GraphIndex>(index_.engine)) return true;
+    // Pairs of vertices that tables have wrong are measured, so that only edges around points that are at no
+    // vertex count. Where these are short for the mesh, its average edge does, of which tables round to a
+    // share.
     const double longest =
         std::max({longest_edge_around(source), longest_edge_around(target), double{surface_.average_edge}});
     return double{distance} >= FEW_EDGES * longest;

@@ -65,9 +65,10 @@ struct SeenAround {
 // knows of it. `at` is a point of the faces of an index.
 SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t most);
 
-// How many vertices the polygon of a point on a face with these corners has, but for those between the ends
-// of its edges, for which there is room for 32 at least. What it does not tell is a share of an edge's
-// length, so that it has more where edges are long for the part of the surface that the face lies in.
+// Up to how many vertices the polygon of a point on a face with these corners grows: more where edges are
+// long for the part of the surface that the face lies in, since the error of a polygon that ends early is a
+// share of an edge. Vertices that were added between the ends of its edges come besides, for which 32 places
+// are left at least.
 size_t vertices_of_polygon(const Surface& surface, const std::array<uint32_t, 3>& corners);
 
 }

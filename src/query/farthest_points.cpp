@@ -31,7 +31,8 @@ size_t lower_to(std::span<const float> field, std::span<float> nearest) {
 
 }
 
-// A point changes only distances that are larger than those from itself, and none is larger than its own.
+// The next point has the largest distance of all. It lowers that of vertices that are nearer to it, so that a
+// field as far as that distance tells all that it changes.
 uint32_t Query::farthest_points(std::span<const uint32_t> source_ids, std::span<uint32_t> points,
                                 std::span<float> distances) {
     take_sources(source_ids);

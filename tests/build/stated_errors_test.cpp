@@ -292,7 +292,7 @@ TEST_CASE("stated errors: a callback is asked for few more fields") {
         options.metric_callback = Plane::distances;
         options.metric_user = options.progress_user = &plane;
         options.progress = Plane::progress;
-        const auto index = shared_index(plane.mesh, options);
+        const auto index = build(plane.mesh, options);
         const geoidx_info info = info_of(index.get());
         check_consistent(info);
         CHECK(info.error_near_max > 0);

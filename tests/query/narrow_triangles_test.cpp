@@ -143,7 +143,7 @@ TEST_CASE("overlay: near pairs on an uneven stretched plane are as far apart as 
     const uint32_t count = mesh.vertex_count();
     auto options = options_of_plane(mesh, {3, 4, 3});
     options.engine = GEOIDX_ENGINE_OVERLAY;
-    const auto index = shared_index(mesh, options);
+    const auto index = build(mesh, options);
     const QueryHandle query = query_of(index.get());
     uint64_t pairs = 0, longer = 0;
     for (uint32_t source = 5; source < count; source += 400) {

@@ -154,7 +154,7 @@ TEST_CASE("overlay: pairs of separate parts have no path, over borders of any le
                 distances[i] = static_cast<const TestMesh*>(user)->straight(source, targets[i]);
             return geoidx_status{GEOIDX_OK};
         };
-        const auto built = shared_index(mesh, options);
+        const auto built = build(mesh, options);
         const IndexHandle opened = without_labels(built.get());
         std::mt19937 random(3);
         uint32_t wrong = 0;
@@ -390,7 +390,7 @@ TEST_CASE("overlay: only a metric that unfolds crosses borders between vertices"
     double at_vertices = 0; // as the builder measured it
     for (uint32_t flags : {0u, uint32_t{GEOIDX_METRIC_UNFOLDABLE}}) {
         options.metric_flags = flags;
-        const auto index = shared_index(mesh, options);
+        const auto index = build(mesh, options);
         const geoidx_info info = info_of(index.get());
         if (flags)
             at_vertices = info.error_mean_at_vertices;

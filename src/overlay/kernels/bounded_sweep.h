@@ -13,7 +13,7 @@ struct SweepBounded {
     static constexpr size_t PLACES = InnerBounds::PLACES;
     static constexpr size_t WIDTH = std::min(BYTES, PLACES * sizeof(int16_t)), LANES = Lanes<WIDTH>::CODES;
     static constexpr size_t ROWS = Sweep<BYTES>::ROWS;
-    // What a row reads, so many rows behind it are likely to read, too, and ask for it.
+    // The row that comes so many rows later is likely to read what this one reads: it is asked for ahead.
     static constexpr size_t ROWS_AHEAD = 4;
     using Vector = Sums<WIDTH>;
     using Eight = typename Sweep<BYTES>::Eight;

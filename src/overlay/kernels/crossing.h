@@ -162,7 +162,7 @@ template <size_t BYTES>
 template <size_t BYTES>
 [[gnu::always_inline]] inline void measure(const BorderFromSource& shared_border, const Ways& ways,
                                            size_t count, float* distances) {
-    const BorderFromSource border = shared_border; // which nothing that is written can change
+    const BorderFromSource border = shared_border; // a copy, which no store can change
     BesideFloats measured;
     size_t w = 0;
     for (; w + 4 <= count; w += 4) {

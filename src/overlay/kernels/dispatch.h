@@ -146,9 +146,9 @@ struct Kernels {
     void (*cross)(const BorderFromSource& border, Rows rows, Columns columns, float* distances,
                   uint16_t* winners);
 
-    // distances[r] is read and written. If it is at most range.reach, it is replaced by the least way over
-    // row r, which has a code for each place, and a near place, or straightened over any segment that is
-    // near, if there is one. Where a border is jagged, the straight way does not always pass near the place
+    // rows[r] is that of target r. distances[r] is read and, if it is at most range.reach, replaced: by the
+    // least sum of distance and code over the near places, or by a shorter way that is straightened over a
+    // near segment. Where a border is jagged, the straight way does not always pass near the place
     // with the least sum. Of a row, the codes from range.begin() up to that at range.end() are read.
     void (*cross_near)(const BorderFromSource& border, const NearRange& range, Rows rows, float* distances);
 

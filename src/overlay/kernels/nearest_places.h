@@ -43,7 +43,7 @@ private:
             least[v] = Codes{} + std::numeric_limits<int16_t>::max();
             place[v] = Codes{};
         }
-        const AnyRows row = rows; // which nothing that is written can change
+        const AnyRows row = rows; // a copy, which no store can change
         for (size_t k = 0; k < row.size(); ++k, here += 1) {
             if (SKIP && code[k] == SourceCode::UNREACHED) continue;
             const Codes from = Codes{} + code[k];

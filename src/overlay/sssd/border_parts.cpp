@@ -85,7 +85,8 @@ BorderPart part_near(const OverlayIndex& index, uint32_t patch, const WaysNearSa
     const auto [sample, beside, over_previous, over_sample, over_next] = ways;
     const float before = over_previous - over_sample, after = over_next - over_sample;
     auto place = static_cast<float>(places[sample]);
-    const bool is_around_an_end = beside.previous > sample || beside.next < sample; // of the ring's order
+    // In the ring's order; so is a sample without one before it, whose number is NONE.
+    const bool is_around_an_end = beside.previous > sample || beside.next < sample;
     if (!is_around_an_end && before + after < INFINITE && before + after > 0) {
         const float share = std::clamp((before - after) / (2 * (before + after)), -0.5f, 0.5f);
         place += share * static_cast<float>(share > 0 ? places[beside.next] - places[sample]

@@ -68,6 +68,8 @@ const uint16_t* SampledAscent::make_rows_across(uint32_t patch, uint32_t sibling
     return across_.data();
 }
 
+// Of a border, ways_ has what is left of the way to the other end until the hop back from it is done, and
+// then the whole way.
 void SampledAscent::go_back(std::span<const float> rest) {
     std::ranges::copy(rest, ways_.data() + (borders_.size() - 1) * stride_);
     for (size_t border = borders_.size(); border-- > 0;) {

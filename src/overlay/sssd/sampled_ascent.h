@@ -38,7 +38,7 @@ public:
 
     // `rest` has the distances of the other end from the samples of the last border. Hops from these back to
     // all borders before, so that ways_over() has the length of the whole way between both ends over each
-    // sample. Hops back are not straightened over long segments, as those of climb() are.
+    // sample. Unlike those of climb(), hops back are not straightened over long segments.
     void go_back(std::span<const float> rest);
     std::span<const float> ways_over(size_t border) const {
         return {ways_.data() + border * stride_, samples_of(borders_[border]).size()};

@@ -13,9 +13,9 @@ namespace {
 // A border has about WANTED samples, but no more than MOST_SHARE of its vertices and no fewer than
 // LEAST_SHARE of them; and up to twice as many where its edges are longer in some places than in others. A
 // border that is long for its mesh has more: samples are about a fortieth of the mesh's extent apart, or
-// less, since all pairs that are nearer than some spacings take longer. A chain has FEWEST_OF_CHAIN samples
-// or more, or all of its vertices if these are fewer: where nothing unfolds, each vertex is a chain by
-// itself.
+// less, since all pairs that are nearer than some spacings take longer. A chain without samples of another
+// border has FEWEST_OF_CHAIN or more, or all of its vertices if these are fewer: where nothing unfolds, each
+// vertex is a chain by itself.
 constexpr double WANTED = 64, WANTED_PER_EXTENT = 40, MOST_SHARE = 1.0 / 2, LEAST_SHARE = 1.0 / 10;
 constexpr uint32_t FEWEST_OF_CHAIN = 3;
 

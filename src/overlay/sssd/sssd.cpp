@@ -28,7 +28,8 @@ constexpr float LONGER_BY_SEGMENT = 0.5f;
 // Distances over samples come from rounded codes: they may be too short by less than this share.
 constexpr float SAMPLES_ROUNDING = 1e-3f;
 
-// A distance that begins at labels is a sum of two that were rounded: of so many steps, by up to 0.1 %.
+// A distance that begins at labels is a sum of two that were rounded, each by half a step or less: by no more
+// than 0.1 % where it has so many steps.
 constexpr float FEW_STEPS = 1000;
 
 // Parts are moved along with the way at most this many times.
