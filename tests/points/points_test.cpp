@@ -428,8 +428,7 @@ TEST_CASE("points: fields from one point are no shorter than the line in space t
 }
 
 TEST_CASE("points: near a vertex they are about as far from the others of its measured pairs as it is") {
-    const uint32_t cells = smaller(40, 24);
-    Soup soup = grid(cells, cells, cells, cells);
+    Soup soup = grid(40, 40, 40, 40);
     std::mt19937_64 random(5);
     raise_at_random(soup, random);
     const PathCase on(soup, path_options());
