@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/capi/calls.h"
+
 namespace geodesic::test {
 namespace {
 
@@ -36,10 +38,7 @@ std::string content_of(const geoidx_mesh& mesh, geoidx_build_options options) {
 
 std::shared_ptr<const geoidx> build(const geoidx_mesh& mesh, const geoidx_build_options& options) {
     geoidx* index = nullptr;
-    const geoidx_status status = geoidx_build(&mesh, &options, &index);
-    INFO("status: ", std::string(geoidx_status_string(status)),
-         ", detail: ", std::string(geoidx_last_error()));
-    REQUIRE(status == GEOIDX_OK);
+    require_success(geoidx_build(&mesh, &options, &index));
     return {index, geoidx_close};
 }
 
