@@ -10,17 +10,31 @@ void OverlayQuery::msad(const Sources& sources, float radius, const OverlayMsad:
     if (!sources.keys.empty() && std::ranges::all_of(sources.keys, is_first))
         msad_from_one(sources, radius, field);
     else
-        nearest_.sweep(sources, radius, field);
-    lowering_.lower(field.distance, field.source);
+        msad_from_several(sources, radius, field);
 }
 
+// What was measured of a vertex is lowered, as all else. What is known of a point counts last, as it does
+// where vertices within a radius are asked for.
 void OverlayQuery::msad_from_one(const Sources& sources, float radius, const OverlayMsad::Field& field) {
-    const uint32_t source = sources.keys.front();
-    field_.sweep({sources.keys.first(1), sources.points}, radius, field.distance);
-    for (const auto& [number, measured] : index_.measured.of(source, 0, index_.numbering.vertex_count()))
-        field.distance[number] = measured;
+    const uint32_t source = sources.keys.front(), vertices = index_.numbering.vertex_count();
+    const Sources only{sources.keys.first(1), sources.points};
+    const auto correct = [&] {
+        only.for_each_known(index_, source, 0, vertices, [&](const KnownWay& way) {
+            field.distance[way.number] = way.corrected(field.distance[way.number]);
+        });
+    };
+    field_.sweep(only, radius, field.distance);
+    const bool is_vertex = source < vertices;
+    if (is_vertex) correct();
+    lowering_.lower(field.distance);
+    if (!is_vertex) correct();
     for (size_t v = 0; v < field.source.size(); ++v)
         field.source[v] = field.distance[v] < INFINITE ? source : NONE;
+}
+
+void OverlayQuery::msad_from_several(const Sources& sources, float radius, const OverlayMsad::Field& field) {
+    nearest_.sweep(sources, radius, field);
+    lowering_.lower(field.distance, field.source);
 }
 
 PathEnd OverlayQuery::end_of(const FacePoint& point, PointRow& row) {
@@ -37,7 +51,7 @@ float OverlayQuery::point_sssd(const FacePoint& first, const FacePoint& second) 
 }
 
 // A point at a vertex is that vertex, unless it begins later.
-void OverlayQuery::add_point(const FacePoint& point, float offset) {
+void OverlayQuery::add_point(const FacePoint& point, float offset, std::span<const KnownWay> known) {
     if (point.vertex != NONE && offset == 0) {
         keys_.push_back(point.vertex);
         return;
@@ -48,28 +62,29 @@ void OverlayQuery::add_point(const FacePoint& point, float offset) {
     ways.vertex = point.vertex;
     if (point.vertex != NONE) return;
     ways.leaf = point.leaf;
+    ways.known = known;
     const auto to_all = in_leaf_.to_all(point);
     ways.distance.assign(to_all.begin(), to_all.end());
     for (const auto& [number, straight] : std::span(point.beyond).first(point.beyond_count))
         ways.beyond.push_back({number, static_cast<float>(straight)});
 }
 
-void OverlayQuery::take_points(std::span<const FacePoint> points, std::span<const float> offsets) {
+void OverlayQuery::take_points(const PointSources& sources) {
     points_.clear();
     keys_.clear();
-    for (size_t i = 0; i < points.size(); ++i) add_point(points[i], offsets.empty() ? 0 : offsets[i]);
+    for (size_t i = 0; i < sources.points.size(); ++i)
+        add_point(sources.points[i], sources.offset(i), sources.known_from(i));
 }
 
-void OverlayQuery::point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
-                              std::span<float> distance) {
-    take_points(points, offsets);
+void OverlayQuery::point_msad(const PointSources& sources, std::span<float> distance) {
+    take_points(sources);
     msad({keys_, points_}, INFINITE, {distance});
 }
 
 // Of points at one vertex the first is written last, and stays.
-void OverlayQuery::point_nearest_sources(std::span<const FacePoint> points, std::span<const float> offsets,
-                                         std::span<float> distance, std::span<uint32_t> position) {
-    take_points(points, offsets);
+void OverlayQuery::point_nearest_sources(const PointSources& sources, std::span<float> distance,
+                                         std::span<uint32_t> position) {
+    take_points(sources);
     msad({keys_, points_}, INFINITE, {distance, position});
     position_of_key_.resize(index_.numbering.vertex_count() + points_.size());
     for (size_t i = keys_.size(); i-- > 0;) position_of_key_[keys_[i]] = static_cast<uint32_t>(i);
@@ -78,7 +93,7 @@ void OverlayQuery::point_nearest_sources(std::span<const FacePoint> points, std:
 }
 
 std::span<const WithinSweep::Found> OverlayQuery::point_within(const FacePoint& point, float radius) {
-    take_points({&point, 1}, {});
+    take_points({{&point, 1}});
     return within_sweep().sweep({keys_, points_}, radius);
 }
 

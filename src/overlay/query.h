@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "src/index/point_sources.h"
 #include "src/overlay/fields/field_lowering.h"
 #include "src/overlay/fields/msad.h"
 #include "src/overlay/fields/point_ways.h"
@@ -80,14 +81,12 @@ public:
     // Of two points that are not both vertices; callers pass both orders of a pair the same way.
     float point_sssd(const FacePoint& first, const FacePoint& second);
 
-    // Fills distance[number] of every vertex: the least of offsets[i] + the distance from points[i]. The
-    // least offset must be 0.
-    void point_msad(std::span<const FacePoint> points, std::span<const float> offsets,
-                    std::span<float> distance);
+    // Fills distance[number] of every vertex. The least offset must be 0.
+    void point_msad(const PointSources& sources, std::span<float> distance);
 
-    // The same, and fills position[number] with that of the nearest point in `points`, NONE for none.
-    void point_nearest_sources(std::span<const FacePoint> points, std::span<const float> offsets,
-                               std::span<float> distance, std::span<uint32_t> position);
+    // The same, and fills position[number] with that of the nearest one of the points, NONE for none.
+    void point_nearest_sources(const PointSources& sources, std::span<float> distance,
+                               std::span<uint32_t> position);
 
     // The vertices that are no farther than `radius` from the point.
     std::span<const WithinSweep::Found> point_within(const FacePoint& point, float radius);
@@ -111,9 +110,10 @@ public:
 private:
     void msad(const Sources& sources, float radius, const OverlayMsad::Field& field);
     void msad_from_one(const Sources& sources, float radius, const OverlayMsad::Field& field);
+    void msad_from_several(const Sources& sources, float radius, const OverlayMsad::Field& field);
     PathEnd end_of(const FacePoint& point, PointRow& row);
-    void take_points(std::span<const FacePoint> points, std::span<const float> offsets);
-    void add_point(const FacePoint& point, float offset);
+    void take_points(const PointSources& sources);
+    void add_point(const FacePoint& point, float offset, std::span<const KnownWay> known);
 
     // The first pair of all makes the tables that all pairs need, and the first one of this object its
     // scratch.

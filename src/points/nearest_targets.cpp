@@ -80,7 +80,7 @@ private:
 // targets and the arrays of the source outlive it.
 class TargetSweeps {
 public:
-    TargetSweeps(Query& query, const Query::PointSources& source, const Targets& targets)
+    TargetSweeps(Query& query, const PointSources& source, const Targets& targets)
         : query_(query), source_(source), targets_(targets) {}
 
     // Sweeps from the source until the `count` nearest targets are found, or nothing else can be reached;
@@ -116,7 +116,7 @@ private:
     // As long as a vertex has not been found, only a way that is no longer than what was left out counts.
     float distance_at(uint32_t number) const {
         const float distance = query_.distance_within(number);
-        const Query::KnownWay* const way = Query::known_to(source_.known, number);
+        const KnownWay* const way = known_to(source_.known_from(0), number);
         if (!way || (distance == INFINITE && !(way->length <= query_.nearest_beyond()))) return distance;
         return way->corrected(distance);
     }
@@ -147,7 +147,7 @@ private:
     }
 
     Query& query_;
-    const Query::PointSources source_;
+    const PointSources source_;
     const Targets& targets_;
 };
 

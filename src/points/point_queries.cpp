@@ -26,13 +26,12 @@ SeenAround see_around_any_leaf(const Surface& surface, const SurfacePoint& point
     return see_around(surface, *indexed, std::min(2 * of_polygon, FacePoint::MOST_VERTICES));
 }
 
-// Makes one of all ways from one source, which begin at `begin`, to the same vertex. Keeps them by numbers.
-void merge_ways(std::vector<Query::KnownWay>& ways, size_t begin) {
-    const auto first = ways.begin() + static_cast<std::ptrdiff_t>(begin);
-    std::ranges::sort(first, ways.end(), {}, &Query::KnownWay::number);
-    auto end = first; // of what is merged
-    for (const Query::KnownWay& way : std::span(first, ways.end())) {
-        if (end == first || end[-1].number != way.number) {
+// Makes one of all ways from one source to the same vertex. Keeps them by numbers.
+void merge_ways(std::vector<KnownWay>& ways) {
+    std::ranges::sort(ways, {}, &KnownWay::number);
+    auto end = ways.begin(); // of what is merged
+    for (const KnownWay& way : ways) {
+        if (end == ways.begin() || end[-1].number != way.number) {
             *end++ = way;
             continue;
         }
@@ -169,15 +168,14 @@ PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfaceP
 // vertices beyond their edges and to others that the point sees: sums over tables are of rounded distances,
 // which count where these are short, and the polygon that the index tells of ends at the border of a leaf. Of
 // a vertex that the point does not see, what is known is the line in space.
-void PointQueries::add_known_ways(const SurfacePoint& source, const SeenAround& around, uint32_t position,
-                                  float offset, std::vector<Query::KnownWay>& known) const {
+void PointQueries::add_known_ways(const SurfacePoint& source, const SeenAround& around,
+                                  std::vector<KnownWay>& known) const {
     const Eigen::Vector3d place = position_of(surface_, source);
     const auto add_way = [&](uint32_t vertex, double way) {
         const uint32_t number = number_of(vertex);
         if (number == NONE) return;
         const double chord = (surface_.positions[vertex] - place).norm();
-        known.push_back({position, number, offset + static_cast<float>(std::max(way, chord)),
-                         offset + static_cast<float>(chord)});
+        known.push_back({number, static_cast<float>(std::max(way, chord)), static_cast<float>(chord)});
     };
     const auto add = [&](const SurfacePoint& from, uint32_t vertex, uint32_t face) {
         add_way(vertex, straight_nearby(surface_, from, corner_point(surface_, face, vertex)));
@@ -222,8 +220,7 @@ void PointQueries::add_beyond(const SurfacePoint& source, const SeenAround& arou
 // vertex wrong, too. What was measured differs from its distance by no more than the point is away from the
 // first vertex, and by what a pair is rounded by. So vertices that are far from the point tell little: where
 // these have very many pairs, the first ones of the polygon have to do.
-void PointQueries::add_measured_ways(const FacePoint& point, uint32_t position, float offset,
-                                     std::vector<Query::KnownWay>& known) const {
+void PointQueries::add_measured_ways(const FacePoint& point, std::vector<KnownWay>& known) const {
     constexpr size_t MOST_PAIRS = 512;
     const auto* const overlay = std::get_if<OverlayIndex>(&index_.engine);
     if (!overlay) return;
@@ -233,8 +230,7 @@ void PointQueries::add_measured_ways(const FacePoint& point, uint32_t position, 
         for (const auto& [other, distance] : overlay->measured.of(point.numbers[k])) {
             if (known.size() == most) return;
             const auto apart = static_cast<float>(point.straight[k] + ROUNDING * double{distance});
-            known.push_back(
-                {position, other, offset + (distance + apart), offset + std::max(distance - apart, 0.f)});
+            known.push_back({other, distance + apart, std::max(distance - apart, 0.f)});
         }
     }
 }
@@ -243,19 +239,19 @@ PointQueries::Sources PointQueries::sources_of(std::span<const SurfacePoint> poi
                                                std::span<const float> offsets) const {
     Sources sources{{}, offsets, {}};
     sources.points.reserve(points.size());
-    for (uint32_t i = 0; i < points.size(); ++i) {
-        const float offset = offsets.empty() ? 0 : offsets[i];
-        const size_t begin = sources.known.size();
-        FacePoint& point = sources.points.emplace_back(view_of(points[i]).point);
+    sources.known.reserve(points.size());
+    for (const SurfacePoint& at : points) {
+        FacePoint& point = sources.points.emplace_back(view_of(at).point);
+        std::vector<KnownWay>& known = sources.known.emplace_back();
         if (point.vertex == NONE) {
-            const SeenAround around = unfolds() ? see_around_any_leaf(surface_, points[i]) : SeenAround();
-            add_beyond(points[i], around, point);
-            add_known_ways(points[i], around, i, offset, sources.known);
-            add_measured_ways(point, i, offset, sources.known);
+            const SeenAround around = unfolds() ? see_around_any_leaf(surface_, at) : SeenAround();
+            add_beyond(at, around, point);
+            add_known_ways(at, around, known);
+            add_measured_ways(point, known);
         } else {
-            sources.known.push_back({i, point.vertex, offset, offset});
+            known.push_back({point.vertex, 0, 0});
         }
-        merge_ways(sources.known, begin);
+        merge_ways(known);
     }
     return sources;
 }

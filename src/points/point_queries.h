@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "src/index/point_sources.h"
 #include "src/points/face_points.h"
 #include "src/query/query.h"
 #include "src/surface/surface.h"
@@ -66,16 +67,15 @@ private:
     struct Sources {
         std::vector<FacePoint> points;
         std::span<const float> offsets;
-        std::vector<Query::KnownWay> known;
+        std::vector<std::vector<KnownWay>> known;
 
-        operator Query::PointSources() const { return {points, offsets, known}; }
+        operator PointSources() const { return {points, offsets, known}; }
     };
     Sources sources_of(std::span<const SurfacePoint> points, std::span<const float> offsets) const;
     void add_beyond(const SurfacePoint& source, const SeenAround& around, FacePoint& point) const;
-    void add_known_ways(const SurfacePoint& source, const SeenAround& around, uint32_t position, float offset,
-                        std::vector<Query::KnownWay>& known) const;
-    void add_measured_ways(const FacePoint& point, uint32_t position, float offset,
-                           std::vector<Query::KnownWay>& known) const;
+    void add_known_ways(const SurfacePoint& source, const SeenAround& around,
+                        std::vector<KnownWay>& known) const;
+    void add_measured_ways(const FacePoint& point, std::vector<KnownWay>& known) const;
     bool is_sure(const FacePoint& source, const FacePoint& target, const KnownWays& known,
                  float distance) const;
     KnownWays known_ways(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,

@@ -51,17 +51,18 @@ float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
 // Fills point_field_ with the distances from one point. Where the engine does not answer from it, those from
 // the corners of its face do. A vertex needs no distances within its faces, which metrics of edges do not
 // know.
-void Query::fill_point_field(const FacePoint& point, float offset) {
+void Query::fill_point_field(const FacePoint& point) {
     const uint32_t count = index_.numbering().vertex_count();
     point_field_.resize(count);
     if (point.has_tables()) {
-        auto& field = corner_fields_[0];
-        field.resize(count);
         if (point.vertex != NONE)
-            std::visit([&](auto& engine) { engine.msad({&point.vertex, 1}, INFINITE, field); }, engine_);
+            std::visit(
+                [&](auto& engine) {
+                    engine.msad({&point.vertex, 1}, INFINITE, point_field_);
+                },
+                engine_);
         else
-            std::get<OverlayQuery>(engine_).point_msad({&point, 1}, {}, field);
-        for (uint32_t v = 0; v < count; ++v) point_field_[v] = field[v] + offset;
+            std::get<OverlayQuery>(engine_).point_msad({{&point, 1}}, point_field_);
         return;
     }
     for (size_t k = 0; k < 3; ++k) {
@@ -72,7 +73,7 @@ void Query::fill_point_field(const FacePoint& point, float offset) {
     for (uint32_t v = 0; v < count; ++v) {
         const std::array from_corners{double{corner_fields_[0][v]}, double{corner_fields_[1][v]},
                                       double{corner_fields_[2][v]}};
-        point_field_[v] = static_cast<float>(distance_over(point, from_corners)) + offset;
+        point_field_[v] = static_cast<float>(distance_over(point, from_corners));
     }
 }
 
@@ -114,17 +115,13 @@ void Query::fill_from_points(const PointSources& sources, bool with_nearest) {
     if (!sweep_together(sources)) return fill_by_fields(sources, with_nearest);
     const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
     const float least = take_offsets(sources);
+    const PointSources without_least{sources.points, offsets_, sources.known};
     auto& overlay = std::get<OverlayQuery>(engine_);
     if (with_nearest)
-        overlay.point_nearest_sources(sources.points, offsets_, by_number, nearest_);
+        overlay.point_nearest_sources(without_least, by_number, nearest_);
     else
-        overlay.point_msad(sources.points, offsets_, by_number);
+        overlay.point_msad(without_least, by_number);
     add_to_each(by_number, least);
-    for (const KnownWay& way : sources.known) {
-        float& distance = by_number[way.number];
-        if (with_nearest && way.length < distance) nearest_[way.number] = way.source;
-        distance = sources.corrected(way, distance);
-    }
 }
 
 // Source by source, each with all that is known from it.
@@ -133,12 +130,12 @@ void Query::fill_by_fields(const PointSources& sources, bool with_nearest) {
     std::fill_n(distance_.begin(), count, INFINITE);
     if (with_nearest) std::ranges::fill(nearest_, NONE);
     for (uint32_t i = 0; i < sources.points.size(); ++i) {
-        fill_point_field(sources.points[i], sources.offset(i));
+        fill_point_field(sources.points[i]);
         for (const KnownWay& way : sources.known_from(i))
             point_field_[way.number] = way.corrected(point_field_[way.number]);
         for (uint32_t v = 0; v < count; ++v)
-            if (point_field_[v] < distance_[v]) {
-                distance_[v] = point_field_[v];
+            if (const float whole = sources.offset(i) + point_field_[v]; whole < distance_[v]) {
+                distance_[v] = whole;
                 if (with_nearest) nearest_[v] = i;
             }
     }
@@ -147,7 +144,7 @@ void Query::fill_by_fields(const PointSources& sources, bool with_nearest) {
 void Query::prepare_end(size_t end, const FacePoint& point) {
     end_fields_[end].clear();
     if (takes(point)) return std::get<OverlayQuery>(engine_).prepare_end(end, point);
-    fill_point_field(point, 0);
+    fill_point_field(point);
     end_fields_[end].assign(point_field_.begin(), point_field_.end());
 }
 

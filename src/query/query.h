@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "src/graph/query.h"
+#include "src/index/point_sources.h"
 #include "src/overlay/query.h"
 #include "src/query/ids_of_numbers.h"
 #include "src/query/index.h"
@@ -65,38 +66,6 @@ public:
 
     // Of two points of faces: symmetric bit for bit.
     float point_sssd(const FacePoint& source, const FacePoint& target);
-
-    // What is known of the distance from a source, by its position, to a vertex, by its number: it is no
-    // longer than a way, if one is known, and no shorter than the line in space or another bound.
-    struct KnownWay {
-        uint32_t source, number;
-        float length, least; // both with the offset of the source
-
-        float corrected(float distance) const { return std::min(std::max(distance, least), length); }
-    };
-    // Points as sources. How far a vertex is, is the least of offset(i) + the distance from points[i].
-    struct PointSources {
-        std::span<const FacePoint> points;
-        std::span<const float> offsets;  // as many, or none: then all are 0
-        std::span<const KnownWay> known; // by their sources, then by their numbers, each once
-
-        float offset(size_t i) const { return offsets.empty() ? 0 : offsets[i]; }
-        std::span<const KnownWay> known_from(uint32_t source) const {
-            const auto begin = std::ranges::lower_bound(known, source, {}, &KnownWay::source);
-            return {begin, std::ranges::upper_bound(begin, known.end(), source, {}, &KnownWay::source)};
-        }
-        // Corrects the distance of the way's vertex from the nearest source. How far it is from one of
-        // several at least is no bound for all.
-        float corrected(const KnownWay& way, float distance) const {
-            return points.size() == 1 ? way.corrected(distance) : std::min(distance, way.length);
-        }
-    };
-
-    // What is known of the distance between a source, by all that is known from it, and a vertex, or null.
-    static const KnownWay* known_to(std::span<const KnownWay> from_source, uint32_t number) {
-        const auto way = std::ranges::lower_bound(from_source, number, {}, &KnownWay::number);
-        return way != from_source.end() && way->number == number ? &*way : nullptr;
-    }
 
     // Multiple points, all destinations.
     void point_msad(const PointSources& sources, std::span<float> distances);
@@ -158,7 +127,7 @@ private:
     bool sweep_together(const PointSources& sources) const;
     float vertex_to_point(uint32_t vertex, const FacePoint& point);
     float take_offsets(const PointSources& sources);
-    void fill_point_field(const FacePoint& point, float offset);
+    void fill_point_field(const FacePoint& point);
     void fill_from_points(const PointSources& sources, bool with_nearest);
     void fill_by_fields(const PointSources& sources, bool with_nearest);
     size_t fields_at_once(size_t left) const;

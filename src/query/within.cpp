@@ -49,7 +49,7 @@ std::span<const WithinSweep::Found> Query::found_in(std::span<const float> field
 
 std::span<const WithinSweep::Found> Query::numbers_within(const FacePoint& point, float radius) {
     if (takes(point)) return std::get<OverlayQuery>(engine_).point_within(point, radius);
-    fill_point_field(point, 0);
+    fill_point_field(point);
     return found_in(point_field_, radius);
 }
 
@@ -76,15 +76,17 @@ std::span<const Query::Found> Query::point_within(const PointSources& sources, f
     for (size_t i = 0; i < sources.points.size(); ++i) {
         const float offset = sources.offset(i), swept = radius_without(offset, radius);
         if (swept < 0) continue;
-        const auto known = sources.known_from(static_cast<uint32_t>(i));
+        const auto add = [&](uint32_t number, float distance) {
+            const float whole = offset + distance;
+            if (whole <= radius && whole < INFINITE) ranked_.push_back({whole, number});
+        };
+        const auto known = sources.known_from(i);
         for (const auto& [number, distance] : numbers_within(sources.points[i], swept)) {
             const KnownWay* const way = known_to(known, number);
-            const float whole = way ? way->corrected(offset + distance) : offset + distance;
-            if (whole <= radius && whole < INFINITE) ranked_.push_back({whole, number});
+            add(number, way ? way->corrected(distance) : distance);
         }
+        for (const KnownWay& way : known) add(way.number, way.length);
     }
-    for (const KnownWay& way : sources.known)
-        if (way.length <= radius && way.length < INFINITE) ranked_.push_back({way.length, way.number});
     keep_least();
     replace_numbers();
     std::ranges::sort(ranked_);

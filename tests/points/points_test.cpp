@@ -190,7 +190,7 @@ TEST_CASE("points: fields go over vertices that are seen beyond the leaf") {
         for (size_t v = 0; v < exact.size(); ++v) {
             CHECK(std::abs(double{alone[v]} - exact[v]) <= 0.01 * exact[v]);
             const double least = std::min(exact[v], exact_of_other[v]);
-            CHECK(std::abs(double{both[v]} - least) <= 0.05 * least);
+            CHECK(std::abs(double{both[v]} - least) <= 0.01 * least);
         }
     }
 }

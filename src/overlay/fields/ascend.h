@@ -102,6 +102,24 @@ struct Sources {
         else
             for_each_way_from(index, points[key - vertices], function);
     }
+    // Calls use(way) for those of some vertices whose distances from a source are known besides what tables
+    // say: measured ones of a vertex, and the ways that are known from a point. Without the offset.
+    template <class Use>
+    void for_each_known(const OverlayIndex& index, uint32_t key, uint32_t first, uint32_t end,
+                        const Use& use) const {
+        const uint32_t at = vertex(index.numbering, key);
+        if (at != NONE) {
+            for (const auto& [number, measured] : index.measured.of(at, first, end))
+                use(KnownWay{number, measured, measured});
+            return;
+        }
+        const auto known = points[key - index.numbering.vertex_count()].known;
+        const auto begin = std::ranges::lower_bound(known, first, {}, &KnownWay::number);
+        for (const KnownWay& way : std::span(begin, known.end())) {
+            if (way.number >= end) return;
+            use(way);
+        }
+    }
 };
 
 // Counts how many sources lie inside of each patch. The whole mesh, patch 0, has all of them.

@@ -58,10 +58,12 @@ void OverlayMsad::sweep(const Sources& sources, float radius, const Field& field
                        [&](uint32_t patch, Scratch& scratch) { hop_down(patch, radius, field, scratch); });
     if (!field.source.empty())
         for (uint32_t v = 0; v < numbering_.border_vertex_count(); ++v) field.source[v] = nearest_.nearest(v);
-    take_measured(field);
+    take_known(field);
 }
 
-// Takes the ways that need no hop. Those to border vertices are kept source by source.
+// Takes the ways that need no hop. Those to border vertices are kept source by source. Corrections that make
+// a way shorter come in the end (see take_known), so that one which is no shorter than the latest counts no
+// more.
 void OverlayMsad::begin(const Field& field) {
     nearest_.clear();
     std::ranges::fill(field.distance, INFINITE);
@@ -69,51 +71,52 @@ void OverlayMsad::begin(const Field& field) {
     for (const uint32_t source : sources_.keys)
         sources_.for_each_way(index_, source, [&](uint32_t number, float way) {
             const float whole = way + offset(source);
-            lower_corrected(field, number, {&whole, 1}, source);
+            if (whole < field.distance[number]) lower_corrected(field, number, {&whole, 1}, source);
             if (numbering_.is_border(number)) add_way(number, whole, source);
         });
 }
 
-// Lowers the distances of inner vertices of a patch, which begin at `first`, to those from one source: what
-// was measured where it was, and `found` elsewhere. Border vertices are corrected in the end, since hops read
-// their distances and go on with what tables say.
+// Lowers the distances of inner vertices of a patch, which begin at `first`, to those from one source: those
+// found, corrected by what is known besides. Border vertices are corrected in the end, since hops read their
+// distances and go on with what tables say.
 void OverlayMsad::lower_corrected(const Field& field, uint32_t first, std::span<const float> found,
                                   uint32_t source) const {
     if (numbering_.is_border(first)) return lower(field, first, found, source);
     uint32_t next = first;
     const uint32_t end = first + static_cast<uint32_t>(found.size());
-    for_each_measured(source, first, end, [&](uint32_t number, float measured) {
-        lower(field, next, found.subspan(next - first, number - next), source);
-        lower(field, number, {&measured, 1}, source);
-        next = number + 1;
+    for_each_known(source, first, end, [&](const KnownWay& way) {
+        lower(field, next, found.subspan(next - first, way.number - next), source);
+        const float corrected = way.corrected(found[way.number - first]);
+        lower(field, way.number, {&corrected, 1}, source);
+        next = way.number + 1;
     });
     lower(field, next, found.subspan(next - first), source);
 }
 
-// Corrects border vertices, when no hop reads their distances any more. Then measured distances lower all
+// Corrects border vertices, when no hop reads their distances any more. Then ways that are known lower all
 // others, too, since hops may not have led to them from the same source.
-void OverlayMsad::take_measured(const Field& field) {
+void OverlayMsad::take_known(const Field& field) {
     const uint32_t vertices = numbering_.vertex_count();
     corrected_.clear();
     for (const uint32_t source : sources_.keys)
-        for_each_measured(source, 0, numbering_.border_vertex_count(),
-                          [&](uint32_t number, float) { corrected_.push_back(number); });
+        for_each_known(source, 0, numbering_.border_vertex_count(),
+                       [&](const KnownWay& way) { corrected_.push_back(way.number); });
     std::ranges::sort(corrected_);
     corrected_.erase(std::unique(corrected_.begin(), corrected_.end()), corrected_.end());
     for (const uint32_t border_vertex : corrected_) correct_border_vertex(field, border_vertex);
     for (const uint32_t source : sources_.keys)
-        for_each_measured(source, 0, vertices, [&](uint32_t number, float measured) {
-            lower(field, number, {&measured, 1}, source);
+        for_each_known(source, 0, vertices, [&](const KnownWay& way) {
+            lower(field, way.number, {&way.length, 1}, source);
         });
 }
 
 void OverlayMsad::correct_border_vertex(const Field& field, uint32_t border_vertex) const {
     field.distance[border_vertex] = INFINITE;
-    nearest_.for_each_way(border_vertex, [&](const NearestSources::Way& way) {
-        float distance = way.distance;
-        for_each_measured(way.source, border_vertex, border_vertex + 1,
-                          [&](uint32_t, float measured) { distance = measured; });
-        lower(field, border_vertex, {&distance, 1}, way.source);
+    nearest_.for_each_way(border_vertex, [&](const NearestSources::Way& found) {
+        float distance = found.distance;
+        for_each_known(found.source, border_vertex, border_vertex + 1,
+                       [&](const KnownWay& way) { distance = way.corrected(distance); });
+        lower(field, border_vertex, {&distance, 1}, found.source);
     });
 }
 

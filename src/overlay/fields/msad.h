@@ -13,8 +13,8 @@ namespace geodesic {
 
 // Distances to the nearest of multiple sources, for all destinations over overlay tables, by one sweep up
 // from all sources and one sweep down to all leaves. Each source crosses by itself the borders on which it
-// may be the nearest one. What was measured counts instead of what tables say, source by source. Vertices are
-// given by their numbers.
+// may be the nearest one. What is known besides corrects what tables say, source by source: how far a vertex
+// is from one of several sources at least is no bound for all. Vertices are given by their numbers.
 class OverlayMsad {
 public:
     OverlayMsad(const OverlayIndex& index, std::pmr::memory_resource* memory);
@@ -29,7 +29,7 @@ public:
         std::span<uint32_t> source{};
     };
     // Patches whose whole border is farther than `radius` are skipped, and their vertices stay at infinity,
-    // but for those with measured distances.
+    // but for those that a way is known to.
     void sweep(const Sources& sources, float radius, const Field& field);
 
 private:
@@ -49,18 +49,17 @@ private:
     auto offset_of_sources() const {
         return [this](uint32_t source) { return offset(source); };
     }
-    // Calls use(number, distance) for those of some vertices whose distances from a source were measured.
+    // As Sources has it, with the offset.
     template <class Use>
-    void for_each_measured(uint32_t source, uint32_t first, uint32_t end, const Use& use) const {
-        const uint32_t vertex = sources_.vertex(numbering_, source);
-        if (vertex == NONE) return;
-        for (const auto& [number, measured] : index_.measured.of(vertex, first, end))
-            use(number, measured + offset(source));
+    void for_each_known(uint32_t source, uint32_t first, uint32_t end, const Use& use) const {
+        sources_.for_each_known(index_, source, first, end, [&](const KnownWay& way) {
+            use(KnownWay{way.number, way.length + offset(source), way.least + offset(source)});
+        });
     }
     void begin(const Field& field);
     void lower_corrected(const Field& field, uint32_t first, std::span<const float> found,
                          uint32_t source) const;
-    void take_measured(const Field& field);
+    void take_known(const Field& field);
     void correct_border_vertex(const Field& field, uint32_t border_vertex) const;
     void hop_up(uint32_t child, std::span<float> distance);
     void hop_down(uint32_t patch, float radius, const Field& field, Scratch& scratch);
@@ -73,7 +72,7 @@ private:
     Array<Scratch> of_thread_;
     Array<uint32_t> sources_inside_; // per patch: how many
     NearestSources nearest_;
-    Array<uint32_t> corrected_; // border vertices that have measured distances from any source
+    Array<uint32_t> corrected_; // border vertices of which something is known from any source
     Sources sources_{};         // of the sweep that runs
 };
 

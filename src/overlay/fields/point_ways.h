@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "src/index/face_point.h"
+#include "src/index/point_sources.h"
 #include "src/overlay/tables/tables.h"
 
 namespace geodesic {
@@ -14,7 +14,8 @@ namespace geodesic {
 // as if it were an internal vertex of that leaf itself, and to vertices that it sees beyond its polygon. Ways
 // that bend at one of these, hops from the border of the leaf may miss: they unfold a whole segment from one
 // place. Or a vertex whose field begins with an offset: then `vertex` is set, and there are no distances. The
-// offset is not part of the distances; a sweep from several sources adds it behind each hop.
+// offset is not part of the distances, nor of ways that are known besides; a sweep from several sources adds
+// it behind each hop.
 struct PointWays {
     struct Beyond {
         uint32_t number;
@@ -28,6 +29,7 @@ struct PointWays {
     uint32_t leaf = NONE;  // unless it is a vertex
     Array<float> distance; // border vertices in the order of the border, then internal vertices
     Array<Beyond> beyond;
+    std::span<const KnownWay> known; // which the caller keeps
 };
 
 // A vertex with the place that the tables of a leaf have for it.
