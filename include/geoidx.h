@@ -176,8 +176,8 @@ enum {
     GEOIDX_ENGINE_GRAPH = 0,
     /* Tables of all borders of a patch's children to each other, 16 bits an entry: a query is a fixed
      * sequence of min-plus products. Where the metric is GEOIDX_METRIC_UNFOLDABLE a path may cross a border
-     * between two vertices, the tables are calibrated so that such paths are right on average, and distances
-     * may be a little below the metric's. Building takes time linear in the vertices.
+     * between two vertices, the tables are calibrated so that as many of such paths are too short as are too
+     * long, and distances may be a little below the metric's. Building takes time linear in the vertices.
      * With GEOIDX_METRIC_EXACT, delta 0 and no edge_lengths, an index also holds the metric's own distances
      * of those pairs, of each vertex and the 480 nearest ones, of which tables are off by more than a
      * hundredth, at most four for each vertex or 32,768 in all, whichever is more, the most wrong ones first,

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/base/quartile.h"
+#include "src/base/quantiles.h"
 #include "src/index/positions.h"
 
 namespace geodesic {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "src/base/quartile.h"
+#include "src/base/quantiles.h"
 #include "src/overlay/tables/codes.h"
 
 namespace geodesic {

@@ -7,7 +7,7 @@
 
 namespace geodesic::test {
 
-inline constexpr double ROUNDING = 2e-4; // of measured distances, and of what they are compared with
+inline constexpr double MEASURED_ROUNDING = 2e-4; // of measured distances, and of what they are compared with
 
 // Relative errors beside the metric.
 struct Errors {

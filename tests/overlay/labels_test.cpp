@@ -254,7 +254,7 @@ TEST_CASE("labels: on a plane, straight lines that cross borders between vertice
         const uint64_t count =
             for_each_label(made, [&](uint32_t border, uint32_t inner, double label, double tolerance) {
                 const double line = made.mesh.straight(made.ids[border], made.ids[inner]);
-                // What is calibrated is shortened by its mean error.
+                // What is calibrated is shortened by its median error.
                 too_short += label < line * 0.97 - tolerance;
                 sum += std::abs(label - line) / line;
             });
