@@ -281,7 +281,7 @@ TEST_CASE("kept mesh: each small mesh, also where vertices are added") {
         CAPTURE(named.name);
         const TestMesh& mesh = named.mesh;
         check_kept(mesh.view(), GEOIDX_ENGINE_OVERLAY);
-        if (SANITIZED && mesh.vertex_count() > 200) continue; // five rounds of added vertices take long
+        if (SANITIZED && mesh.vertex_count() > 100) continue; // five rounds of added vertices take long
         auto options = keeping_options();
         options.target_error = 1e-9;
         const auto index = shared_index(mesh, options);
