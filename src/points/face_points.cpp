@@ -108,7 +108,7 @@ PointView view_from(const Index& index, const Surface& surface, const SurfacePoi
     if (point.leaf == NONE || point.vertex != NONE) return view;
     if (const auto indexed = indexed_point(surface, at))
         see_farther(surface, *indexed, FacesOfLeaf(index, surface, point.leaf),
-                    vertices_of_polygon(surface, indexed_corners(surface, indexed->face)), view.point,
+                    most_vertices_of_polygon(surface, indexed_corners(surface, indexed->face)), view.point,
                     view.seen);
     return view;
 }

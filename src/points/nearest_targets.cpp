@@ -162,7 +162,7 @@ std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& sour
     if (count == 0) return {};
     const auto least = least_possible(surface_, source, targets);
     const uint64_t vertex_pairs_per_pair =
-        vertices_of_polygon(surface_, surface_.faces[source.face]) / VERTICES_PER_PAIR;
+        most_vertices_of_polygon(surface_, surface_.faces[source.face]) / VERTICES_PER_PAIR;
     if (query_.targets_are_few(targets.size(), count, vertex_pairs_per_pair)) {
         Nearest nearest(count);
         for (const auto& [line, i] : least) {
@@ -179,9 +179,9 @@ std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& sour
         count, least, [&](uint32_t i) { return view_of(targets[i]); },
         [&](uint32_t i, const PointView& to, float by_vertices) {
             if (from.point.vertex != NONE && to.point.vertex != NONE) return by_vertices;
-            const KnownWays known = known_ways(source, from, targets[i], to, by_vertices);
-            const float distance = known.corrected(by_vertices);
-            if (is_sure(from.point, to.point, known, distance)) return distance;
+            const WaysBetween ways = ways_between(source, from, targets[i], to, by_vertices);
+            const float distance = ways.corrected(by_vertices);
+            if (is_sure(from.point, to.point, ways, distance)) return distance;
             const auto [asked, is_new] = of_pairs.try_emplace(i);
             if (is_new) asked->second = of_pair(i);
             return asked->second;

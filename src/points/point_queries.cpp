@@ -22,7 +22,7 @@ namespace {
 SeenAround see_around_any_leaf(const Surface& surface, const SurfacePoint& point) {
     const auto indexed = vertex_at(surface, point) == NONE ? indexed_point(surface, point) : std::nullopt;
     if (!indexed) return {};
-    const size_t of_polygon = vertices_of_polygon(surface, indexed_corners(surface, indexed->face));
+    const size_t of_polygon = most_vertices_of_polygon(surface, indexed_corners(surface, indexed->face));
     return see_around(surface, *indexed, std::min(2 * of_polygon, FacePoint::MOST_VERTICES));
 }
 
@@ -77,7 +77,7 @@ PointView PointQueries::view_of(const SurfacePoint& at, const FacePoint& point) 
 // No way is shorter than the straight line in space. The straight line over the faces counts even where
 // tables, to their accuracy, say that there is a shorter way. Much shorter ways are there: around a needle
 // that stands between two faces. Where a polygon has both points in it, a table's rounded distance says less.
-float KnownWays::corrected(float distance) const {
+float WaysBetween::corrected(float distance) const {
     constexpr float SHORTER = 0.99f, MUCH_SHORTER = 0.95f;
     if (is_shortest) return straight;
     if (!(distance < SHORTER * seen)) distance = seen;
@@ -86,28 +86,29 @@ float KnownWays::corrected(float distance) const {
 }
 
 // What surface and views tell of a pair that is this far by tables.
-KnownWays PointQueries::known_ways(const SurfacePoint& source, const PointView& from,
-                                   const SurfacePoint& target, const PointView& to, float distance) const {
-    KnownWays known;
+WaysBetween PointQueries::ways_between(const SurfacePoint& source, const PointView& from,
+                                       const SurfacePoint& target, const PointView& to,
+                                       float distance) const {
+    WaysBetween ways;
     if (is_same_point(surface_, source, target)) {
-        known.straight = 0;
-        known.is_shortest = true;
-        return known;
+        ways.straight = 0;
+        ways.is_shortest = true;
+        return ways;
     }
     if (unfolds()) {
-        known.straight = static_cast<float>(
+        ways.straight = static_cast<float>(
             std::min(straight_nearby(surface_, source, target), straight_in_plane(surface_, source, target)));
-        known.is_shortest = source.face == target.face && known.straight < INFINITE;
-        if (known.is_shortest) return known;
-        known.seen = static_cast<float>(
+        ways.is_shortest = source.face == target.face && ways.straight < INFINITE;
+        if (ways.is_shortest) return ways;
+        ways.seen = static_cast<float>(
             std::min(from.seen.straight_to(surface_, target), to.seen.straight_to(surface_, source)));
     }
-    known.line = static_cast<float>((position_of(surface_, source) - position_of(surface_, target)).norm());
-    known.other = static_cast<float>(way_around_corner(source, target));
-    if (unfolds() && known.seen == INFINITE && known.straight == INFINITE)
-        known.other = std::min(known.other, static_cast<float>(straight_way_of_near(
-                                                source, target, std::min(distance, known.other))));
-    return known;
+    ways.line = static_cast<float>((position_of(surface_, source) - position_of(surface_, target)).norm());
+    ways.other = static_cast<float>(way_around_corner(source, target));
+    if (unfolds() && ways.seen == INFINITE && ways.straight == INFINITE)
+        ways.other = std::min(ways.other, static_cast<float>(straight_way_of_near(
+                                              source, target, std::min(distance, ways.other))));
+    return ways;
 }
 
 // The length of a way around a corner that the faces of two points share, or over it. Tables of an index
@@ -135,11 +136,10 @@ double PointQueries::straight_way_of_near(const SurfacePoint& source, const Surf
 // Whether the distance that tables tell, with ways that are known besides, needs no search for a path. A
 // search asks for distances that points without tables, and the graph engine, have by whole fields only:
 // there the distance has to do.
-bool PointQueries::is_sure(const FacePoint& source, const FacePoint& target, const KnownWays& known,
+bool PointQueries::is_sure(const FacePoint& source, const FacePoint& target, const WaysBetween& ways,
                            float distance) const {
     constexpr double FEW_EDGES = 4;
-    if (known.is_shortest || distance == INFINITE || !source.has_tables() || !target.has_tables())
-        return true;
+    if (ways.is_shortest || distance == INFINITE || !source.has_tables() || !target.has_tables()) return true;
     if (!unfolds() || std::holds_alternative<GraphIndex>(index_.engine)) return true;
     // Pairs of vertices that tables have wrong are measured, so that only edges around points that are at no
     // vertex count. Where these are short for the mesh, its average edge does, of which tables round to a
@@ -158,10 +158,10 @@ PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfaceP
     const PointView from = have_tables ? view_of(source, first) : PointView(first),
                     to = have_tables ? view_of(target, second) : PointView(second);
     const float by_tables = query_.point_sssd(from.point, to.point);
-    const KnownWays known = known_ways(source, from, target, to, by_tables);
-    const float distance = known.corrected(by_tables);
-    if (is_sure(from.point, to.point, known, distance)) return {distance};
-    return {distance, false, known.corrected(INFINITE)};
+    const WaysBetween ways = ways_between(source, from, target, to, by_tables);
+    const float distance = ways.corrected(by_tables);
+    if (is_sure(from.point, to.point, ways, distance)) return {distance};
+    return {distance, false, ways.corrected(INFINITE)};
 }
 
 // To the corners of the face and, if the metric unfolds, to those of all faces that the point lies in, to the

@@ -12,7 +12,7 @@
 namespace geodesic {
 
 // Lengths of ways between two points, infinite where none is known.
-struct KnownWays {
+struct WaysBetween {
     float straight = INFINITE; // over faces that are known to lie between
     float seen = INFINITE;     // straight over the polygons of the points
     float other = INFINITE;    // of any kind
@@ -76,10 +76,10 @@ private:
     void add_known_ways(const SurfacePoint& source, const SeenAround& around,
                         std::vector<KnownWay>& known) const;
     void add_measured_ways(const FacePoint& point, std::vector<KnownWay>& known) const;
-    bool is_sure(const FacePoint& source, const FacePoint& target, const KnownWays& known,
+    bool is_sure(const FacePoint& source, const FacePoint& target, const WaysBetween& ways,
                  float distance) const;
-    KnownWays known_ways(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
-                         const PointView& to, float distance) const;
+    WaysBetween ways_between(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
+                             const PointView& to, float distance) const;
     double way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const;
     double straight_way_of_near(const SurfacePoint& source, const SurfacePoint& target, float distance) const;
 

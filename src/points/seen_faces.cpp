@@ -322,7 +322,7 @@ SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t mos
     return around;
 }
 
-size_t vertices_of_polygon(const Surface& surface, const std::array<uint32_t, 3>& corners) {
+size_t most_vertices_of_polygon(const Surface& surface, const std::array<uint32_t, 3>& corners) {
     constexpr uint32_t FEW_EDGES_ACROSS = 5;
     const double across = edges_across(surface, corners);
     if (across < FEW_EDGES_ACROSS) return 96;
