@@ -14,7 +14,7 @@ namespace {
 // where triangles are long and narrow, far more lie within a few average edges.
 constexpr double SEARCHED_EDGES = 11;
 constexpr size_t MOST_SEARCHED = 1024; // vertices
-constexpr size_t SOURCES_AT_ONCE = 16; // which share a query
+constexpr size_t SOURCES_OF_TASK = 16; // which share a query
 
 }
 
@@ -185,9 +185,9 @@ void NearSearch::add_first_sources(const NearEffort& effort, Random& random, Wor
 
 std::vector<double> NearSearch::disagreements(std::span<const uint32_t> sources, Workers& workers) const {
     std::vector<double> result(sources.size());
-    workers.run((sources.size() + SOURCES_AT_ONCE - 1) / SOURCES_AT_ONCE, [&](FieldSolver&, size_t task) {
+    workers.run((sources.size() + SOURCES_OF_TASK - 1) / SOURCES_OF_TASK, [&](FieldSolver&, size_t task) {
         Answers answers(*this);
-        const size_t begin = task * SOURCES_AT_ONCE, end = std::min(begin + SOURCES_AT_ONCE, sources.size());
+        const size_t begin = task * SOURCES_OF_TASK, end = std::min(begin + SOURCES_OF_TASK, sources.size());
         for (size_t i = begin; i < end; ++i) {
             answers.set_source(sources[i]);
             result[i] = answers.disagreement();
@@ -228,12 +228,12 @@ void NearSearch::add_source(uint32_t vertex) {
 
 void NearSearch::compare_new_sources(Workers& workers) {
     const auto fresh = std::span(sources_).subspan(compared_);
-    const size_t tasks = (fresh.size() + SOURCES_AT_ONCE - 1) / SOURCES_AT_ONCE;
+    const size_t tasks = (fresh.size() + SOURCES_OF_TASK - 1) / SOURCES_OF_TASK;
     std::vector<ErrorsByDistance> errors(tasks, ErrorsByDistance(average_edge_));
     workers.run(tasks, [&](FieldSolver& solver, size_t task) {
         Comparison comparison(*this, solver);
-        const size_t begin = task * SOURCES_AT_ONCE;
-        for (Source& source : fresh.subspan(begin, std::min(SOURCES_AT_ONCE, fresh.size() - begin)))
+        const size_t begin = task * SOURCES_OF_TASK;
+        for (Source& source : fresh.subspan(begin, std::min(SOURCES_OF_TASK, fresh.size() - begin)))
             comparison.compare(source);
         errors[task] = comparison.errors();
     });

@@ -15,8 +15,7 @@ namespace geodesic {
 
 namespace {
 
-constexpr uint64_t MOST_DISTANCES = uint64_t{1} << 32; // in all fields that are looked at
-constexpr size_t FIELDS_OF_LOOK = FieldLowering::FIELDS_AT_ONCE;
+constexpr uint64_t MOST_DISTANCES = uint64_t{1} << 32;                 // in all fields that are looked at
 constexpr size_t FEWEST_BATCHES_OF_TASK = 4, MOST_TASKS_OF_LOOK = 256; // batches of a task share a query
 
 // All edges of the mesh by the numbers of their ends, in ascending order, each with its limit. Those of no
@@ -61,20 +60,20 @@ private:
 
     // Notes the edges along which fields from these sources are steep. Returns the sources that have any.
     std::vector<uint32_t> look_from(const std::vector<uint32_t>& sources) {
-        const size_t batches = (sources.size() + FIELDS_OF_LOOK - 1) / FIELDS_OF_LOOK,
+        const size_t batches = (sources.size() + FIELDS_AT_ONCE - 1) / FIELDS_AT_ONCE,
                      of_task = std::max(FEWEST_BATCHES_OF_TASK, batches / MOST_TASKS_OF_LOOK + 1);
-        std::vector<uint8_t> has_steep_edges(batches * FIELDS_OF_LOOK, 0);
+        std::vector<uint8_t> has_steep_edges(batches * FIELDS_AT_ONCE, 0);
         workers_.begin_half_of_stage("accuracy", end_fraction_);
         workers_.run((batches + of_task - 1) / of_task, [&](FieldSolver&, size_t task) {
             OverlayQuery query(index_, std::pmr::get_default_resource());
-            std::vector<float> fields(FIELDS_OF_LOOK * index_.numbering.vertex_count());
+            std::vector<float> fields(FIELDS_AT_ONCE * index_.numbering.vertex_count());
             for (size_t b = task * of_task; b < std::min((task + 1) * of_task, batches); ++b) {
                 workers_.check_cancelled();
-                std::array<uint32_t, FIELDS_OF_LOOK> batch; // the last source is repeated
-                for (size_t i = 0; i < FIELDS_OF_LOOK; ++i)
-                    batch[i] = sources[std::min(b * FIELDS_OF_LOOK + i, sources.size() - 1)];
+                std::array<uint32_t, FIELDS_AT_ONCE> batch; // the last source is repeated
+                for (size_t i = 0; i < FIELDS_AT_ONCE; ++i)
+                    batch[i] = sources[std::min(b * FIELDS_AT_ONCE + i, sources.size() - 1)];
                 query.ssad_each(batch, fields);
-                note_steep_edges(fields, has_steep_edges.data() + b * FIELDS_OF_LOOK);
+                note_steep_edges(fields, has_steep_edges.data() + b * FIELDS_AT_ONCE);
             }
         });
         std::vector<uint32_t> with_steep_edges;
@@ -86,11 +85,11 @@ private:
     void note_steep_edges(const std::vector<float>& fields, uint8_t* has_steep_edges) {
         for (size_t e = 0; e < edges_.size(); ++e) {
             const auto& [first, second, limit] = edges_[e];
-            const float *a = fields.data() + first * FIELDS_OF_LOOK,
-                        *b = fields.data() + second * FIELDS_OF_LOOK;
+            const float *a = fields.data() + first * FIELDS_AT_ONCE,
+                        *b = fields.data() + second * FIELDS_AT_ONCE;
             if (!FieldLowering::is_steep(a, b, limit)) continue;
             is_found_[e].store(true, std::memory_order_relaxed);
-            for (size_t i = 0; i < FIELDS_OF_LOOK; ++i)
+            for (size_t i = 0; i < FIELDS_AT_ONCE; ++i)
                 if (a[i] + limit < b[i] || b[i] + limit < a[i]) has_steep_edges[i] = 1;
         }
     }

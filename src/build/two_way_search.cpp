@@ -11,8 +11,7 @@ namespace geodesic {
 
 namespace {
 
-constexpr size_t AT_ONCE = OverlayQuery::FIELDS_AT_ONCE;
-constexpr size_t FIELDS_OF_TASK = 8 * AT_ONCE, PAIRS_OF_TASK = 4096; // which share a query
+constexpr size_t FIELDS_OF_TASK = 8 * FIELDS_AT_ONCE, PAIRS_OF_TASK = 4096; // which share a query
 constexpr double LOOKED_BEYOND = 1.05; // how far a source looks beyond the pair that it was chosen for
 constexpr size_t WORST = 16;           // pairs around which the search goes on
 constexpr size_t FAR = DISTANCE_CLASSES - 1;
@@ -88,25 +87,25 @@ void TwoWaySearch::fill_answers(Workers& workers) {
     const auto& overlay = std::get<OverlayIndex>(index_.engine);
     workers.run(task_count(count, FIELDS_OF_TASK), [&](FieldSolver&, size_t task) {
         OverlayQuery query(overlay, std::pmr::get_default_resource());
-        std::vector<float> fields(AT_ONCE * overlay.numbering.vertex_count());
+        std::vector<float> fields(FIELDS_AT_ONCE * overlay.numbering.vertex_count());
         const size_t end = std::min((task + 1) * FIELDS_OF_TASK, count);
-        for (size_t first = task * FIELDS_OF_TASK; first < end; first += AT_ONCE) {
+        for (size_t first = task * FIELDS_OF_TASK; first < end; first += FIELDS_AT_ONCE) {
             workers.check_cancelled();
-            std::array<uint32_t, AT_ONCE> batch; // the last one is repeated
-            for (size_t i = 0; i < AT_ONCE; ++i) batch[i] = numbers[std::min(first + i, end - 1)];
+            std::array<uint32_t, FIELDS_AT_ONCE> batch; // the last one is repeated
+            for (size_t i = 0; i < FIELDS_AT_ONCE; ++i) batch[i] = numbers[std::min(first + i, end - 1)];
             query.ssad_each(batch, fields);
-            const size_t fields_end = std::min(first + AT_ONCE, end);
+            const size_t fields_end = std::min(first + FIELDS_AT_ONCE, end);
             for (size_t to = 0; to < count; ++to)
                 for (size_t from = first; from < fields_end; ++from)
-                    answers_[from * count + to] = fields[numbers[to] * AT_ONCE + from - first];
+                    answers_[from * count + to] = fields[numbers[to] * FIELDS_AT_ONCE + from - first];
         }
     });
 }
 
 std::vector<TwoWaySearch::Differences> TwoWaySearch::differences_of_directions(Workers& workers) const {
     std::vector<Differences> largest(vertices_.size());
-    workers.run(task_count(largest.size(), AT_ONCE), [&](FieldSolver&, size_t task) {
-        find_largest(task * AT_ONCE, std::min((task + 1) * AT_ONCE, largest.size()), largest);
+    workers.run(task_count(largest.size(), FIELDS_AT_ONCE), [&](FieldSolver&, size_t task) {
+        find_largest(task * FIELDS_AT_ONCE, std::min((task + 1) * FIELDS_AT_ONCE, largest.size()), largest);
     });
     return largest;
 }

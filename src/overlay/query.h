@@ -97,8 +97,7 @@ public:
 
     // Fills distances[number * FIELDS_AT_ONCE + i] with the distance from the i-th of FIELDS_AT_ONCE sources.
     // For fewer than FEWEST_AT_ONCE different ones it is faster to call msad() for each.
-    static constexpr size_t FIELDS_AT_ONCE = OverlaySsad::MOST_FIELDS, FEWEST_AT_ONCE = 8;
-    static_assert(FIELDS_AT_ONCE == FieldLowering::FIELDS_AT_ONCE);
+    static constexpr size_t FEWEST_AT_ONCE = 8;
     void ssad_each(std::span<const uint32_t> sources, std::span<float> distances) {
         batch_.sweep(sources, INFINITE, distances);
         for (size_t i = 0; i < sources.size(); ++i)

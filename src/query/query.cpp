@@ -176,7 +176,7 @@ void Query::set_threads(uint32_t count) {
 // How many fields are best swept together, if so many are left.
 size_t Query::fields_at_once(size_t left) const {
     return left >= OverlayQuery::FEWEST_AT_ONCE && std::holds_alternative<OverlayQuery>(engine_)
-               ? std::min(OverlayQuery::FIELDS_AT_ONCE, left)
+               ? std::min(FIELDS_AT_ONCE, left)
                : 1;
 }
 
@@ -212,7 +212,7 @@ Query::FieldsByNumber Query::fields_from(std::span<const uint32_t> source_ids) {
         fields.stride = 1;
         return fields;
     }
-    fields.stride = OverlayQuery::FIELDS_AT_ONCE;
+    fields.stride = FIELDS_AT_ONCE;
     sources_.resize(fields.stride, sources_.back()); // the last source is repeated
     distance_.resize(fields.stride * index_.numbering().vertex_count());
     std::get<OverlayQuery>(engine_).ssad_each(sources_, distance_);

@@ -103,7 +103,7 @@ private:
     struct FieldsByNumber {
         const float* distances;
         size_t stride;
-        std::array<uint32_t, OverlayQuery::FIELDS_AT_ONCE> lane; // per source
+        std::array<uint32_t, FIELDS_AT_ONCE> lane; // per source
 
         float at(size_t source, uint32_t number) const {
             return number == NONE || lane[source] == NONE ? INFINITE
@@ -150,7 +150,7 @@ private:
     void rank_by_sweeps(uint32_t source, std::span<const uint32_t> target_ids, size_t count);
     class TargetsAtNumbers;
     void write_by_id(std::span<float> field) const;
-    using SideBySide = std::array<float*, OverlayQuery::FIELDS_AT_ONCE>;
+    using SideBySide = std::array<float*, FIELDS_AT_ONCE>;
     void write_by_id(const SideBySide& fields) const;
 
     const Index& index_;

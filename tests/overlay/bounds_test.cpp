@@ -56,7 +56,7 @@ TEST_CASE("bounds: a source alone has the answers that it has in a batch, which 
     const OverlayOf built(mesh_of_long_borders(), options_of_plane(mesh_of_long_borders(), {2, 2, 3}));
     const OverlayIndex& index = built.overlay();
     const auto memory = std::pmr::get_default_resource();
-    const size_t count = index.numbering.vertex_count(), fields = OverlaySsad::MOST_FIELDS;
+    const size_t count = index.numbering.vertex_count(), fields = FIELDS_AT_ONCE;
     OverlaySsad one(index, memory), batch(index, memory, fields);
     std::vector<uint32_t> sources;
     for (size_t i = 0; i < fields; ++i)

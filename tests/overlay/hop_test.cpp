@@ -23,8 +23,6 @@ struct Field {
     std::vector<float> distance; // by number
 };
 
-constexpr size_t AT_ONCE = InnerSweep::MOST_SOURCES;
-
 struct Built {
     TestMesh mesh;
     OverlayOf built;
@@ -46,15 +44,15 @@ struct Built {
         const auto ids = ids_by_number(built.index);
         const auto metric = solver(mesh, options);
         const auto vertices = static_cast<uint32_t>(ids.size());
-        for (uint32_t i = 0; i < 2 * AT_ONCE; ++i) {
-            const uint32_t source = i * vertices / (2 * AT_ONCE);
+        for (uint32_t i = 0; i < 2 * FIELDS_AT_ONCE; ++i) {
+            const uint32_t source = i * vertices / (2 * FIELDS_AT_ONCE);
             const auto by_id = metric_distances(metric.get(), ids[source], mesh.vertex_count());
             Field field{source, {}};
             for (const uint32_t id : ids) field.distance.push_back(static_cast<float>(by_id[id]));
             fields.push_back(field);
         }
         for (const float farther : {INFINITE, 1000.f})
-            for (uint32_t i = 0; i < AT_ONCE; ++i) add_farther_in_parts(fields[2 * i], farther);
+            for (uint32_t i = 0; i < FIELDS_AT_ONCE; ++i) add_farther_in_parts(fields[2 * i], farther);
     }
 
     // The field once more, with parts of all borders out of reach, or farther than all steps.
@@ -268,27 +266,28 @@ Tally hop_down(const Built& built) {
     return tally;
 }
 
-// From AT_ONCE sources side by side, some of which may not reach the border.
+// From FIELDS_AT_ONCE sources side by side, some of which may not reach the border.
 Tally hop_down_at_once(const Built& built) {
     const Numbering& numbering = built.numbering();
-    InnerSweep sweep(built.overlay(), AT_ONCE, std::pmr::get_default_resource());
+    InnerSweep sweep(built.overlay(), FIELDS_AT_ONCE, std::pmr::get_default_resource());
     Tally tally;
-    for (size_t first = 0; first < built.fields.size(); first += AT_ONCE) {
+    for (size_t first = 0; first < built.fields.size(); first += FIELDS_AT_ONCE) {
         std::vector<float> distances;
         for (uint32_t v = 0; v < numbering.vertex_count(); ++v)
-            for (size_t i = 0; i < AT_ONCE; ++i) distances.push_back(built.fields[first + i].distance[v]);
+            for (size_t i = 0; i < FIELDS_AT_ONCE; ++i)
+                distances.push_back(built.fields[first + i].distance[v]);
         for (uint32_t patch = 1; patch < numbering.patch_count(); ++patch) {
             const StoredBorder border = built.tables.border(patch);
             const auto rows = rows_down(built, patch);
             const auto middles = middles_down(built, patch);
             if (!sweep.begin(patch, distances.data())) continue;
             const auto answers = sweep.cross();
-            REQUIRE(answers.size() == rows.size() * AT_ONCE);
-            for (size_t i = 0; i < AT_ONCE; ++i) {
+            REQUIRE(answers.size() == rows.size() * FIELDS_AT_ONCE);
+            for (size_t i = 0; i < FIELDS_AT_ONCE; ++i) {
                 const PlainHop plain =
                     plain_hop(border, built.fields[first + i], built.tables.quantum(patch));
                 for (size_t r = 0; r < rows.size(); ++r)
-                    tally.add(plain.over_middles(rows[r], middles[r]), answers[r * AT_ONCE + i]);
+                    tally.add(plain.over_middles(rows[r], middles[r]), answers[r * FIELDS_AT_ONCE + i]);
             }
         }
     }
@@ -428,10 +427,10 @@ TEST_CASE("hop: over segments of any length, every distance is written") {
         std::ranges::fill(stored.segments.length, length);
         const Built built(whole.mesh, options_of(GEOIDX_METRIC_EXACT, {3, 3}), stored);
         InnerSweep one(built.overlay(), 1, std::pmr::get_default_resource()),
-            several(built.overlay(), AT_ONCE, std::pmr::get_default_resource());
+            several(built.overlay(), FIELDS_AT_ONCE, std::pmr::get_default_resource());
         std::vector<float> side_by_side;
         for (uint32_t v = 0; v < built.numbering().vertex_count(); ++v)
-            for (size_t i = 0; i < AT_ONCE; ++i)
+            for (size_t i = 0; i < FIELDS_AT_ONCE; ++i)
                 side_by_side.push_back(i % 3 == 0 ? INFINITE : built.fields[i].distance[v]);
         uint64_t wrong = 0, unreached = 0;
         const auto check = [&](InnerSweep& sweep, size_t sources, uint32_t patch, const float* distances) {
@@ -445,7 +444,7 @@ TEST_CASE("hop: over segments of any length, every distance is written") {
         };
         for (uint32_t patch = 1; patch < built.numbering().patch_count(); ++patch) {
             for (const Field& field : built.fields) check(one, 1, patch, field.distance.data());
-            check(several, AT_ONCE, patch, side_by_side.data());
+            check(several, FIELDS_AT_ONCE, patch, side_by_side.data());
         }
         CHECK(wrong == 0);
         CHECK(unreached > 100);

@@ -15,7 +15,7 @@ using namespace geodesic::test;
 
 namespace {
 
-constexpr size_t SOURCES = Kernels::SOURCES, BLOCK = SourceCode::BLOCK;
+constexpr size_t BLOCK = SourceCode::BLOCK;
 
 // The distances of one source from the places of a border.
 using Distances = std::vector<float>;
@@ -44,7 +44,7 @@ Codes codes_of_crossing(const Kernels& kernels, const Distances& distances, floa
 }
 
 // Segments are gaps, so that the middles of none are nearer than the places. `all` has as many sources as it
-// has entries, 1 or SOURCES.
+// has entries, 1 or FIELDS_AT_ONCE.
 std::vector<Codes> codes_of_sweep(const Kernels& kernels, const std::vector<Distances>& all, float quantum) {
     const size_t count = all.size(), places = all[0].size();
     const size_t room = (SourceCode::whole_blocks(places) + BLOCK) * count;
@@ -59,7 +59,7 @@ std::vector<Codes> codes_of_sweep(const Kernels& kernels, const std::vector<Dist
     std::vector<Codes> codes(count, Codes(places));
     for (size_t i = 0; i < count; ++i)
         for (size_t k = 0; k < places; ++k) // of several sources, two places lie side by side
-            codes[i][k] = count == 1 ? code[k] : code[k / 2 * 2 * SOURCES + 2 * i + k % 2];
+            codes[i][k] = count == 1 ? code[k] : code[k / 2 * 2 * FIELDS_AT_ONCE + 2 * i + k % 2];
     return codes;
 }
 
@@ -73,7 +73,7 @@ uint64_t count_different(const std::vector<Distances>& all, float quantum, int m
     };
     for (const Kernels& kernels : runnable_kernels()) {
         const auto of_each = codes_of_sweep(kernels, all, quantum);
-        for (size_t i = 0; i < SOURCES; ++i) {
+        for (size_t i = 0; i < FIELDS_AT_ONCE; ++i) {
             const Codes expected = codes_by_scalars(all[i], quantum);
             compare(of_each[i], expected);
             compare(codes_of_sweep(kernels, {all[i]}, quantum)[0], expected);
@@ -92,8 +92,8 @@ TEST_CASE(
     // is rounded up.
     for (const float quantum : {0x1p-9f, 1.f, 0x1p7f})
         for (size_t places : {5u, 16u, 33u, 64u, 77u}) {
-            std::vector<Distances> all(SOURCES, Distances(places));
-            for (size_t i = 0; i < SOURCES; ++i) {
+            std::vector<Distances> all(FIELDS_AT_ONCE, Distances(places));
+            for (size_t i = 0; i < FIELDS_AT_ONCE; ++i) {
                 const auto nearest = static_cast<float>(i * 3);
                 for (float& distance : all[i])
                     distance = (nearest + static_cast<float>(random() % (32000 * 64)) / 64) * quantum;
@@ -122,14 +122,14 @@ TEST_CASE(
 TEST_CASE("rounding: vectors and StepsOf are at most one step apart, wherever the nearest place is") {
     std::mt19937 random(12);
     std::uniform_real_distribution<float> anywhere(1, 2000);
-    std::vector<Distances> all(SOURCES, Distances(70));
+    std::vector<Distances> all(FIELDS_AT_ONCE, Distances(70));
     for (Distances& distances : all)
         for (float& distance : distances) distance = anywhere(random);
     CHECK(count_different(all, 0.37f, 1) == 0);
 }
 
 TEST_CASE("rounding: a quantum of 0, and one whose inverse is not finite") {
-    std::vector<Distances> all(SOURCES, Distances(40, 1.f));
+    std::vector<Distances> all(FIELDS_AT_ONCE, Distances(40, 1.f));
     for (Distances& distances : all) {
         distances[3] = 0;
         distances[7] = INFINITE;

@@ -13,8 +13,6 @@ using namespace geodesic::test;
 
 namespace {
 
-constexpr size_t SWEPT_SOURCES = Kernels::SOURCES;
-
 // A border in the plane, with a gap here and there, sources below it and targets above.
 struct Plane {
     Plane(std::vector<Point> line, std::vector<Point> above)
@@ -113,7 +111,7 @@ std::vector<float> sweep(const Kernels& kernels, const Plane& plane, size_t firs
     std::vector<int16_t> strides(SourceCode::whole_blocks(places), 0);
     for (size_t k = 0; k < places; ++k) strides[k] = plane.stride(k);
     const BorderDistances border{places, from.data(), plane.length.data(), strides.data(), plane.quantum};
-    std::array<float, SWEPT_SOURCES> nearest{};
+    std::array<float, FIELDS_AT_ONCE> nearest{};
     std::vector<int16_t> bound(InnerBounds::blocks(places), -77);
     const std::vector<uint16_t> bounds = bounds_of(plane);
     const BorderCodes codes{code.data(), middle.data(), nearest.data(), bound.data()};
@@ -137,14 +135,14 @@ std::vector<float> sweep_every_way(const Plane& plane) {
     uint64_t different = 0;
     for (const Kernels& kernels : runnable_kernels()) {
         CAPTURE(kernels.name);
-        const auto each = sweep(kernels, plane, 0, SWEPT_SOURCES);
+        const auto each = sweep(kernels, plane, 0, FIELDS_AT_ONCE);
         if (first.empty()) first = each;
         CHECK(std::memcmp(first.data(), each.data(), each.size() * sizeof(float)) == 0);
-        for (size_t i = 0; i < SWEPT_SOURCES; ++i) {
+        for (size_t i = 0; i < FIELDS_AT_ONCE; ++i) {
             const auto alone = sweep(kernels, plane, i, 1), bounded = sweep(kernels, plane, i, 1, true);
             for (size_t r = 0; r < rows; ++r)
                 for (const float distance : {alone[r], bounded[r]})
-                    different += std::memcmp(&distance, &each[r * SWEPT_SOURCES + i], sizeof(float)) != 0;
+                    different += std::memcmp(&distance, &each[r * FIELDS_AT_ONCE + i], sizeof(float)) != 0;
         }
     }
     CHECK(different == 0);
@@ -156,15 +154,15 @@ Plane random_plane(size_t places, size_t targets, std::mt19937& random) {
     std::vector<Point> above;
     for (size_t i = 0; i < targets; ++i) above.push_back({along(random), off(random)});
     Plane plane(line_of(places, random), above);
-    for (size_t i = 0; i < SWEPT_SOURCES; ++i) plane.add_source({along(random), -off(random)});
+    for (size_t i = 0; i < FIELDS_AT_ONCE; ++i) plane.add_source({along(random), -off(random)});
     return plane;
 }
 
 uint64_t count_wrong(const Plane& plane, const std::vector<float>& distances) {
     uint64_t wrong = 0;
     for (size_t r = 0; r < plane.targets.size(); ++r)
-        for (size_t i = 0; i < SWEPT_SOURCES; ++i) {
-            const double expected = plane.least_way(i, r), answer = double{distances[r * SWEPT_SOURCES + i]};
+        for (size_t i = 0; i < FIELDS_AT_ONCE; ++i) {
+            const double expected = plane.least_way(i, r), answer = double{distances[r * FIELDS_AT_ONCE + i]};
             const double rounding = 1.1 * double{plane.quantum} + 1e-5 * expected; // half a step at each end
             wrong += std::isfinite(expected) ? std::abs(answer - expected) > rounding : answer != expected;
         }
@@ -191,7 +189,7 @@ TEST_CASE("sweep: sources that reach a part of the border, or nothing of it") {
         CAPTURE(places);
         Plane plane = random_plane(places, 11, random);
         plane.from[0].assign(places, INFINITE);
-        plane.from[SWEPT_SOURCES - 1].assign(places, INFINITE);
+        plane.from[FIELDS_AT_ONCE - 1].assign(places, INFINITE);
         for (size_t k = 0; k < places; ++k)
             if (k % 3 != 2) plane.from[5][k] = INFINITE;
         plane.from[6].assign(places, INFINITE);
@@ -202,15 +200,15 @@ TEST_CASE("sweep: sources that reach a part of the border, or nothing of it") {
 
 TEST_CASE("sweep: the middle of a segment nearer than both of its ends") {
     Plane plane({{-30, 0}, {-10, 0}, {10, 0}, {30, 0}}, {{0, 1}, {0, 25}});
-    for (size_t i = 0; i < SWEPT_SOURCES; ++i) plane.add_source({0, -0.5 - static_cast<double>(i)});
+    for (size_t i = 0; i < FIELDS_AT_ONCE; ++i) plane.add_source({0, -0.5 - static_cast<double>(i)});
     const auto distances = sweep_every_way(plane);
     const double most_off = 20.0 / 500; // of a segment of length 20
     CHECK(std::abs(plane.from_middle(1, 0) - 1) < most_off);
     CHECK(std::abs(plane.from_middle(1, 1) - 25) < most_off);
-    for (size_t i = 0; i < SWEPT_SOURCES; ++i)
+    for (size_t i = 0; i < FIELDS_AT_ONCE; ++i)
         for (size_t r = 0; r < 2; ++r) {
             const double expected = 0.5 + static_cast<double>(i) + plane.from_middle(1, r);
-            CHECK(double{distances[r * SWEPT_SOURCES + i]} == doctest::Approx(expected).epsilon(1e-3));
+            CHECK(double{distances[r * FIELDS_AT_ONCE + i]} == doctest::Approx(expected).epsilon(1e-3));
         }
 }
 
@@ -224,9 +222,9 @@ TEST_CASE("sweep: targets out of reach") {
     }
     plane.codes[40 + 30] = TableCode::LARGEST;
     const auto distances = sweep_every_way(plane);
-    for (size_t i = 0; i < SWEPT_SOURCES; ++i) {
+    for (size_t i = 0; i < FIELDS_AT_ONCE; ++i) {
         CHECK(distances[i] == INFINITE);
-        CHECK(double{distances[SWEPT_SOURCES + i]} ==
+        CHECK(double{distances[FIELDS_AT_ONCE + i]} ==
               doctest::Approx(double{plane.from[i][30] + TableCode::LARGEST * plane.quantum}).epsilon(1e-4));
     }
 }

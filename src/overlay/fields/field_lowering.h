@@ -8,6 +8,7 @@
 
 #include "src/base/array.h"
 #include "src/base/numbers.h"
+#include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/tables/steep_edges.h"
 
 namespace geodesic {
@@ -26,7 +27,6 @@ public:
     void lower(std::span<float> distance, std::span<uint32_t> source = {});
 
     // Lowers FIELDS_AT_ONCE fields that lie side by side at each vertex.
-    static constexpr size_t FIELDS_AT_ONCE = 16;
     void lower_each(std::span<float> distances);
     // Whether any of the fields is to be lowered at either end of an edge, by the distances of both ends in
     // all of them.

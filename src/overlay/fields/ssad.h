@@ -14,14 +14,12 @@ namespace geodesic {
 enum class Crossing { BETWEEN_VERTICES, AT_VERTICES };
 
 // Distances from a single source to all destinations over overlay tables, by one sweep up from the source and
-// one sweep down to all leaves. It computes one field or a batch of MOST_FIELDS, each from a source of its
+// one sweep down to all leaves. It computes one field or a batch of FIELDS_AT_ONCE, each from a source of its
 // own: the fields of a batch lie side by side and share the sweep down, which reads each table once. Vertices
 // are given by their numbers.
 class OverlaySsad {
 public:
-    static constexpr size_t MOST_FIELDS = InnerSweep::MOST_SOURCES;
-
-    // `fields` is 1 or MOST_FIELDS.
+    // `fields` is 1 or FIELDS_AT_ONCE.
     OverlaySsad(const OverlayIndex& index, std::pmr::memory_resource* memory, size_t fields = 1,
                 Crossing crossing = Crossing::BETWEEN_VERTICES);
 

@@ -37,8 +37,8 @@ bool InnerSweep::begin(uint32_t patch, const float* distances, const RingSegment
         four_at_a_time(places, [&](size_t k) { distance_[k] = distances[vertex[k]]; });
     else
         for (size_t k = 0; k < places; ++k)
-            std::copy_n(distances + size_t{vertex[k]} * MOST_SOURCES, MOST_SOURCES,
-                        distance_.data() + k * MOST_SOURCES);
+            std::copy_n(distances + size_t{vertex[k]} * FIELDS_AT_ONCE, FIELDS_AT_ONCE,
+                        distance_.data() + k * FIELDS_AT_ONCE);
     std::fill_n(distance_.data() + places * sources_, BLOCK * sources_, INFINITE);
     codes_ = {code_.data(), middle_.data(), nearest_.data(), bound_.data()};
     (sources_ == 1 ? kernels_.prepare_sweep : kernels_.prepare_sweep_each)(border_, codes_,

@@ -13,9 +13,7 @@ namespace geodesic {
 // distances of a vertex from the `sources` sources lie side by side.
 class InnerSweep {
 public:
-    static constexpr size_t MOST_SOURCES = Kernels::SOURCES;
-
-    // `sources` is 1 or MOST_SOURCES.
+    // `sources` is 1 or FIELDS_AT_ONCE.
     InnerSweep(const OverlayIndex& index, size_t sources, std::pmr::memory_resource* memory);
 
     // Chooses the patch and reads the distances of its border, distances[number * sources + i] from the i-th
@@ -51,7 +49,7 @@ private:
     BorderCodes codes_{};
     Array<float> distance_, middle_distance_; // [place * sources + source], as are the codes
     Array<int16_t> code_, middle_, bound_;
-    std::array<float, MOST_SOURCES> nearest_{};
+    std::array<float, FIELDS_AT_ONCE> nearest_{};
     Array<float> result_; // [inner vertex * sources + source]
     BorderField field_;   // this and what follows are for one source at a time
     Array<const uint16_t*> rows_;

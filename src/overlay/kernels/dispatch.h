@@ -12,6 +12,10 @@
 
 namespace geodesic {
 
+// How many fields, each from a source of its own, are swept as a batch. Of a place, a row or a vertex, what
+// belongs to each of them lies side by side.
+inline constexpr size_t FIELDS_AT_ONCE = 16;
+
 // What the kernels read and write, and the one table through which they are called.
 
 // Rows of a table: one a place, each with a code a column, or one a target, each with a code a place.
@@ -97,7 +101,7 @@ struct BorderDistances {
 
 // The distances as codes of SourceCode, from the places and from the middles of the segments that begin at
 // them. Of several sources, codes of two places alternate: those of places 2 k and 2 k + 1 from source s are
-// at 2 (k * SOURCES + s) and behind it.
+// at 2 (k * FIELDS_AT_ONCE + s) and behind it.
 struct BorderCodes {
     int16_t *code, *middle;
     float* nearest; // per source; infinity: none is reached, and its codes say nothing
@@ -127,8 +131,6 @@ struct TurnedSquares {
 
 // All kernels, compiled for one instruction set.
 struct Kernels {
-    // Of several sources, everything of a place or a row lies side by side.
-    static constexpr size_t SOURCES = 16;
     static constexpr size_t NEAR_COLUMNS = 16, FEW_COLUMNS = 32;
 
     const char* name;
@@ -181,15 +183,15 @@ struct Kernels {
 
     // A hop down, from a border to all that lies one hop inside of it, over places and middles. It is called
     // sweep because a sweep of MSAD spends nearly all of its time there. Each kernel of it comes for one
-    // source, and for SOURCES at once, which gives the same bits.
+    // source, and for FIELDS_AT_ONCE of them, which gives the same bits.
 
     // Fills codes, with room for whole blocks; middle_distance: scratch of the same size.
     void (*prepare_sweep)(const BorderDistances& border, const BorderCodes& codes, float* middle_distance);
     void (*prepare_sweep_each)(const BorderDistances& border, const BorderCodes& codes,
                                float* middle_distance);
 
-    // distances[row]: the least way over any place or middle, or infinity; of each: distances[row * SOURCES +
-    // source].
+    // distances[row]: the least way over any place or middle, or infinity; of each:
+    // distances[row * FIELDS_AT_ONCE + source].
     void (*sweep)(const BorderDistances& border, const BorderCodes& codes, const SweepRows& rows,
                   float* distances);
     void (*sweep_each)(const BorderDistances& border, const BorderCodes& codes, const SweepRows& rows,

@@ -17,7 +17,7 @@ namespace geodesic {
 template <size_t BYTES>
 using Sums = typename Lanes<BYTES>::Codes;
 
-// ---- The border, made ready for `COUNT` sources, 1 or Kernels::SOURCES, side by side at each place
+// ---- The border, made ready for `COUNT` sources, 1 or FIELDS_AT_ONCE, side by side at each place
 
 template <size_t BYTES, size_t COUNT>
 struct PrepareSweep {
@@ -96,7 +96,7 @@ private:
 template <size_t BYTES>
 using PrepareSweepOfOne = PrepareSweep<BYTES, 1>;
 template <size_t BYTES>
-using PrepareSweepOfEach = PrepareSweep<BYTES, Kernels::SOURCES>;
+using PrepareSweepOfEach = PrepareSweep<BYTES, FIELDS_AT_ONCE>;
 
 // ---- The least ways
 
@@ -240,13 +240,12 @@ struct Sweep {
     }
 };
 
-// ---- From each of Kernels::SOURCES: lanes are the sources, each with two places; several rows share what
+// ---- From each of FIELDS_AT_ONCE: lanes are the sources, each with two places; several rows share what
 // they read of the border
 
 template <size_t BYTES>
 struct SweepEach {
-    static constexpr size_t SOURCES = Kernels::SOURCES;
-    static constexpr size_t LANES = BYTES / sizeof(int32_t), VECTORS = SOURCES / LANES;
+    static constexpr size_t LANES = BYTES / sizeof(int32_t), VECTORS = FIELDS_AT_ONCE / LANES;
     using Pairs = typename Lanes<BYTES>::Keys;
 
     // Entries of two places, as each source's.
@@ -262,7 +261,7 @@ struct SweepEach {
                                                  size_t row_size, Sums<BYTES>* least) {
         for (size_t k = 0; k < places; k += 2) {
             Sums<BYTES> code[VECTORS], pair;
-            std::memcpy(code, codes + k * SOURCES, sizeof code);
+            std::memcpy(code, codes + k * FIELDS_AT_ONCE, sizeof code);
             for (size_t r = 0; r < ROWS; ++r) {
                 load_pair(entries + r * row_size + k, pair);
                 for (size_t v = 0; v < VECTORS; ++v)
@@ -288,8 +287,8 @@ struct SweepEach {
                     store(decoded, middles + r * BLOCK + k);
                 }
             }
-            lower_all<ROWS>(std::min(BLOCK, border.places - first), codes.middle + first * SOURCES, middles,
-                            BLOCK, least);
+            lower_all<ROWS>(std::min(BLOCK, border.places - first), codes.middle + first * FIELDS_AT_ONCE,
+                            middles, BLOCK, least);
         }
     }
 
@@ -309,20 +308,20 @@ struct SweepEach {
             Floats<BYTES> nearest, decoded;
             load(codes.nearest + i % VECTORS * LANES, nearest);
             decode_sums(sums, border.quantum, nearest, decoded);
-            store(decoded, distances + first * SOURCES + i * LANES);
+            store(decoded, distances + first * FIELDS_AT_ONCE + i * LANES);
             if (any(sums >= SourceCode::NO_SUM)) [[unlikely]]
                 for (size_t lane = 0; lane < LANES; ++lane)
                     if (sums[lane] >= SourceCode::NO_SUM)
-                        sweep_one(border, codes, rows, first * SOURCES + i * LANES + lane, distances);
+                        sweep_one(border, codes, rows, first * FIELDS_AT_ONCE + i * LANES + lane, distances);
         }
     }
 
     static void sweep_one(const BorderDistances& border, const BorderCodes& codes, const SweepRows& rows,
                           size_t way, float* distances) {
-        const size_t row = way / SOURCES, source = way % SOURCES;
+        const size_t row = way / FIELDS_AT_ONCE, source = way % FIELDS_AT_ONCE;
         if (codes.nearest[source] == INFINITE) return;
-        distances[way] =
-            way_over_places(border, SOURCES, border.distance + source, rows.codes + row * border.places);
+        distances[way] = way_over_places(border, FIELDS_AT_ONCE, border.distance + source,
+                                         rows.codes + row * border.places);
     }
 
     [[gnu::always_inline]] static void run(const BorderDistances& border, const BorderCodes& codes,

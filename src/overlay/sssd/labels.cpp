@@ -18,8 +18,6 @@ namespace geodesic {
 
 namespace {
 
-constexpr size_t SOURCES = InnerSweep::MOST_SOURCES;
-
 // A vertex has at most so many labels.
 constexpr uint32_t MOST_LABELS = 2;
 
@@ -79,20 +77,21 @@ float choose_runs(const OverlayIndex& index, uint32_t patch, float coarsest, Arr
     return 0;
 }
 
-// Sweeps from the border of a patch down to the inner vertices of all its descendants, with SOURCES border
-// vertices as sources at a time, and writes the distances into the labels of those inner vertices.
+// Sweeps from the border of a patch down to the inner vertices of all its descendants, with
+// FIELDS_AT_ONCE border vertices as sources at a time, and writes the distances into the labels of those
+// inner vertices.
 class LabelSweep {
 public:
     LabelSweep(const OverlayIndex& index, Labels& labels, std::pmr::memory_resource* memory)
-        : index_(index), labels_(labels), numbering_(index.numbering), sweep_(index, SOURCES, memory),
-          distances_(make_room<float>(SOURCES * index.numbering.border_vertex_count(), memory)),
-          of_leaf_(make_room<float>(SOURCES * index.numbering.largest_inner_size(), memory)),
+        : index_(index), labels_(labels), numbering_(index.numbering), sweep_(index, FIELDS_AT_ONCE, memory),
+          distances_(make_room<float>(FIELDS_AT_ONCE * index.numbering.border_vertex_count(), memory)),
+          of_leaf_(make_room<float>(FIELDS_AT_ONCE * index.numbering.largest_inner_size(), memory)),
           of_border_(memory), begin_(make_room<size_t>(index.numbering.patch_count(), memory)),
           codes_(memory), of_places_(memory) {}
 
     void label(uint32_t patch) {
         lay_out_distances(patch);
-        for (size_t first = 0; first < border_size_; first += SOURCES) {
+        for (size_t first = 0; first < border_size_; first += FIELDS_AT_ONCE) {
             start(patch, first);
             descend_into(numbering_, patch, [&](uint32_t p) { hop_down(p, first); });
         }
@@ -112,13 +111,13 @@ private:
         of_border_.resize(inside * border_size_);
     }
 
-    // Fills the distances in the patch's overlay from SOURCES border vertices, the `first` one and those
-    // after it. Where fewer are left, the last one is repeated.
+    // Fills the distances in the patch's overlay from FIELDS_AT_ONCE border vertices, the `first` one and
+    // those after it. Where fewer are left, the last one is repeated.
     void start(uint32_t patch, size_t first) {
-        for (size_t s = 0; s < SOURCES; ++s)
+        for (size_t s = 0; s < FIELDS_AT_ONCE; ++s)
             for_each_in_overlay(index_, patch, static_cast<uint32_t>(std::min(first + s, border_size_ - 1)),
                                 [&](uint32_t number, float distance) {
-                                    distances_[size_t{number} * SOURCES + s] = distance;
+                                    distances_[size_t{number} * FIELDS_AT_ONCE + s] = distance;
                                 });
     }
 
@@ -126,15 +125,16 @@ private:
         const uint32_t count = numbering_.inner_size(patch);
         // No hop reads the distances of a leaf.
         float* const inside = patch < numbering_.first_leaf()
-                                  ? distances_.get() + size_t{numbering_.first_inner(patch)} * SOURCES
+                                  ? distances_.get() + size_t{numbering_.first_inner(patch)} * FIELDS_AT_ONCE
                                   : of_leaf_.get();
         if (sweep_.begin(patch, distances_.get()))
             sweep_.cross_to(inside);
         else
-            std::fill_n(inside, count * SOURCES, INFINITE);
+            std::fill_n(inside, count * FIELDS_AT_ONCE, INFINITE);
         float* to_border = of_border_.data() + begin_[patch] + first;
         for (uint32_t i = 0; i < count; ++i, to_border += border_size_)
-            std::copy_n(inside + i * SOURCES, std::min(SOURCES, border_size_ - first), to_border);
+            std::copy_n(inside + i * FIELDS_AT_ONCE, std::min(FIELDS_AT_ONCE, border_size_ - first),
+                        to_border);
     }
 
     // So that the longest one has the largest code. (Distances compare as their bits do, which is quicker.)
@@ -186,7 +186,7 @@ private:
     Labels& labels_;
     const Numbering& numbering_;
     InnerSweep sweep_;
-    Room<float> distances_; // [number * SOURCES + source], from the current sources to border vertices
+    Room<float> distances_; // [number * FIELDS_AT_ONCE + source], from the current sources to border vertices
     Room<float> of_leaf_;   // the same to the inner vertices of a leaf
     // From the whole border: a row for each inner vertex of each descendant.
     Array<float> of_border_;
