@@ -73,13 +73,6 @@ bool can_be_cut(const Mesh& mesh) { return mesh.face_count() < NONE / 12; }
 
 }
 
-ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, double end) {
-    if (!whole) return {};
-    return [whole, begin, end](double fraction, const char* stage) {
-        return whole(begin + fraction * (end - begin), stage);
-    };
-}
-
 void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex filled,
                  std::optional<MeasuredTables> measured) {
     most_entries_ = std::max<uint64_t>(FEW_ENTRIES, table_entries(index_) * MOST_GROWTH_IN_HALVES / 2);

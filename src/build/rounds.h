@@ -11,9 +11,6 @@ namespace geodesic {
 // The share of the whole work that the first filling is, if rounds may follow.
 inline constexpr double FIRST_FILLING_END = 0.7;
 
-// Tells the progress of a part of the work, 0 .. 1, as that of the whole.
-ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, double end);
-
 // Where answers are less exact than the options ask for, vertices are added to the borders of patches and the
 // index is filled again. This is done in up to five rounds, until the error is small enough or hardly becomes
 // smaller, or until there is nothing to cut or no room for more.

@@ -9,6 +9,13 @@
 
 namespace geodesic {
 
+ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, double end) {
+    if (!whole) return {};
+    return [whole, begin, end](double fraction, const char* stage) {
+        return whole(begin + fraction * (end - begin), stage);
+    };
+}
+
 Workers::Workers(const Metric& metric, uint32_t threads, ProgressFunction progress)
     : progress_(std::move(progress)) {
     for (uint32_t i = thread_count(threads); i > 0; --i) {

@@ -13,6 +13,9 @@ namespace geodesic {
 // Told how far the work is, 0 .. 1, and the name of the stage; returns false to cancel.
 using ProgressFunction = std::function<bool(double fraction, const char* stage)>;
 
+// Tells the progress of a part of the work, 0 .. 1, as that of the whole.
+ProgressFunction part_of_progress(const ProgressFunction& whole, double begin, double end);
+
 // The threads of one build. Each has a solver of the metric of its own.
 class Workers {
 public:
