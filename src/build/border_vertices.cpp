@@ -17,16 +17,6 @@ std::vector<uint32_t> vertices_by_number(const Index& index, const Intake& intak
 
 }
 
-std::vector<uint32_t> neighbours(const Mesh& mesh, uint32_t vertex) {
-    std::vector<uint32_t> others;
-    for (const uint32_t face : mesh.vertex_faces[vertex])
-        for (const uint32_t corner : mesh.faces[face])
-            if (corner != vertex) others.push_back(corner);
-    std::ranges::sort(others);
-    others.erase(std::unique(others.begin(), others.end()), others.end());
-    return others;
-}
-
 BorderVertices::BorderVertices(const Index& index, const Intake& intake) : mesh_(intake.mesh) {
     const Numbering& numbering = index.numbering();
     const auto vertex_of_number = vertices_by_number(index, intake);

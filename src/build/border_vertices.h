@@ -9,9 +9,6 @@
 
 namespace geodesic {
 
-// The other corners of the faces around a vertex, each once.
-std::vector<uint32_t> neighbours(const Mesh& mesh, uint32_t vertex);
-
 // Chooses vertices of the caller's mesh by where they lie to the borders of patches. Added vertices are never
 // chosen.
 class BorderVertices {

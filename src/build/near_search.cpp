@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "src/build/border_vertices.h"
 #include "src/query/query.h"
 
 namespace geodesic {

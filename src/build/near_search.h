@@ -3,9 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "src/build/border_vertices.h"
 #include "src/build/errors_by_distance.h"
+#include "src/mesh/intake.h"
 #include "src/metric/workers.h"
+#include "src/partition/random.h"
 #include "src/query/index.h"
 
 namespace geodesic {

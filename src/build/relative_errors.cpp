@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "geoidx.h"
-#include "src/build/border_vertices.h"
 #include "src/build/errors_by_distance.h"
 #include "src/graph/query.h"
 #include "src/partition/random.h"

@@ -1,7 +1,6 @@
 #include "src/build/stated_errors.h"
 
 #include "geoidx.h"
-#include "src/build/border_vertices.h"
 #include "src/build/errors_by_distance.h"
 #include "src/build/near_search.h"
 #include "src/build/several_errors.h"

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "src/build/border_vertices.h"
 #include "src/build/number_of_vertex.h"
 
 namespace geodesic {

@@ -65,6 +65,16 @@ ListOfLists<uint32_t> edge_ends_at_vertices(const Mesh& mesh) {
     return group_by(ends, mesh.vertex_count());
 }
 
+std::vector<uint32_t> neighbours(const Mesh& mesh, uint32_t vertex) {
+    std::vector<uint32_t> others;
+    for (const uint32_t face : mesh.vertex_faces[vertex])
+        for (const uint32_t corner : mesh.faces[face])
+            if (corner != vertex) others.push_back(corner);
+    std::ranges::sort(others);
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    return others;
+}
+
 uint64_t edge_key(uint32_t a, uint32_t b) { return uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 uint32_t find_edge(const Mesh& mesh, uint32_t a, uint32_t b) {

@@ -49,6 +49,9 @@ void connect(Mesh& mesh);
 // Per vertex the ends of edges there: 2 edge + 0 or 1, as in `edges`.
 ListOfLists<uint32_t> edge_ends_at_vertices(const Mesh& mesh);
 
+// The other corners of the faces around a vertex, each once, in ascending order.
+std::vector<uint32_t> neighbours(const Mesh& mesh, uint32_t vertex);
+
 // The mean length of all edges.
 double mean_edge(const Mesh& mesh);
 
