@@ -19,12 +19,6 @@ struct KnownWay {
     float corrected(float distance) const { return std::min(std::max(distance, least), length); }
 };
 
-// What is known of the distance from a source to a vertex, by all that is known from it, or null.
-inline const KnownWay* known_to(std::span<const KnownWay> from_source, uint32_t number) {
-    const auto way = std::ranges::lower_bound(from_source, number, {}, &KnownWay::number);
-    return way != from_source.end() && way->number == number ? &*way : nullptr;
-}
-
 // Points as sources of a field. How far a vertex is, is the least of offset(i) + the distance from points[i].
 struct PointSources {
     std::span<const FacePoint> points;
@@ -35,6 +29,10 @@ struct PointSources {
     // Without the offset.
     std::span<const KnownWay> known_from(size_t i) const {
         return known.empty() ? std::span<const KnownWay>() : known[i];
+    }
+    // One of them alone, without its offset.
+    PointSources only(size_t i) const {
+        return {points.subspan(i, 1), {}, known.empty() ? known : known.subspan(i, 1)};
     }
 };
 

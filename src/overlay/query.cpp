@@ -13,8 +13,7 @@ void OverlayQuery::msad(const Sources& sources, float radius, const OverlayMsad:
         msad_from_several(sources, radius, field);
 }
 
-// What was measured of a vertex is lowered, as all else. What is known of a point counts last, as it does
-// where vertices within a radius are asked for.
+// Lowering goes on from what is known. What is known of a point also counts last: it may be a bound.
 void OverlayQuery::msad_from_one(const Sources& sources, float radius, const OverlayMsad::Field& field) {
     const uint32_t source = sources.keys.front(), vertices = index_.numbering.vertex_count();
     const Sources only{sources.keys.first(1), sources.points};
@@ -24,10 +23,9 @@ void OverlayQuery::msad_from_one(const Sources& sources, float radius, const Ove
         });
     };
     field_.sweep(only, radius, field.distance);
-    const bool is_vertex = source < vertices;
-    if (is_vertex) correct();
+    correct();
     lowering_.lower(field.distance);
-    if (!is_vertex) correct();
+    if (source >= vertices) correct();
     for (size_t v = 0; v < field.source.size(); ++v)
         field.source[v] = field.distance[v] < INFINITE ? source : NONE;
 }
@@ -92,8 +90,8 @@ void OverlayQuery::point_nearest_sources(const PointSources& sources, std::span<
         if (source != NONE) source = position_of_key_[source];
 }
 
-std::span<const WithinSweep::Found> OverlayQuery::point_within(const FacePoint& point, float radius) {
-    take_points({{&point, 1}});
+std::span<const WithinSweep::Found> OverlayQuery::point_within(const PointSources& only, float radius) {
+    take_points(only);
     return within_sweep().sweep({keys_, points_}, radius);
 }
 

@@ -88,8 +88,8 @@ public:
     void point_nearest_sources(const PointSources& sources, std::span<float> distance,
                                std::span<uint32_t> position);
 
-    // The vertices that are no farther than `radius` from the point.
-    std::span<const WithinSweep::Found> point_within(const FacePoint& point, float radius);
+    // The vertices that are no farther than `radius` from the only one of the points, whose offset is 0.
+    std::span<const WithinSweep::Found> point_within(const PointSources& only, float radius);
 
     // Prepares one of the two ends of a path, 0 or 1: end_distance() then answers distances from it.
     void prepare_end(size_t end, const FacePoint& point);

@@ -113,26 +113,19 @@ public:
     }
 
 private:
-    // As long as a vertex has not been found, only a way that is no longer than what was left out counts.
-    float distance_at(uint32_t number) const {
-        const float distance = query_.distance_within(number);
-        const KnownWay* const way = known_to(source_.known_from(0), number);
-        if (!way || (distance == INFINITE && !(way->length <= query_.nearest_beyond()))) return distance;
-        return way->corrected(distance);
-    }
+    bool is_found(uint32_t number) const { return query_.distance_within(number) < INFINITE; }
 
     bool are_corners_found(const Target& target) const {
-        if (target.vertex != NONE) return distance_at(target.vertex) < INFINITE;
-        return std::ranges::all_of(target.corners,
-                                   [&](uint32_t corner) { return distance_at(corner) < INFINITE; });
+        if (target.vertex != NONE) return is_found(target.vertex);
+        return std::ranges::all_of(target.corners, [&](uint32_t corner) { return is_found(corner); });
     }
 
     // Infinite unless all vertices have been found. A point that is at a vertex has one.
     float distance_of(const FacePoint& point) const {
-        if (point.vertex != NONE) return distance_at(point.vertex);
+        if (point.vertex != NONE) return query_.distance_within(point.vertex);
         std::array<double, FacePoint::MOST_VERTICES> from_vertices;
         for (size_t k = 0; k < point.vertex_count; ++k) {
-            from_vertices[k] = double{distance_at(point.numbers[k])};
+            from_vertices[k] = double{query_.distance_within(point.numbers[k])};
             if (!(from_vertices[k] < double{INFINITE})) return INFINITE;
         }
         return static_cast<float>(distance_over(point, from_vertices));
@@ -142,7 +135,8 @@ private:
     float least_by_corners(const FacePoint& point) const {
         float least = 0;
         for (size_t k = 0; k < 3; ++k)
-            least = std::max(least, distance_at(point.numbers[k]) - static_cast<float>(point.straight[k]));
+            least = std::max(least, query_.distance_within(point.numbers[k]) -
+                                        static_cast<float>(point.straight[k]));
         return least;
     }
 

@@ -48,10 +48,17 @@ float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
     return static_cast<float>(distance_over(second, from_vertices));
 }
 
-// Fills point_field_ with the distances from one point. Where the engine does not answer from it, those from
-// the corners of its face do. A vertex needs no distances within its faces, which metrics of edges do not
-// know.
-void Query::fill_point_field(const FacePoint& point) {
+// Fills point_field_ with the distances from the only one of the points.
+void Query::fill_point_field(const PointSources& only) {
+    fill_by_tables(only);
+    for (const KnownWay& way : only.known_from(0))
+        point_field_[way.number] = way.corrected(point_field_[way.number]);
+}
+
+// Where the engine does not answer from the point, distances from the corners of its face do. A vertex needs
+// no distances within its faces, which metrics of edges do not know.
+void Query::fill_by_tables(const PointSources& only) {
+    const FacePoint& point = only.points.front();
     const uint32_t count = index_.numbering().vertex_count();
     point_field_.resize(count);
     if (point.has_tables()) {
@@ -62,7 +69,7 @@ void Query::fill_point_field(const FacePoint& point) {
                 },
                 engine_);
         else
-            std::get<OverlayQuery>(engine_).point_msad({{&point, 1}}, point_field_);
+            std::get<OverlayQuery>(engine_).point_msad(only, point_field_);
         return;
     }
     for (size_t k = 0; k < 3; ++k) {
@@ -82,8 +89,9 @@ bool Query::sweep_together(const PointSources& sources) const {
     return std::ranges::all_of(sources.points, [&](const FacePoint& point) { return takes(point); });
 }
 
-// Fills offsets_ with the offsets without the least one, which is returned. Only by what they differ in are
-// offsets part of a sweep, so that a source alone, or several with equal ones, need none.
+// Fills offsets_ with the offsets without the least one, which is returned. Only by what they differ in do
+// offsets decide which source is nearest, so that large ones that are nearly equal do not round it away, and
+// a source alone, or several with equal ones, need none.
 float Query::take_offsets(const PointSources& sources) {
     offsets_.assign(sources.offsets.begin(), sources.offsets.end());
     if (offsets_.empty()) return 0;
@@ -112,15 +120,15 @@ void Query::point_nearest_sources(const PointSources& sources, std::span<uint32_
 // Fills distance_ and, if asked for, nearest_, by numbers.
 void Query::fill_from_points(const PointSources& sources, bool with_nearest) {
     if (with_nearest) nearest_.resize(index_.numbering().vertex_count());
-    if (!sweep_together(sources)) return fill_by_fields(sources, with_nearest);
-    const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
     const float least = take_offsets(sources);
     const PointSources without_least{sources.points, offsets_, sources.known};
-    auto& overlay = std::get<OverlayQuery>(engine_);
-    if (with_nearest)
-        overlay.point_nearest_sources(without_least, by_number, nearest_);
+    const auto by_number = std::span(distance_).first(index_.numbering().vertex_count());
+    if (!sweep_together(sources))
+        fill_by_fields(without_least, with_nearest);
+    else if (with_nearest)
+        std::get<OverlayQuery>(engine_).point_nearest_sources(without_least, by_number, nearest_);
     else
-        overlay.point_msad(without_least, by_number);
+        std::get<OverlayQuery>(engine_).point_msad(without_least, by_number);
     add_to_each(by_number, least);
 }
 
@@ -130,9 +138,7 @@ void Query::fill_by_fields(const PointSources& sources, bool with_nearest) {
     std::fill_n(distance_.begin(), count, INFINITE);
     if (with_nearest) std::ranges::fill(nearest_, NONE);
     for (uint32_t i = 0; i < sources.points.size(); ++i) {
-        fill_point_field(sources.points[i]);
-        for (const KnownWay& way : sources.known_from(i))
-            point_field_[way.number] = way.corrected(point_field_[way.number]);
+        fill_point_field(sources.only(i));
         for (uint32_t v = 0; v < count; ++v)
             if (const float whole = sources.offset(i) + point_field_[v]; whole < distance_[v]) {
                 distance_[v] = whole;
@@ -144,7 +150,7 @@ void Query::fill_by_fields(const PointSources& sources, bool with_nearest) {
 void Query::prepare_end(size_t end, const FacePoint& point) {
     end_fields_[end].clear();
     if (takes(point)) return std::get<OverlayQuery>(engine_).prepare_end(end, point);
-    fill_point_field(point);
+    fill_point_field({{&point, 1}});
     end_fields_[end].assign(point_field_.begin(), point_field_.end());
 }
 

@@ -77,8 +77,7 @@ public:
 
     // Sweeps from the only one of the sources, at least to all vertices within the radius.
     // distance_within() then answers distances, infinite for vertices that have not been found, and
-    // nearest_beyond() the least one that was left out, infinite if no other vertex can be reached. Ways that
-    // are known do not count.
+    // nearest_beyond() the least one that was left out, infinite if no other vertex can be reached.
     void sweep_within(const PointSources& source, float radius);
     float distance_within(uint32_t number) const;
     float nearest_beyond() const;
@@ -127,7 +126,8 @@ private:
     bool sweep_together(const PointSources& sources) const;
     float vertex_to_point(uint32_t vertex, const FacePoint& point);
     float take_offsets(const PointSources& sources);
-    void fill_point_field(const FacePoint& point);
+    void fill_point_field(const PointSources& only);
+    void fill_by_tables(const PointSources& only);
     void fill_from_points(const PointSources& sources, bool with_nearest);
     void fill_by_fields(const PointSources& sources, bool with_nearest);
     size_t fields_at_once(size_t left) const;
@@ -142,7 +142,7 @@ private:
     void write_positions(std::span<const uint32_t> source_ids, std::span<uint32_t> nearest);
     const IdsOfNumbers& ids_of_numbers();
     std::span<const WithinSweep::Found> numbers_within(uint32_t source, float radius);
-    std::span<const WithinSweep::Found> numbers_within(const FacePoint& point, float radius);
+    std::span<const WithinSweep::Found> numbers_within(const PointSources& only, float radius);
     std::span<const WithinSweep::Found> found_in(std::span<const float> field, float radius);
     void keep_least();
     void replace_numbers();

@@ -47,9 +47,9 @@ std::span<const WithinSweep::Found> Query::found_in(std::span<const float> field
     return within_;
 }
 
-std::span<const WithinSweep::Found> Query::numbers_within(const FacePoint& point, float radius) {
-    if (takes(point)) return std::get<OverlayQuery>(engine_).point_within(point, radius);
-    fill_point_field(point);
+std::span<const WithinSweep::Found> Query::numbers_within(const PointSources& only, float radius) {
+    if (takes(only.points.front())) return std::get<OverlayQuery>(engine_).point_within(only, radius);
+    fill_point_field(only);
     return found_in(point_field_, radius);
 }
 
@@ -76,16 +76,9 @@ std::span<const Query::Found> Query::point_within(const PointSources& sources, f
     for (size_t i = 0; i < sources.points.size(); ++i) {
         const float offset = sources.offset(i), swept = radius_without(offset, radius);
         if (swept < 0) continue;
-        const auto add = [&](uint32_t number, float distance) {
-            const float whole = offset + distance;
-            if (whole <= radius && whole < INFINITE) ranked_.push_back({whole, number});
-        };
-        const auto known = sources.known_from(i);
-        for (const auto& [number, distance] : numbers_within(sources.points[i], swept)) {
-            const KnownWay* const way = known_to(known, number);
-            add(number, way ? way->corrected(distance) : distance);
-        }
-        for (const KnownWay& way : known) add(way.number, way.length);
+        for (const auto& [number, distance] : numbers_within(sources.only(i), swept))
+            if (const float whole = offset + distance; whole <= radius && whole < INFINITE)
+                ranked_.push_back({whole, number});
     }
     keep_least();
     replace_numbers();
@@ -95,7 +88,7 @@ std::span<const Query::Found> Query::point_within(const PointSources& sources, f
 
 void Query::sweep_within(const PointSources& source, float radius) {
     swept_field_ = !takes(source.points.front());
-    numbers_within(source.points.front(), radius);
+    numbers_within(source, radius);
 }
 
 float Query::distance_within(uint32_t number) const {

@@ -83,6 +83,14 @@ std::vector<float> within(std::vector<float> field, float radius) {
     return field;
 }
 
+Bytes with_measured(const Bytes& file, std::span<const Planted> measured) {
+    format::ByteWriter writer;
+    writer.u64(measured.size());
+    for (uint32_t i = 0; i < 3; ++i) writer.f32(0);
+    write_planted(measured, numbers_of_ids(file_without_edges(), two_sheets().vertex_count()), writer);
+    return with_section(file, TAG_MEASURED_PAIRS, writer.take());
+}
+
 std::vector<uint32_t> some_sources() {
     std::vector<uint32_t> sources;
     for (uint32_t v = 3; v < two_sheets().vertex_count(); v += 97) sources.push_back(v);
@@ -192,13 +200,8 @@ TEST_CASE("steep edges: fields of points are lowered, pairs of vertices are not"
 
 TEST_CASE("steep edges: measured distances are lowered, too, but not those of pairs") {
     const std::vector<Planted> measured{{at(4, 20), at(30, 33), 60}, {at(4, 20), at(5, 20), 7}};
-    format::ByteWriter writer;
-    writer.u64(measured.size());
-    for (uint32_t i = 0; i < 3; ++i) writer.f32(0);
-    write_planted(measured, numbers_of_ids(file_without_edges(), two_sheets().vertex_count()), writer);
-    const Bytes section = writer.take();
-    const auto plain = open(with_section(file_without_edges(), TAG_MEASURED_PAIRS, section)),
-               index = open(with_section(file_with_edges(), TAG_MEASURED_PAIRS, section));
+    const auto plain = open(with_measured(file_without_edges(), measured)),
+               index = open(with_measured(file_with_edges(), measured));
     const auto query = query_of(index.get());
     const uint32_t count = two_sheets().vertex_count();
     for (const auto& [a, b, distance] : measured)
@@ -209,6 +212,41 @@ TEST_CASE("steep edges: measured distances are lowered, too, but not those of pa
             CHECK(sssd(index.get(), a, b) == distance);
         }
     CHECK(msad(index.get(), at(4, 20), count)[at(5, 20)] < 1); // of 7
+}
+
+// A measured pair tells that the far end of the chain is near to a point beside the other vertex.
+TEST_CASE("steep edges: fields of points are lowered from what is known besides tables, too") {
+    const uint32_t count = two_sheets().vertex_count(), near = at(34, 20), far = at(6, 20);
+    const std::vector<Planted> measured{{near, far, 2}};
+    const auto plain = open(with_measured(file_without_edges(), measured)),
+               index = open(with_measured(file_with_edges(), measured));
+    const auto query = query_of(index.get()), plain_query = query_of(plain.get());
+    const geoidx_mesh view = two_sheets().view();
+    geoidx_surface* made = nullptr;
+    require_success(geoidx_surface_create(&view, nullptr, &made));
+    const SurfaceHandle surface(made);
+    geoidx_surface_point twice[2];
+    require_success(geoidx_vertex_point(made, near, &twice[0]));
+    for (double& weight : twice[0].weights) weight = weight > 0 ? 0.98 : 0.01;
+    twice[1] = twice[0];
+    const auto field_of = [&](geoidx_query* of, uint32_t sources) {
+        std::vector<float> field(count);
+        require_success(geoidx_query_point_msad(of, made, twice, sources, nullptr, field.data(), count));
+        return field;
+    };
+    const auto before = field_of(plain_query.get(), 1), after = field_of(query.get(), 1);
+    REQUIRE(before[far] < 2.1f);
+    REQUIRE(before[at(5, 20)] > 20);
+    CHECK(after[at(0, 20)] < 6);
+    CHECK(after == lowered(before));
+    CHECK(field_of(query.get(), 2) == after);
+    std::vector<uint32_t> vertices(count);
+    std::vector<float> distances(count), found(count, INFINITE);
+    uint32_t found_count = 0;
+    require_success(geoidx_query_point_within(query.get(), made, twice, 1, nullptr, 9, vertices.data(),
+                                              distances.data(), count, &found_count));
+    for (uint32_t i = 0; i < found_count; ++i) found[vertices[i]] = distances[i];
+    CHECK(found == within(after, 9));
 }
 
 TEST_CASE("steep edges: what nothing but such an edge leads to is found, however far it is") {

@@ -25,17 +25,21 @@ std::span<const WithinSweep::Found> WithinSweep::sweep(const Sources& source, fl
         hop_down_to_children(numbering_.parent[patch], patch);
         patch = numbering_.parent[patch];
     }
-    take_measured(key);
+    take_known(source);
     lower_along_steep_edges();
+    if (key >= numbering_.vertex_count()) take_known(source);
     collect();
     return found_;
 }
 
-void WithinSweep::take_measured(uint32_t source) {
-    for (const auto& [number, measured] : index_.measured.of(source, 0, numbering_.vertex_count())) {
-        if (distance_[number] == INFINITE) seen_.push_back(number);
-        distance_[number] = measured;
-    }
+void WithinSweep::take_known(const Sources& source) {
+    source.for_each_known(index_, source.keys.front(), 0, numbering_.vertex_count(),
+                          [&](const KnownWay& way) {
+                              float& distance = distance_[way.number];
+                              const float corrected = way.corrected(distance);
+                              if (distance == INFINITE && corrected < INFINITE) seen_.push_back(way.number);
+                              distance = corrected;
+                          });
 }
 
 void WithinSweep::lower_along_steep_edges() {

@@ -43,7 +43,7 @@ private:
     void hop_up(uint32_t child);
     void hop_down_to_children(uint32_t patch, uint32_t left_out);
     void hop_down(uint32_t patch);
-    void take_measured(uint32_t source);
+    void take_known(const Sources& source);
     void lower_along_steep_edges();
     void collect();
 
