@@ -48,36 +48,28 @@ float Query::point_sssd(const FacePoint& source, const FacePoint& target) {
     return static_cast<float>(distance_over(second, from_vertices));
 }
 
-// Fills point_field_ with the distances from the only one of the points.
+// Fills point_field_ with the distances from the only one of the points, all that is known of it counted. A
+// vertex needs no distances within its faces, which metrics of edges do not know.
 void Query::fill_point_field(const PointSources& only) {
-    fill_by_tables(only);
+    const FacePoint& point = only.points.front();
+    point_field_.resize(index_.numbering().vertex_count());
+    if (takes(point)) return std::get<OverlayQuery>(engine_).point_msad(only, point_field_);
+    if (point.vertex != NONE)
+        std::get<GraphQuery>(engine_).msad({&point.vertex, 1}, INFINITE, point_field_);
+    else
+        fill_from_corners(point);
     for (const KnownWay& way : only.known_from(0))
         point_field_[way.number] = way.corrected(point_field_[way.number]);
 }
 
-// Where the engine does not answer from the point, distances from the corners of its face do. A vertex needs
-// no distances within its faces, which metrics of edges do not know.
-void Query::fill_by_tables(const PointSources& only) {
-    const FacePoint& point = only.points.front();
-    const uint32_t count = index_.numbering().vertex_count();
-    point_field_.resize(count);
-    if (point.has_tables()) {
-        if (point.vertex != NONE)
-            std::visit(
-                [&](auto& engine) {
-                    engine.msad({&point.vertex, 1}, INFINITE, point_field_);
-                },
-                engine_);
-        else
-            std::get<OverlayQuery>(engine_).point_msad(only, point_field_);
-        return;
-    }
+// Where the engine does not answer from the point, distances from the corners of its face do.
+void Query::fill_from_corners(const FacePoint& point) {
     for (size_t k = 0; k < 3; ++k) {
-        corner_fields_[k].resize(count);
+        corner_fields_[k].resize(point_field_.size());
         const uint32_t corner = point.numbers[k];
         std::visit([&](auto& engine) { engine.msad({&corner, 1}, INFINITE, corner_fields_[k]); }, engine_);
     }
-    for (uint32_t v = 0; v < count; ++v) {
+    for (size_t v = 0; v < point_field_.size(); ++v) {
         const std::array from_corners{double{corner_fields_[0][v]}, double{corner_fields_[1][v]},
                                       double{corner_fields_[2][v]}};
         point_field_[v] = static_cast<float>(distance_over(point, from_corners));

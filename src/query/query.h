@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <compare>
 #include <optional>
@@ -127,7 +126,7 @@ private:
     float vertex_to_point(uint32_t vertex, const FacePoint& point);
     float take_offsets(const PointSources& sources);
     void fill_point_field(const PointSources& only);
-    void fill_by_tables(const PointSources& only);
+    void fill_from_corners(const FacePoint& point);
     void fill_from_points(const PointSources& sources, bool with_nearest);
     void fill_by_fields(const PointSources& sources, bool with_nearest);
     size_t fields_at_once(size_t left) const;
