@@ -176,22 +176,22 @@ enum {
     GEOIDX_ENGINE_GRAPH = 0,
     /* Tables of all borders of a patch's children to each other, 16 bits an entry: a query is a fixed
      * sequence of min-plus products. Where the metric is GEOIDX_METRIC_UNFOLDABLE a path may cross a border
-     * between two vertices, the tables are calibrated so that as many of such paths are too short as are too
-     * long, and distances may be a little below the metric's. Building takes time linear in the vertices.
-     * With GEOIDX_METRIC_EXACT, delta 0 and no edge_lengths, an index also holds the metric's own distances
-     * of those pairs, of each vertex and the 480 nearest ones, of which tables are off by more than a
-     * hundredth, at most four for each vertex or 32,768 in all, whichever is more, the most wrong ones first,
-     * and none that are too short to have a relative error (see geoidx_info): all queries from vertices
-     * answer these, MSAD from several ones source by source. Around such pairs up to 1,920 vertices are
-     * compared. With GEOIDX_METRIC_WEIGHTED and delta 0 these are pairs of each vertex and the 120 nearest
-     * ones, and no more are compared. Pairs of points within triangles have none; in fields from points,
-     * those of the vertices around are bounds. On meshes of more than 400,000 vertices fewer are compared.
-     * Building takes some 4 KB of memory a vertex for that, up to 8 KB where many pairs are wrong. With
-     * GEOIDX_METRIC_EXACT as above, an index also holds the edges along which MSAD would change by more than
-     * they are long, and lowers the farther ends of these, measured distances included: from one vertex, the
-     * distances of the ends of any edge of the welded mesh differ by no more than 1.05 times its length and
-     * the rounding of a float, on meshes of up to 65,536 vertices. On larger ones, from several sources and
-     * from points, an edge in a million may be steeper. */
+     * between two vertices, the tables are calibrated so that about as many of such paths are too short as
+     * are too long, and distances may be a little below the metric's. Building takes time linear in the
+     * vertices. With GEOIDX_METRIC_EXACT, delta 0 and no edge_lengths, an index also holds the metric's own
+     * distances of those pairs, of each vertex and the 480 nearest ones, of which tables are off by more than
+     * a hundredth, at most four for each vertex or 32,768 in all, whichever is more, the most wrong ones
+     * first, and none that are too short to have a relative error (see geoidx_info): all queries from
+     * vertices answer these, MSAD from several ones source by source. Around such pairs up to 1,920 vertices
+     * are compared. With GEOIDX_METRIC_WEIGHTED and delta 0 these are pairs of each vertex and the 120
+     * nearest ones, and no more are compared. Pairs of points within triangles have none; in fields from
+     * points, those of the vertices around are bounds. On meshes of more than 400,000 vertices fewer are
+     * compared. Building takes some 4 KB of memory a vertex for that, up to 8 KB where many pairs are wrong.
+     * With GEOIDX_METRIC_EXACT as above, an index also holds the edges along which MSAD would change by more
+     * than they are long, and lowers the farther ends of these, measured distances included: from one vertex,
+     * the distances of the ends of any edge of the welded mesh differ by no more than 1.05 times its length
+     * and the rounding of a float, on meshes of up to 65,536 vertices. On larger ones, from several sources
+     * and from points, an edge in a million may be steeper. */
     GEOIDX_ENGINE_OVERLAY = 1
 };
 

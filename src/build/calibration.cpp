@@ -1,6 +1,7 @@
 #include "src/build/calibration.h"
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "src/base/quantiles.h"
@@ -10,10 +11,10 @@ namespace geodesic {
 
 namespace {
 
-// The share by which paths are too long everywhere: the median of the signed errors. Without it, the mean of
-// what is left, without signs, is least. A mean of signed errors would follow the few large ones, of pairs
-// that measured distances will put right. Where an error is very large the path takes another way altogether,
-// for instance a detour over pruned borders, and says nothing about the others.
+// The share by which paths are too long everywhere: the median of the signed errors. Taking it away leaves
+// the least mean of absolute errors. Their mean would follow few large errors, of pairs that measured
+// distances will put right. Where an error is very large the path takes another way altogether, for instance
+// a detour over pruned borders, and says nothing about the others.
 double common_share(std::vector<double> errors) {
     constexpr double ANOTHER_WAY = 0.1;
     std::erase_if(errors, [](double error) { return std::abs(error) > ANOTHER_WAY; });

@@ -1,5 +1,6 @@
 #include "src/build/several_errors.h"
 
+#include <algorithm>
 #include <functional>
 
 #include "src/build/border_vertices.h"

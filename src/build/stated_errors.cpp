@@ -1,5 +1,7 @@
 #include "src/build/stated_errors.h"
 
+#include <algorithm>
+
 #include "geoidx.h"
 #include "src/build/errors_by_distance.h"
 #include "src/build/near_search.h"

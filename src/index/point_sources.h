@@ -26,7 +26,7 @@ struct PointSources {
     std::span<const std::vector<KnownWay>> known{}; // as many, or none; by their numbers, each once
 
     float offset(size_t i) const { return offsets.empty() ? 0 : offsets[i]; }
-    // Without the offset.
+    // Lengths are from the point itself, without its offset.
     std::span<const KnownWay> known_from(size_t i) const {
         return known.empty() ? std::span<const KnownWay>() : known[i];
     }

@@ -13,7 +13,8 @@ void OverlayQuery::msad(const Sources& sources, float radius, const OverlayMsad:
         msad_from_several(sources, radius, field);
 }
 
-// Lowering goes on from what is known. What is known of a point also counts last: it may be a bound.
+// Lowering goes on from what is known. What is known of a point also counts last, since lowering may lead
+// below a bound of it.
 void OverlayQuery::msad_from_one(const Sources& sources, float radius, const OverlayMsad::Field& field) {
     const uint32_t source = sources.keys.front(), vertices = index_.numbering.vertex_count();
     const Sources only{sources.keys.first(1), sources.points};
@@ -30,6 +31,7 @@ void OverlayQuery::msad_from_one(const Sources& sources, float radius, const Ove
         field.source[v] = field.distance[v] < INFINITE ? source : NONE;
 }
 
+// A bound from one of several sources is none for all, so that it counts within the sweep alone.
 void OverlayQuery::msad_from_several(const Sources& sources, float radius, const OverlayMsad::Field& field) {
     nearest_.sweep(sources, radius, field);
     lowering_.lower(field.distance, field.source);

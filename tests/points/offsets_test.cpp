@@ -103,7 +103,7 @@ TEST_CASE("points: an offset that all sources have is added to their distances")
         for (const Soup& soup : {grid(20, 20, 1, 1), joined(comb(1), torus(40, 22, 1, 0.4))}) {
             const PathCase on(soup, path_options(engine));
             std::mt19937_64 random(11);
-            for (const float offset : {0.01f, 0.3f, 1e9f}) {
+            for (const float offset : {0.01f, 0.3f, 1000.0f, 1e9f}) {
                 const geoidx_surface_point sources[] = {random_point(soup, random, 3),
                                                         random_point(soup, random, 0),
                                                         random_point(soup, random, 2)};

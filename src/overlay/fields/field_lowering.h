@@ -13,10 +13,10 @@
 
 namespace geodesic {
 
-// Lowers fields along steep edges, after all else. Where the larger one of the distances of an edge's two
-// ends is more than the lesser one plus the edge's limit, it becomes that sum, until this is so for no edge.
-// Then a lowered distance was too long, or that of the other end is too short, and the lowered one is too
-// short by no larger share. What is nearest is lowered first, so that each vertex is lowered once.
+// Lowers fields along steep edges, when all hops have been made. Where the larger one of the distances of an
+// edge's two ends is more than the lesser one plus the edge's limit, it becomes that sum, until this is so
+// for no edge. Then a lowered distance was too long, or that of the other end is too short, and the lowered
+// one is too short by no larger share. What is nearest is lowered first, so that each vertex is lowered once.
 class FieldLowering {
 public:
     FieldLowering(const SteepEdges& steep, std::pmr::memory_resource* memory)

@@ -61,9 +61,9 @@ void OverlayMsad::sweep(const Sources& sources, float radius, const Field& field
     take_known(field);
 }
 
-// Takes the ways that need no hop. Those to border vertices are kept source by source. Corrections that make
-// a way shorter come in the end (see take_known), so that one which is no shorter than the latest counts no
-// more.
+// Takes the ways that need no hop. Those to border vertices are kept source by source. A way that is no
+// shorter than the distance found so far is passed over: a correction would make it longer, or as short as a
+// way that take_known() takes anyway.
 void OverlayMsad::begin(const Field& field) {
     nearest_.clear();
     std::ranges::fill(field.distance, INFINITE);

@@ -12,11 +12,11 @@
 
 namespace geodesic {
 
-// How many fields, each from a source of its own, are swept as a batch. Of a place, a row or a vertex, what
-// belongs to each of them lies side by side.
-inline constexpr size_t FIELDS_AT_ONCE = 16;
-
 // What the kernels read and write, and the one table through which they are called.
+
+// How many fields, each from a source of its own, are swept and lowered as a batch. What each of them has of
+// a place, a row or a vertex lies side by side.
+inline constexpr size_t FIELDS_AT_ONCE = 16;
 
 // Rows of a table: one a place, each with a code a column, or one a target, each with a code a place.
 using Rows = std::span<const uint16_t* const>;
