@@ -32,24 +32,16 @@ double bias(const QueryCase& test) {
 // As many panels in each of three directions through a cube, one square apart where they cross. Vertices are
 // the corners of squares; coincident ones are welded.
 TestMesh crossing_panels(uint32_t count) {
-    TestMesh mesh;
+    const TestMesh flat = grid(count + 2, count + 2);
+    TestMesh mesh, panel = flat;
     for (uint32_t axis = 0; axis < 3; ++axis)
         for (uint32_t at = 1; at <= count; ++at) {
-            std::vector<uint32_t> corners;
-            for (uint32_t i = 0; i <= count + 1; ++i)
-                for (uint32_t j = 0; j <= count + 1; ++j) {
-                    double place[3];
-                    place[axis] = at;
-                    place[(axis + 1) % 3] = i;
-                    place[(axis + 2) % 3] = j;
-                    corners.push_back(mesh.add_vertex(place[0], place[1], place[2]));
-                }
-            for (uint32_t i = 0; i <= count; ++i)
-                for (uint32_t j = 0; j <= count; ++j) {
-                    const uint32_t k = i * (count + 2) + j;
-                    mesh.add_triangle(corners[k], corners[k + count + 2], corners[k + count + 3]);
-                    mesh.add_triangle(corners[k], corners[k + count + 3], corners[k + 1]);
-                }
+            for (size_t v = 0; v < panel.positions.size(); v += 3) {
+                panel.positions[v + axis] = at;
+                panel.positions[v + (axis + 1) % 3] = flat.positions[v];
+                panel.positions[v + (axis + 2) % 3] = flat.positions[v + 1];
+            }
+            append(mesh, panel, 0);
         }
     return mesh;
 }

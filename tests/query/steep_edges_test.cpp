@@ -22,6 +22,13 @@ const TestMesh& two_sheets() {
     return made;
 }
 
+SurfaceHandle surface_of_two_sheets() {
+    const geoidx_mesh view = two_sheets().view();
+    geoidx_surface* made = nullptr;
+    require_success(geoidx_surface_create(&view, nullptr, &made));
+    return SurfaceHandle(made);
+}
+
 const Bytes& file_without_edges() {
     static const Bytes file =
         without_section(save(build(two_sheets(), default_options()).get()), TAG_STEEP_EDGES);
@@ -180,15 +187,13 @@ TEST_CASE("steep edges: fields of points are lowered, pairs of vertices are not"
     const auto plain = open(file_without_edges()), index = open(file_with_edges());
     const auto query = query_of(index.get()), plain_query = query_of(plain.get());
     const uint32_t count = two_sheets().vertex_count();
-    const geoidx_mesh view = two_sheets().view();
-    geoidx_surface* made = nullptr;
-    require_success(geoidx_surface_create(&view, nullptr, &made));
-    const SurfaceHandle surface(made);
+    const SurfaceHandle surface = surface_of_two_sheets();
     const geoidx_surface_point point{100, 0, {0.5, 0.25, 0.25}};
     std::vector<float> before(count), after(count);
     require_success(
-        geoidx_query_point_msad(plain_query.get(), made, &point, 1, nullptr, before.data(), count));
-    require_success(geoidx_query_point_msad(query.get(), made, &point, 1, nullptr, after.data(), count));
+        geoidx_query_point_msad(plain_query.get(), surface.get(), &point, 1, nullptr, before.data(), count));
+    require_success(
+        geoidx_query_point_msad(query.get(), surface.get(), &point, 1, nullptr, after.data(), count));
     CHECK(after != before);
     const auto expected = lowered(before);
     for (uint32_t v = 0; v < count; ++v) {
@@ -221,17 +226,15 @@ TEST_CASE("steep edges: fields of points are lowered from what is known besides 
     const auto plain = open(with_measured(file_without_edges(), measured)),
                index = open(with_measured(file_with_edges(), measured));
     const auto query = query_of(index.get()), plain_query = query_of(plain.get());
-    const geoidx_mesh view = two_sheets().view();
-    geoidx_surface* made = nullptr;
-    require_success(geoidx_surface_create(&view, nullptr, &made));
-    const SurfaceHandle surface(made);
+    const SurfaceHandle surface = surface_of_two_sheets();
     geoidx_surface_point twice[2];
-    require_success(geoidx_vertex_point(made, near, &twice[0]));
+    require_success(geoidx_vertex_point(surface.get(), near, &twice[0]));
     for (double& weight : twice[0].weights) weight = weight > 0 ? 0.98 : 0.01;
     twice[1] = twice[0];
     const auto field_of = [&](geoidx_query* of, uint32_t sources) {
         std::vector<float> field(count);
-        require_success(geoidx_query_point_msad(of, made, twice, sources, nullptr, field.data(), count));
+        require_success(
+            geoidx_query_point_msad(of, surface.get(), twice, sources, nullptr, field.data(), count));
         return field;
     };
     const auto before = field_of(plain_query.get(), 1), after = field_of(query.get(), 1);
@@ -243,8 +246,8 @@ TEST_CASE("steep edges: fields of points are lowered from what is known besides 
     std::vector<uint32_t> vertices(count);
     std::vector<float> distances(count), found(count, INFINITE);
     uint32_t found_count = 0;
-    require_success(geoidx_query_point_within(query.get(), made, twice, 1, nullptr, 9, vertices.data(),
-                                              distances.data(), count, &found_count));
+    require_success(geoidx_query_point_within(query.get(), surface.get(), twice, 1, nullptr, 9,
+                                              vertices.data(), distances.data(), count, &found_count));
     for (uint32_t i = 0; i < found_count; ++i) found[vertices[i]] = distances[i];
     CHECK(found == within(after, 9));
 }
