@@ -12,9 +12,9 @@ namespace geodesic {
 namespace {
 
 // The share by which paths are too long everywhere: the median of the signed errors. Taking it away leaves
-// the least mean of absolute errors. Their mean would follow few large errors, of pairs that measured
-// distances will put right. Where an error is very large the path takes another way altogether, for instance
-// a detour over pruned borders, and says nothing about the others.
+// the least mean of absolute errors. The mean of signed errors would follow a few large ones, of pairs that
+// measured distances will put right. Where an error is very large the path takes another way altogether, for
+// instance a detour over pruned borders, and says nothing about the others.
 double common_share(std::vector<double> errors) {
     constexpr double ANOTHER_WAY = 0.1;
     std::erase_if(errors, [](double error) { return std::abs(error) > ANOTHER_WAY; });

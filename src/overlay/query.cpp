@@ -26,7 +26,7 @@ void OverlayQuery::msad_from_one(const Sources& sources, float radius, const Ove
     field_.sweep(only, radius, field.distance);
     correct();
     lowering_.lower(field.distance);
-    if (source >= vertices) correct();
+    if (only.vertex(index_.numbering, source) == NONE) correct();
     for (size_t v = 0; v < field.source.size(); ++v)
         field.source[v] = field.distance[v] < INFINITE ? source : NONE;
 }

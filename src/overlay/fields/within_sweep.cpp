@@ -27,7 +27,7 @@ std::span<const WithinSweep::Found> WithinSweep::sweep(const Sources& source, fl
     }
     take_known(source);
     lower_along_steep_edges();
-    if (key >= numbering_.vertex_count()) take_known(source);
+    if (source.vertex(numbering_, key) == NONE) take_known(source);
     collect();
     return found_;
 }
