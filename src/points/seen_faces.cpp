@@ -25,7 +25,8 @@ bool is_in_angle(const Vector2d& right, const Vector2d& direction, const Vector2
     return cross(right, direction) >= 0 && cross(direction, left) >= 0;
 }
 
-// An edge of a border has up to 31 added vertices: each of the builder's rounds cuts it in halves.
+// An edge of a border has up to 31 added vertices: each of the builder's rounds cuts it in halves. One that
+// had more than these would count as one that has none.
 constexpr size_t MOST_BETWEEN = 64;
 
 // An end of an edge of the polygon.
@@ -85,9 +86,9 @@ public:
         const auto& corners = indexed_corners(surface_, at.face);
         const Vector3d to_second = surface_.positions[corners[1]] - surface_.positions[corners[0]],
                        to_third = surface_.positions[corners[2]] - surface_.positions[corners[0]];
-        const Vector3d x = to_second.normalized();
-        const Vector3d off = to_third - x.dot(to_third) * x, y = off.normalized();
-        if (!(off.norm() > FLATTEST * std::max(to_second.norm(), to_third.norm()))) return false;
+        const double longest = std::max({to_second.norm(), to_third.norm(), (to_third - to_second).norm()});
+        if (!(to_second.cross(to_third).norm() > FLATTEST * longest * longest)) return false;
+        const Vector3d x = to_second.normalized(), y = (to_third - x.dot(to_third) * x).normalized();
         const Vector3d origin =
             surface_.positions[corners[0]] + at.weights[1] * to_second + at.weights[2] * to_third;
         std::array<End, 3> ends;

@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 
-#include "src/index/face_point.h"
 #include "src/surface/surface.h"
 
 namespace geodesic {
