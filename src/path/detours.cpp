@@ -28,6 +28,12 @@ struct Change {
     std::vector<double> new_shares;
 };
 
+void apply(const Change& change, Strip& strip, StripPath& path) {
+    replace(strip.faces, change.faces, change.new_faces);
+    replace(strip.portals, change.portals, change.new_portals);
+    replace(path.shares, change.portals, change.new_shares);
+}
+
 class Detours {
 public:
     Detours(const Surface& surface, StripWay& way) : surface_(surface), strip_(way.strip), path_(way.path) {}
@@ -36,7 +42,7 @@ public:
 
 private:
     double cost(uint32_t face) const { return surface_.costs.of_face[face]; }
-    uint32_t vertex_of(size_t portal) const;
+    uint32_t vertex_close_to(size_t portal) const;
     Vector3d begin_of(size_t face) const { return position_before(surface_, strip_, path_, face); }
     Vector3d end_of(size_t face) const {
         return face == strip_.portals.size() ? position_of(surface_, strip_.target) : begin_of(face + 1);
@@ -47,7 +53,6 @@ private:
     Pass pass_from(size_t portal) const;
     PointRange around(size_t first, size_t last) const;
     PointRange around_face(size_t face) const;
-    void apply(const Change& change);
     bool take(const Change& change, PointRange range);
     std::optional<Turn::Fan> fan_around(const Pass& pass, const std::vector<uint32_t>& forbidden) const;
     bool leads_through(const Pass& pass, const std::vector<uint32_t>& spokes) const;
@@ -64,7 +69,7 @@ private:
 };
 
 // The vertex that the path passes a portal at or close to, or NONE.
-uint32_t Detours::vertex_of(size_t portal) const {
+uint32_t Detours::vertex_close_to(size_t portal) const {
     constexpr double CLOSE = 0.03;
     const double share = path_.shares[portal];
     const auto& [a, b] = strip_.portals[portal];
@@ -73,8 +78,9 @@ uint32_t Detours::vertex_of(size_t portal) const {
 
 // All portals that the path passes at the vertex of this one.
 Pass Detours::pass_from(size_t portal) const {
-    Pass pass{portal, portal, vertex_of(portal)};
-    while (pass.last + 1 < strip_.portals.size() && vertex_of(pass.last + 1) == pass.vertex) ++pass.last;
+    Pass pass{portal, portal, vertex_close_to(portal)};
+    while (pass.last + 1 < strip_.portals.size() && vertex_close_to(pass.last + 1) == pass.vertex)
+        ++pass.last;
     return pass;
 }
 
@@ -89,12 +95,6 @@ PointRange Detours::around_face(size_t face) const {
     return portals == 0 ? PointRange{0, 1} : around(face > 0 ? face - 1 : 0, std::min(face, portals - 1));
 }
 
-void Detours::apply(const Change& change) {
-    replace(strip_.faces, change.faces, change.new_faces);
-    replace(strip_.portals, change.portals, change.new_portals);
-    replace(path_.shares, change.portals, change.new_shares);
-}
-
 // Makes a change if that makes the path shorter when points slide within the range only.
 bool Detours::take(const Change& change, PointRange range) {
     StripWay part;
@@ -105,9 +105,9 @@ bool Detours::take(const Change& change, PointRange range) {
     part.path.shares.assign(share(range.first), share(range.last - 1));
     const double before = weighted_length(surface_, part.strip, part.path.shares);
     Change local = change;
-    for (size_t* i : {&local.faces.first, &local.faces.last, &local.portals.first, &local.portals.last})
+    for (size_t* i : {&local.faces.begin, &local.faces.end, &local.portals.begin, &local.portals.end})
         *i -= range.first;
-    Detours(surface_, part).apply(local);
+    apply(local, part.strip, part.path);
     slide(surface_, part.strip, part.path);
     if (!(part.path.length < before - path_.length * SHORTER_DETOUR)) return false;
     path_.length += part.path.length - before;
@@ -115,7 +115,8 @@ bool Detours::take(const Change& change, PointRange range) {
            part.strip.faces,
            {range.first, range.last - 1},
            part.strip.portals,
-           part.path.shares});
+           part.path.shares},
+          strip_, path_);
     return true;
 }
 
@@ -132,7 +133,7 @@ std::optional<Turn::Fan> Detours::fan_around(const Pass& pass, const std::vector
 bool Detours::leads_through(const Pass& pass, const std::vector<uint32_t>& spokes) const {
     const auto portals = std::span(strip_.portals).subspan(pass.first, pass.last + 1 - pass.first);
     return std::ranges::equal(portals, spokes, [&](const Portal& portal, uint32_t spoke) {
-        return !portal.is_vertex() && portal.joins({pass.vertex, spoke});
+        return !portal.is_vertex() && portal.covers({pass.vertex, spoke});
     });
 }
 
@@ -207,7 +208,7 @@ bool Detours::go_straight_on(size_t face) {
     const double length = length_of_piece(face) + length_of_piece(face + 1) + length_of_piece(face + 2);
     if (!(straight <= length)) return false;
     path_.length += straight - length;
-    apply({{face + 1, face + 3}, {}, {face, face + 2}, {}, {}});
+    apply({{face + 1, face + 3}, {}, {face, face + 2}, {}, {}}, strip_, path_);
     return true;
 }
 
@@ -219,7 +220,7 @@ bool Detours::sweep() {
         has_changed |= try_beside(i);
     }
     for (size_t i = 0; i < strip_.portals.size(); ++i) {
-        if (vertex_of(i) == NONE) continue;
+        if (vertex_close_to(i) == NONE) continue;
         const Pass pass = pass_from(i);
         has_changed |= try_vertex(pass);
         i = pass.last;

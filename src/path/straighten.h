@@ -26,10 +26,10 @@ class Straightening {
 public:
     explicit Straightening(const Surface& surface) : surface_(surface), tight_paths_(surface) {}
 
-    // The path of the strip is not looked at.
+    // Only way.strip is read.
     void straighten(StripWay& way);
 
-    // Of a path that is as short as it can be between its bends.
+    // The same where way.path is as TightPaths::pull_tight() leaves it.
     void turn_bends(StripWay& way);
 
     // Puts a part with the same ends in the place of a range between two bends, whose path was so long. Gives

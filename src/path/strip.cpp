@@ -60,11 +60,12 @@ void turn_back(Strip& strip) {
 }
 
 void drop_returns(Strip& strip, Replaced portals) {
-    size_t i = portals.first - std::min<size_t>(portals.first, 1), end = portals.last;
+    size_t i = portals.begin - std::min<size_t>(portals.begin, 1), end = portals.end;
     while (i < end && i + 1 < strip.portals.size()) {
         const Portal entry = strip.portals[i], exit = strip.portals[i + 1];
         const bool comes_back = strip.faces[i] == strip.faces[i + 2];
-        if (!entry.joins(exit) || (!comes_back && !exit.joins(entry))) {
+        const bool entry_covers = entry.covers(exit), exit_covers = exit.covers(entry);
+        if (comes_back ? !entry_covers && !exit_covers : !entry_covers || !exit_covers) {
             ++i;
             continue;
         }
