@@ -37,7 +37,7 @@ private:
 Corridor corridor_of_faces(const Surface& surface, std::vector<uint32_t>&& faces) {
     Corridor corridor{{}, std::move(faces)};
     Renumbering renumbering;
-    for (const uint32_t face : corridor.face_of_surface) {
+    for (const uint32_t face : corridor.surface_face) {
         auto& local = corridor.mesh.faces.emplace_back();
         for (size_t k = 0; k < 3; ++k) local[k] = renumbering.number(surface.faces[face][k]);
     }
@@ -55,13 +55,11 @@ double distance_in_space(const Surface& surface, uint32_t face, const Eigen::Vec
 
 Corridor corridor_around(const Surface& surface, const Strip& strip,
                          const std::function<bool(uint32_t, double)>& belongs) {
-    std::unordered_map<uint32_t, bool> known; // vertices, and whether they belong
+    std::unordered_set<uint32_t> met; // vertices
     std::vector<uint32_t> waiting;
     const auto meet = [&](uint32_t vertex, bool for_sure) {
-        const auto [found, is_new] = known.try_emplace(vertex, true);
-        if (!is_new) return;
-        found->second = for_sure || belongs(vertex, longest_edge_at(surface, vertex));
-        if (found->second) waiting.push_back(vertex);
+        if (!met.insert(vertex).second) return;
+        if (for_sure || belongs(vertex, longest_edge_at(surface, vertex))) waiting.push_back(vertex);
     };
     for (const uint32_t face : strip.faces)
         for (const uint32_t vertex : surface.faces[face]) meet(vertex, true);
@@ -84,9 +82,10 @@ std::optional<Corridor> corridor_in_space(const Surface& surface, const Strip& s
     constexpr size_t MOST_KNOWN = 8; // times the faces that belong
     const Eigen::Vector3d source = position_of(surface, strip.source),
                           target = position_of(surface, strip.target);
-    std::unordered_set<uint32_t> known{strip.source.face, strip.target.face}; // whether they belong or not
-    std::unordered_set<uint32_t> passed;                                      // vertices
-    std::vector<uint32_t> faces(known.begin(), known.end());
+    std::vector<uint32_t> faces{strip.source.face};
+    if (strip.target.face != strip.source.face) faces.push_back(strip.target.face);
+    std::unordered_set<uint32_t> known(faces.begin(), faces.end()); // whether they belong or not
+    std::unordered_set<uint32_t> passed;                            // vertices
     for (size_t i = 0; i < faces.size(); ++i)
         for (const uint32_t vertex : surface.faces[faces[i]]) {
             if (!passed.insert(vertex).second) continue;

@@ -1,20 +1,26 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
+#include "src/mesh/mesh.h"
 #include "src/path/strip.h"
 
 namespace geodesic {
 
-// A part of a surface: the faces around some of its vertices.
+// A part of a surface as a mesh of its own, in which both ends of the strip lie that it was made for.
 struct Corridor {
     Mesh mesh;
-    std::vector<uint32_t> face_of_surface; // per face of the mesh
+    std::vector<uint32_t>
+        surface_face; // per face of the mesh, that of the surface, with the same order of corners
 };
 
 // The vertices that are joined to those of a strip by edges between vertices that belong to it, and all faces
-// around them. belongs(vertex, slack) is asked with the length of the longest edge at the vertex.
+// around them. belongs(vertex, slack) is asked with the length of the longest edge at the vertex: once at
+// most, and not of the vertices of the strip.
 Corridor corridor_around(const Surface& surface, const Strip& strip,
                          const std::function<bool(uint32_t, double)>& belongs);
 

@@ -14,8 +14,8 @@ namespace {
 
 // A point of the surface as one of the corridor.
 SurfacePoint local(const Corridor& corridor, const SurfacePoint& point) {
-    const auto found = std::ranges::find(corridor.face_of_surface, point.face);
-    return {static_cast<uint32_t>(found - corridor.face_of_surface.begin()), point.weights};
+    const auto found = std::ranges::find(corridor.surface_face, point.face);
+    return {static_cast<uint32_t>(found - corridor.surface_face.begin()), point.weights};
 }
 
 // A strip of the corridor as one of the surface.
@@ -23,12 +23,12 @@ void take_to_surface(const Surface& surface, const Corridor& corridor, Strip& st
     const auto vertex_of_surface = [&](uint32_t face, uint32_t vertex) {
         const auto& corners = corridor.mesh.faces[face];
         const auto k = static_cast<size_t>(std::ranges::find(corners, vertex) - corners.begin());
-        return surface.faces[corridor.face_of_surface[face]][k];
+        return surface.faces[corridor.surface_face[face]][k];
     };
     for (size_t i = 0; i < strip.portals.size(); ++i)
         for (uint32_t* end : {&strip.portals[i].a, &strip.portals[i].b})
             *end = vertex_of_surface(strip.faces[i], *end);
-    for (uint32_t& face : strip.faces) face = corridor.face_of_surface[face];
+    for (uint32_t& face : strip.faces) face = corridor.surface_face[face];
     strip.source.face = strip.faces.front();
     strip.target.face = strip.faces.back();
 }
