@@ -141,8 +141,7 @@ Step step_on_path(const Index& index, Query& query, const Surface& surface, cons
 Step next_step(const Index& index, Query& query, const Surface& surface, const SurfacePoint& from,
                Walk& walk) {
     require_path_end(index, surface, from, "from");
-    const auto target = point_in_face(surface, walk.target, from.face);
-    if (target && target->weights == from.weights) return {from, from, 0};
+    if (is_same_point(surface, walk.target, from)) return {from, from, 0};
     if (index.description.metric != GEOIDX_METRIC_EXACT)
         return step_on_path(index, query, surface, from, walk);
     StripWay left = std::exchange(walk.left, {}); // lost if memory runs out on the way

@@ -23,10 +23,6 @@ namespace geodesic {
 
 namespace {
 
-bool is_at(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
-    return position_of(surface, a) == position_of(surface, b);
-}
-
 SurfacePath path_of_strip(const Surface& surface, const Strip& strip, const StripPath& path) {
     std::vector<SurfacePoint> points;
     points.reserve(strip.portals.size() + 2);
@@ -38,9 +34,6 @@ SurfacePath path_of_strip(const Surface& surface, const Strip& strip, const Stri
     return path_of_points(std::move(points), strip.target,
                           [&](const auto& all, size_t i) { return distance_to_next(surface, all, i); });
 }
-
-// Of two strips with the same ends.
-bool is_same(const Strip& a, const Strip& b) { return a.faces == b.faces && a.portals == b.portals; }
 
 class PathFinder {
 public:
@@ -59,7 +52,7 @@ private:
     static constexpr size_t MOST_VERTICES = 1000, MOST_FACES = 2 * MOST_VERTICES;
 
     FacePoint prepared_as(const SurfacePoint& end, bool with_all_it_sees) const;
-    StripWay find_straight(const FacePoint& source, const FacePoint& target);
+    std::optional<StripWay> find_straight(const FacePoint& source, const FacePoint& target);
     double longest_shortest(double known) const;
     double known_length(const FacePoint& target);
     std::optional<Corridor> corridor_of(const Strip& strip, double length, size_t most_vertices);
@@ -117,8 +110,9 @@ std::optional<Strip> PathFinder::led_by(size_t end) {
 }
 
 // The errors of the two fields may lead to different ways around a bump. The longer one is given up where it
-// is the same way, or longer by more than other sides of vertices nearly ever make up for.
-StripWay PathFinder::find_straight(const FacePoint& source, const FacePoint& target) {
+// is the same way, or longer by more than other sides of vertices nearly ever make up for. Nothing if neither
+// field leads to the other end.
+std::optional<StripWay> PathFinder::find_straight(const FacePoint& source, const FacePoint& target) {
     constexpr double SAME = 1e-9;        // as a share of the length
     constexpr double MADE_UP_FOR = 0.02; // as a share of an edge
     const auto length = [](const StripWay& way) { return way.path.length; };
@@ -127,12 +121,12 @@ StripWay PathFinder::find_straight(const FacePoint& source, const FacePoint& tar
     std::vector<Strip> strips;
     for (const size_t end : {size_t{1}, size_t{0}})
         if (auto strip = led_by(end)) strips.push_back(std::move(*strip));
-    if (strips.empty()) no_path();
-    if (is_same(strips.front(), strips.back())) strips.resize(1);
+    if (strips.empty()) return std::nullopt;
+    if (is_same_strip(strips.front(), strips.back())) strips.resize(1);
     Straightening straightening(surface_);
     std::vector<StripWay> ways;
     for (Strip& strip : strips) {
-        if (!ways.empty() && is_same(strip, ways.front().strip)) break; // as the first one came out
+        if (!ways.empty() && is_same_strip(strip, ways.front().strip)) break; // as the first one came out
         ways.push_back({std::move(strip), {}});
         straightening.straighten(ways.back());
     }
@@ -180,7 +174,9 @@ StripWay PathFinder::find_way(PathQuality quality) {
         quality == PathQuality::EXACT || lies_in_long_edges(source_) || lies_in_long_edges(target_);
     const FacePoint source = prepared_as(source_, with_all_they_see),
                     target = prepared_as(target_, with_all_they_see);
-    StripWay way = find_straight(source, target);
+    auto found = find_straight(source, target);
+    if (!found) no_path();
+    StripWay& way = *found;
     if (way.strip.faces.size() == 1) return way;
     if (quality == PathQuality::EXACT) {
         const auto corridor = corridor_of(way.strip, way.path.length, surface_.vertex_count());
@@ -199,18 +195,18 @@ StripWay PathFinder::find_way(PathQuality quality) {
 // that is not there, as between the two sides of a thin wall: then edges are long, so that the corridor is
 // too large, whereas few faces lie so near in space. Returns nothing if there are too many of these as well.
 std::optional<double> PathFinder::find_length(double known) {
-    const StripWay way = find_straight(prepared_as(source_, false), prepared_as(target_, false));
+    const auto way = find_straight(prepared_as(source_, false), prepared_as(target_, false));
+    if (!way) return std::nullopt;
     const double length = longest_shortest(known);
-    if (way.strip.faces.size() == 1 || way.path.length <= length) return way.path.length;
-    auto corridor = corridor_of(way.strip, length, MOST_VERTICES);
-    if (!corridor) corridor = corridor_in_space(surface_, way.strip, length, MOST_FACES);
+    if (way->strip.faces.size() == 1 || way->path.length <= length) return way->path.length;
+    auto corridor = corridor_of(way->strip, length, MOST_VERTICES);
+    if (!corridor) corridor = corridor_in_space(surface_, way->strip, length, MOST_FACES);
     if (!corridor) return std::nullopt;
-    return std::min(way.path.length, shortest_length_in_corridor(*corridor, way.strip));
+    return std::min(way->path.length, shortest_length_in_corridor(*corridor, way->strip));
 }
 
 SurfacePath PathFinder::find(PathQuality quality) {
-    if (is_at(surface_, source_, target_) && points_.sssd(source_, target_) == 0)
-        return path_of_strip(surface_, {source_, target_, {source_.face}, {}}, {});
+    if (is_same_point(surface_, source_, target_)) return path_within_point(source_, target_);
     const StripWay way = find_way(quality);
     return path_of_strip(surface_, way.strip, way.path);
 }
@@ -253,12 +249,7 @@ StripWay find_straight_path(const Index& index, Query& query, const Surface& sur
 std::optional<double> length_of_near_path(const Index& index, Query& query, const Surface& surface,
                                           const SurfacePoint& source, const SurfacePoint& target,
                                           double known, size_t most_steps) {
-    try {
-        return PathFinder(index, query, surface, source, target, most_steps).find_length(known);
-    } catch (const Error& error) {
-        if (error.status != GEOIDX_ERROR_NO_PATH) throw;
-        return std::nullopt;
-    }
+    return PathFinder(index, query, surface, source, target, most_steps).find_length(known);
 }
 
 }

@@ -34,6 +34,10 @@ path_of_points(std::vector<SurfacePoint>&& points, const SurfacePoint& target,
     return path;
 }
 
+SurfacePath path_within_point(const SurfacePoint& source, const SurfacePoint& target) {
+    return {{source, target}, {0}, 0};
+}
+
 double distance_to_next(const Surface& surface, const std::vector<SurfacePoint>& points, size_t i) {
     return (position_of(surface, points[i + 1]) - position_of(surface, points[i])).norm();
 }

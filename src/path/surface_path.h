@@ -20,7 +20,8 @@ enum class PathQuality { STRAIGHT, EXACT };
 // Throws Error NO_PATH.
 [[noreturn]] void no_path();
 
-// Where a path passes a portal, as the point of a face there that callers get.
+// As point_at(), but a share within NEGLIGIBLE_WEIGHT of 0 or 1 is that, so that callers get a point at the
+// vertex.
 SurfacePoint passed_point(const Surface& surface, uint32_t face, const Portal& portal, double share);
 
 // Adds a point, but replaces the last one if it is the same point: the next piece lies in the face of the
@@ -33,6 +34,9 @@ void add_point(const Surface& surface, const SurfacePoint& point, std::vector<Su
 SurfacePath
 path_of_points(std::vector<SurfacePoint>&& points, const SurfacePoint& target,
                const std::function<double(const std::vector<SurfacePoint>&, size_t)>& length_of_piece);
+
+// From a point to itself, which the target is, be it of another face.
+SurfacePath path_within_point(const SurfacePoint& source, const SurfacePoint& target);
 
 // How far two consecutive points are apart in space.
 double distance_to_next(const Surface& surface, const std::vector<SurfacePoint>& points, size_t i);

@@ -67,7 +67,7 @@ std::vector<SurfacePoint> VertexPathFinder::points_over(const SurfacePoint& sour
             face = *std::ranges::find_if(
                 around, [&](uint32_t f) { return has_corner(surface_, f, vertices[i + 1]); });
         }
-        add_point(surface_, point_at(surface_, face, {vertices[i], vertices[i]}, 0), points);
+        add_point(surface_, corner_point(surface_, face, vertices[i]), points);
     }
     add_point(surface_, target, points);
     return points;
@@ -80,8 +80,7 @@ double VertexPathFinder::length_of_piece(const std::vector<SurfacePoint>& points
 }
 
 SurfacePath VertexPathFinder::find(const SurfacePoint& source, const SurfacePoint& target) {
-    if (is_same_point(surface_, source, target))
-        return path_of_points({source}, target, [](const auto&, size_t) { return 0.0; });
+    if (is_same_point(surface_, source, target)) return path_within_point(source, target);
     query_.prepare_end(1, face_point_on(index_, surface_, target, false));
     const auto vertices = search_edges(
         surface_, ends_of(source), ends_of(target), [&](uint32_t v) { return rest_from(v); },

@@ -65,13 +65,14 @@ std::optional<StripWay> WeightedPathFinder::led_by(size_t end) {
 }
 
 void WeightedPathFinder::take_if_shorter(std::optional<StripWay>&& other) {
-    if (!other || other->strip.faces == best_.strip.faces) return;
+    if (!other || is_same_strip(other->strip, best_.strip)) return;
     slide(surface_, other->strip, other->path);
     try_detours(surface_, *other);
     if (best_.strip.faces.empty() || other->path.length < best_.path.length) best_ = std::move(*other);
 }
 
-// What the longest edge at either end costs: distances from a point inside of a face lead over a corner.
+// How much too long distances from a point inside of a face may be, since they lead over a corner: what the
+// longest edge at either end costs.
 double WeightedPathFinder::slack() const {
     double dearest = 0;
     for (const uint32_t face : {source_.face, target_.face})
@@ -90,8 +91,7 @@ double WeightedPathFinder::limit() const {
 }
 
 SurfacePath WeightedPathFinder::find(PathQuality quality) {
-    if (is_same_point(surface_, source_, target_))
-        return path_of_points({source_}, target_, [](const auto&, size_t) { return 0.0; });
+    if (is_same_point(surface_, source_, target_)) return path_within_point(source_, target_);
     query_.prepare_end(1, end_at(target_));
     query_.prepare_end(0, end_at(source_));
     auto way = led_by(1);
@@ -112,11 +112,7 @@ SurfacePoint WeightedPathFinder::in_cheapest_face(const SurfacePoint& from, cons
         if (from.weights[k] != 0 || to.weights[k] != 0) continue;
         const auto& corners = surface_.faces[from.face];
         const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
-        const uint32_t face = cheapest_face_at(surface_, from.face, a, b);
-        SurfacePoint found{face, {}};
-        found.weights[corner_of(surface_, face, a)] = from.weights[(k + 1) % 3];
-        found.weights[corner_of(surface_, face, b)] = from.weights[(k + 2) % 3];
-        return found;
+        return point_in_face(surface_, from, cheapest_face_at(surface_, from.face, a, b)).value();
     }
     return from;
 }

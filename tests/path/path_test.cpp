@@ -136,6 +136,26 @@ TEST_CASE("path: from a point to itself, and within one triangle") {
     }
 }
 
+// Two points at one place on both sides of a triangle without area: the way leads through that triangle.
+TEST_CASE("path: between the sides of a triangle without area") {
+    Soup soup;
+    soup.positions = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, 0}, {0.5, 1, 0.3}, {1.7, 0.8, 0.1}};
+    soup.triangles = {{0, 1, 3}, {0, 2, 1}, {0, 2, 4}, {2, 1, 5}};
+    const PathCase on(soup);
+    geoidx_surface_point below{}, above{};
+    below.triangle = 0;
+    above.triangle = 2;
+    for (const double share : {0.25, 0.5, 0.375}) {
+        const double weights_below[] = {1 - share, share, 0}, weights_above[] = {1 - 2 * share, 2 * share, 0};
+        std::ranges::copy(weights_below, below.weights);
+        std::ranges::copy(weights_above, above.weights);
+        for (const uint32_t quality : {GEOIDX_PATH_STRAIGHT, GEOIDX_PATH_EXACT}) {
+            CHECK(path_length(on, below, above, quality) == 0);
+            CHECK(path_length(on, above, below, quality) == 0);
+        }
+    }
+}
+
 // A share of a triangle that is rounding makes no other point: here the way turns around a vertex right
 // there.
 TEST_CASE("path: from a point that is at a vertex but for rounding") {
