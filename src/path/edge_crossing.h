@@ -13,6 +13,6 @@ struct EdgeCrossing {
 // The crossing of the shortest way from a position over the edge between two vertices, whose distances from
 // the target are known: straight to where these place the target, if they do.
 EdgeCrossing cross_edge(const Surface& surface, uint32_t a, uint32_t b, const Eigen::Vector3d& from,
-                        double from_a, double from_b);
+                        double rest_a, double rest_b);
 
 }

@@ -16,7 +16,7 @@ bool is_before(const SurfacePoint& a, const SurfacePoint& b) {
 
 }
 
-// Where large triangles lie beside many small ones, a walk may lead over thousands of faces.
+// Where large triangles lie beside many small ones, a search may leave thousands of faces.
 float distance_of_points(const Index& index, Query& query, const Surface& surface, const SurfacePoint& source,
                          const SurfacePoint& target) {
     constexpr size_t MOST_STEPS = 2000;

@@ -31,7 +31,8 @@ Vector3d StripSearch::position(const Node& node) const {
     return position_of(surface_, *std::ranges::find(sources_, node.item, &SurfacePoint::face));
 }
 
-// Unless the face or vertex is closed or will be before this node's turn.
+// Notes a way to a face or vertex, unless that is closed or a way is open there that is expected to be no
+// longer.
 void StripSearch::open(Expected& expected, double rest, const Node& node) {
     const double length = node.length + rest * (1 + distances_->error);
     if (!(length < expected.length)) return;
@@ -68,8 +69,8 @@ void StripSearch::leave_face(uint32_t index) {
 }
 
 double StripSearch::rest_from(uint32_t vertex, const Edge& entry) {
-    if (vertex == entry.ends.a) return entry.from_a;
-    if (vertex == entry.ends.b) return entry.from_b;
+    if (vertex == entry.ends.a) return entry.rest_a;
+    if (vertex == entry.ends.b) return entry.rest_b;
     double& rest = vertices_[vertex].rest;
     if (rest == UNKNOWN) rest = distances_->at_vertex(vertex);
     return rest;
@@ -95,7 +96,7 @@ void StripSearch::pass_edge(const Leaving& leaving, const Edge& edge) {
 
 StripSearch::Crossing StripSearch::cross(const Leaving& leaving, const Edge& edge) const {
     const auto [a, b] = edge.ends;
-    const auto [share, rest] = cross_edge(surface_, a, b, leaving.at, edge.from_a, edge.from_b);
+    const auto [share, rest] = cross_edge(surface_, a, b, leaving.at, edge.rest_a, edge.rest_b);
     const Vector3d at = position_at(surface_, edge.ends, share);
     return {true, share, rest, leaving.length + (at - leaving.at).norm()};
 }
@@ -103,19 +104,19 @@ StripSearch::Crossing StripSearch::cross(const Leaving& leaving, const Edge& edg
 void StripSearch::leave_vertex(uint32_t index) {
     const auto [kind, vertex, before, entry, share, length] = open_[index];
     for (const uint32_t face : surface_.vertex_faces[vertex])
-        open(faces_[face], entry.from_a, {Kind::FACE, face, index, entry, 0, length});
+        open(faces_[face], entry.rest_a, {Kind::FACE, face, index, entry, 0, length});
 }
 
 std::optional<Strip> StripSearch::run(const SurfacePoint& source, const SurfacePoint& target,
                                       const TargetDistances& distances) {
     distances_ = &distances;
     begin(source, target);
-    for (size_t steps = 0; !open_.empty() && steps <= distances.most_steps;) {
+    for (size_t steps = 0; !open_.empty();) {
         const uint32_t index = open_.pop();
         const Node& node = open_[index];
         if (node.kind == Kind::TARGET) return strip_to(index);
         if (!close(node)) continue;
-        ++steps;
+        if (steps++ == distances.most_steps) break;
         if (node.kind == Kind::FACE)
             leave_face(index);
         else

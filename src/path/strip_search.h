@@ -35,10 +35,10 @@ private:
     // Two vertices, the one with the smaller number first, and how far they are from the target.
     struct Edge {
         Portal ends;
-        double from_a, from_b;
+        double rest_a, rest_b;
     };
-    static Edge edge_between(uint32_t a, double from_a, uint32_t b, double from_b) {
-        return a < b ? Edge{{a, b}, from_a, from_b} : Edge{{b, a}, from_b, from_a};
+    static Edge edge_between(uint32_t a, double rest_a, uint32_t b, double rest_b) {
+        return a < b ? Edge{{a, b}, rest_a, rest_b} : Edge{{b, a}, rest_b, rest_a};
     }
     enum class Kind : uint32_t { FACE, VERTEX, TARGET };
     struct Node {

@@ -77,9 +77,7 @@ std::optional<Turn::Fan> Turn::below(double limit, uint32_t from_face, const Vec
         best = s;
     }
     if (best == NONE) return std::nullopt;
-    Fan fan = fan_to(best);
-    fan.angle = limit;
-    return fan;
+    return fan_to(best);
 }
 
 ClosedFan::ClosedFan(const Surface& surface, uint32_t vertex, uint32_t first_face)
@@ -128,9 +126,7 @@ std::optional<Turn::Fan> ClosedFan::below(double limit, const Vector3d& from, ui
         best = side;
     }
     if (!best) return std::nullopt;
-    Turn::Fan fan = fan_over(*best);
-    fan.angle = limit;
-    return fan;
+    return fan_over(*best);
 }
 
 // Around one side; infinite if it is half a turn or more.

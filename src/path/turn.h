@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -30,9 +31,8 @@ public:
     // The faces between the two, without them, and the other ends of the edges passed.
     struct Fan {
         std::vector<uint32_t> faces, spokes;
-        double angle = 0;
     };
-    // Nothing if the angle is not below the limit.
+    // Nothing if the angle is not below the limit. May be asked once.
     std::optional<Fan> below(double limit, uint32_t from_face, const Eigen::Vector3d& from, uint32_t to_face,
                              const Eigen::Vector3d& to);
 
@@ -115,7 +115,7 @@ private:
     const uint32_t vertex_;
     size_t count_ = 0;
     std::array<Sector, MOST_FACES> sectors_;
-    const bool is_closed_;
+    const bool is_closed_; // the last one: what makes it fills the others
 };
 
 }

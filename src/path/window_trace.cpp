@@ -34,7 +34,7 @@ private:
     void try_vertex(const SurfacePoint& end, uint32_t corner, Piece& best) const;
     void try_windows(const SurfacePoint& end, uint32_t corner, Piece& best) const;
     SurfacePoint crossed(const Window& window, uint32_t edge, double crossing) const;
-    Portal vertex_at(const SurfacePoint& point) const;
+    Portal vertex_portal(const SurfacePoint& point) const;
 
     const IntrinsicMesh& mesh_;
     const WindowSolver& solver_;
@@ -89,8 +89,8 @@ SurfacePoint WindowTrace::crossed(const Window& window, uint32_t edge, double cr
     return point;
 }
 
-// The vertex that a point is at, or nothing.
-Portal WindowTrace::vertex_at(const SurfacePoint& point) const {
+// At the vertex that a point is at, or none.
+Portal WindowTrace::vertex_portal(const SurfacePoint& point) const {
     for (uint32_t k = 0; k < 3; ++k)
         if (const uint32_t vertex = corner_vertex(mesh_, 3 * point.face + k); point.weights[k] == 1)
             return {vertex, vertex};
@@ -111,7 +111,8 @@ Piece WindowTrace::last_piece(const std::vector<SurfacePoint>& ends) const {
     return best;
 }
 
-// Takes the piece into a strip that ends where it does, there at a vertex if they do not share a face.
+// Adds a piece to a strip that is built from the target on. The piece ends where the strip does, at a vertex
+// perhaps in another face there: then the vertex becomes a portal.
 void append(const Piece& piece, const Portal& at_vertex, Strip& strip) {
     if (strip.faces.empty()) {
         strip.source = piece.end;
@@ -138,7 +139,7 @@ std::optional<Strip> WindowTrace::run(const SurfacePoint& target) const {
         if (piece.length == UNREACHABLE) break;
         append(piece, at_vertex, strip);
         if (piece.over == NO_PORTAL) return strip;
-        at_vertex = vertex_at(piece.before);
+        at_vertex = vertex_portal(piece.before);
         ends = at_vertex == NO_PORTAL ? std::vector{piece.before} : in_all_faces(mesh_, piece.before);
     }
     return std::nullopt;
