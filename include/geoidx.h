@@ -406,8 +406,9 @@ typedef struct geoidx_info {
                             geoidx_save takes by default */
     uint32_t file_flags; /* GEOIDX_SAVE_NO_POSITIONS if the file that it was opened from has none, or 0 */
     /* GEOIDX_ENGINE_OVERLAY: what the distances of a table are multiples of, for the table with the smallest
-     * and with the largest steps; half of it is the most that rounding changes an entry by. 0 for
-     * GEOIDX_ENGINE_GRAPH, whose distances are floats. */
+     * and with the largest steps; half of it is the most that rounding changes an entry by, except that
+     * different vertices are no less than a step apart. 0 for GEOIDX_ENGINE_GRAPH, whose distances are
+     * floats. */
     double smallest_step;
     double largest_step;
     uint64_t added_vertex_count; /* vertices of the tables that have no id, see target_error */

@@ -1,6 +1,7 @@
 #include "src/tables/rounding.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src/base/quantiles.h"
 #include "src/overlay/tables/codes.h"
@@ -101,13 +102,10 @@ std::vector<float> rounding_of_patches(const Numbering& numbering, const Distanc
 Steps choose_steps(float longest, float wanted) {
     const double smallest = double{longest} / TableCode::LARGEST;
     if (!(double{wanted} > smallest)) return {static_cast<float>(smallest), 0};
-    double quantum = double{wanted};
+    const double steps = std::round(double{longest} / double{wanted}); // it must be a code as it is rounded
     uint8_t shift = 0;
-    while (shift < TableCode::MOST_SHIFT && quantum / 2 >= smallest) {
-        quantum /= 2;
-        ++shift;
-    }
-    return {static_cast<float>(quantum), shift};
+    while (shift < TableCode::MOST_SHIFT && steps <= TableCode::LARGEST >> (shift + 1)) ++shift;
+    return {static_cast<float>(std::ldexp(double{wanted}, -shift)), shift};
 }
 
 }
