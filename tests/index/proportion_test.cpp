@@ -27,8 +27,8 @@ uint64_t label_codes(const OverlayIndex& index) {
 }
 uint64_t codes_made(const OverlayIndex& index) {
     return index.hops.border_begin.back() + index.hops.owned_begin.back() +
-           3 * index.hops.inner_begin.back() / 2 + index.bounds.codes.size() + sample_codes(index) +
-           label_codes(index);
+           3 * index.hops.inner_begin.back() / 2 + (index.hops.on_border_begin.back() + 15) / 16 +
+           index.bounds.codes.size() + sample_codes(index) + label_codes(index);
 }
 
 }

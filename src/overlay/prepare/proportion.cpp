@@ -9,13 +9,25 @@
 
 namespace geodesic {
 
+namespace {
+
+// Flags of the vertices in the overlay of each patch's parent, of which 16 are a code.
+uint64_t count_flag_codes(const Numbering& numbering) {
+    uint64_t flags = 0;
+    for (uint32_t p = 1; p < numbering.patch_count(); ++p)
+        flags += numbering.overlay_size(numbering.parent[p]);
+    return (flags + 15) / 16;
+}
+
+}
+
 // No sum wraps around: a ring has fewer than 2^15 places, and the vertices of overlays are numbers that the
 // file holds, fewer than 2^31 in any file below 8 GB.
 uint64_t derived_codes(const OverlayIndex& index) {
     uint64_t bytes = 0;
     for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) bytes += index.hop_table_bytes(p);
-    return bytes / sizeof(uint16_t) + count_bound_codes(index) + count_sample_codes(index) +
-           count_label_codes(index);
+    return bytes / sizeof(uint16_t) + count_flag_codes(index.numbering) + count_bound_codes(index) +
+           count_sample_codes(index) + count_label_codes(index);
 }
 
 uint64_t stored_numbers(const OverlayIndex& index) {
