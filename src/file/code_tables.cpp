@@ -1,6 +1,7 @@
 #include "src/file/code_tables.h"
 
 #include "src/index/numbering.h"
+#include "src/overlay/tables/codes.h"
 
 namespace geodesic {
 
@@ -75,6 +76,25 @@ std::vector<CodeTable> internal_tables(const StoredIndex& stored) {
         list.add_below_diagonal(patch, internal);
     });
     return list.take();
+}
+
+std::optional<uint16_t> code_between_steps(std::span<const uint16_t> codes, std::span<const uint8_t> shift,
+                                           std::span<const CodeTable> tables) {
+    for (const CodeTable& table : tables) {
+        const int below = (1 << shift[table.patch]) - 1;
+        for (const uint16_t code : codes.subspan(table.begin, table.size))
+            if (code != TableCode::UNREACHED && (code & below) != 0) return code;
+    }
+    return std::nullopt;
+}
+
+bool are_whole_steps(const StoredIndex& stored) {
+    const auto are_whole = [&](std::span<const uint16_t> codes, std::span<const CodeTable> tables) {
+        return !code_between_steps(codes, stored.shift, tables);
+    };
+    return are_whole(stored.overlay_codes, overlay_tables(stored)) &&
+           are_whole(stored.border_internal_codes, border_internal_tables(stored)) &&
+           are_whole(stored.internal_codes, internal_tables(stored));
 }
 
 uint64_t entry_count(std::span<const CodeTable> tables) {

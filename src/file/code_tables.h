@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,14 @@ struct CodeTable {
 std::vector<CodeTable> overlay_tables(const StoredIndex& stored);
 std::vector<CodeTable> border_internal_tables(const StoredIndex& stored);
 std::vector<CodeTable> internal_tables(const StoredIndex& stored);
+
+// The first of the codes of some tables that is no multiple of 2^shift of its patch, or nothing. It could not
+// be saved packed.
+std::optional<uint16_t> code_between_steps(std::span<const uint16_t> codes, std::span<const uint8_t> shift,
+                                           std::span<const CodeTable> tables);
+
+// Whether there is none in OVOV, BVIV and IVIV.
+bool are_whole_steps(const StoredIndex& stored);
 
 uint64_t entry_count(std::span<const CodeTable> tables);
 

@@ -29,18 +29,13 @@ uint16_t code_of(float value) {
     return code;
 }
 
-// Refuses codes that are no multiples of 2^shift, since they could not be saved packed.
 std::vector<uint16_t> codes_of(const std::vector<float>& values, const std::vector<uint8_t>& shift,
                                std::span<const CodeTable> tables) {
     std::vector<uint16_t> codes(values.size());
     for (size_t i = 0; i < values.size(); ++i) codes[i] = code_of(values[i]);
-    for (const CodeTable& table : tables) {
-        const int below = (1 << shift[table.patch]) - 1;
-        for (const uint16_t code : std::span(codes).subspan(table.begin, table.size))
-            if (code != TableCode::UNREACHED && (code & below) != 0)
-                refuse_as_corrupt("a table holds the code " + std::to_string(code) +
-                                  ", which is no multiple of " + std::to_string(below + 1));
-    }
+    if (const auto code = code_between_steps(codes, shift, tables))
+        refuse_as_corrupt("a table holds the code " + std::to_string(*code) +
+                          ", which is no multiple of 2^shift of its patch");
     return codes;
 }
 

@@ -58,8 +58,8 @@ void leave_out_labels(Index& index);
 StoredIndex restore(const Index& index);
 
 // Throws Error CORRUPT unless all that queries read of an index that was opened from a mapped file is what
-// prepare() would have made. Opening does not ask, since it takes longer than everything else that opening
-// does.
+// prepare() would have made of another form, and another form can hold it. Opening does not ask, since it
+// takes longer than everything else that opening does.
 void require_hops_follow(const Index& index);
 
 // The largest error of tables, for pairs of a class of distances that are held beside them: answers that
