@@ -34,7 +34,7 @@ void read_quanta(const format::Container& container, StoredIndex& stored) {
     }
     reader.expect_end();
     for (float quantum : stored.quantum)
-        if (!(quantum >= 0) || !std::isfinite(quantum))
+        if (!std::isfinite(quantum) || std::signbit(quantum))
             refuse_as_corrupt("section QUAN: the quantum " + number_text(quantum));
 }
 

@@ -91,7 +91,7 @@ TEST_CASE("crafted overlay: a section that is missing, too short or too long") {
 }
 
 TEST_CASE("crafted QUAN") {
-    for (float quantum : {-1.0f, -1e-30f, INFINITE, -INFINITE, NOT_A_NUMBER})
+    for (float quantum : {-1.0f, -1e-30f, -0.0f, INFINITE, -INFINITE, NOT_A_NUMBER})
         for (size_t patch : {size_t{0}, size_t{3}}) check_corrupt("quantum", TAG_QUANTA, set(patch, quantum));
 }
 
