@@ -9,7 +9,9 @@ import numpy as np
 from meshes import hills
 
 import geoidx
-from geoidx import Codec, Coding
+from geoidx import Codec, Coding, _native
+from geoidx._info import info_of
+from geoidx._sections import section_of
 
 TABLES = ["OVOV", "BVIV", "IVIV"]
 NAMES = {"packed": Codec.PACKED, "lossless": Codec.LOSSLESS, "mapped": Codec.MAPPED}
@@ -148,6 +150,17 @@ class Codecs(unittest.TestCase):
             for section in tables:
                 self.assertIs(section.coding, coding)
                 self.assertLess(section.stored_size, section.raw_size)
+
+    def test_numbers_of_later_versions_have_no_name(self):
+        info = _native.Info()
+        info.metric = 4
+        self.assertEqual(info_of(info).metric, 4)
+        info.metric = 3
+        self.assertIs(info_of(info).metric, geoidx.MetricKind.WEIGHTED)
+        section = _native.Section()
+        section.tag, section.coding = b"\xffA\n\x1b", 77
+        self.assertEqual(section_of(section).coding, 77)
+        self.assertEqual(section_of(section).tag.encode("ascii"), b"\\xffA\n\x1b")
 
     def test_rounding_makes_steps_larger_and_the_file_smaller(self):
         mesh = hills(40, 40)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from . import _native
 from ._metrics import MetricKind
+from ._named import named
 from ._options import Codec, Engine
 
 
@@ -17,7 +18,8 @@ class Info:
     random sources, measured when the index was built.
     """
 
-    metric: MetricKind
+    metric: MetricKind | int
+    """A number without a name where geoidx does not know the metric, which queries do not ask about."""
     metric_unfoldable: bool
     """Paths may cross borders between two vertices."""
     metric_fingerprint: int
@@ -86,7 +88,7 @@ class Info:
 def info_of(struct: _native.Info) -> Info:
     same = {name: getattr(struct, name) for name in Info.__dataclass_fields__ if hasattr(struct, name)}
     same.update(
-        metric=MetricKind(struct.metric),
+        metric=named(MetricKind, struct.metric),
         metric_unfoldable=bool(struct.metric_flags & _native.METRIC_UNFOLDABLE),
         engine=Engine(struct.engine),
         codec=Codec(struct.codec),

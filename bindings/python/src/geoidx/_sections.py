@@ -9,6 +9,7 @@ from enum import IntEnum
 from . import _native
 from ._errors import check
 from ._handle import Handle
+from ._named import named
 from ._native import library
 
 
@@ -26,8 +27,9 @@ class Section:
     """A section of the file that an index was opened from; format/SPEC.md says what is in it."""
 
     tag: str
-    """Its name, four characters."""
-    coding: Coding
+    """Its name, four characters; of one that geoidx does not know, other bytes than ASCII as escapes."""
+    coding: Coding | int
+    """A number without a name where geoidx does not know how the section is stored."""
     offset: int
     """Bytes from the start of the file."""
     stored_size: int
@@ -36,9 +38,13 @@ class Section:
     """Bytes when decoded."""
 
 
-def _section_of(struct: _native.Section) -> Section:
+def section_of(struct: _native.Section) -> Section:
     return Section(
-        struct.tag.decode(), Coding(struct.coding), struct.offset, struct.stored_size, struct.raw_size
+        struct.tag.decode("ascii", "backslashreplace"),
+        named(Coding, struct.coding),
+        struct.offset,
+        struct.stored_size,
+        struct.raw_size,
     )
 
 
@@ -47,4 +53,4 @@ def read_sections(handle: Handle) -> tuple[Section, ...]:
     check(library.geoidx_get_sections(handle, None, 0, byref(count)))
     structs = (_native.Section * count.value)()
     check(library.geoidx_get_sections(handle, structs, count, byref(count)))
-    return tuple(_section_of(struct) for struct in structs)
+    return tuple(section_of(struct) for struct in structs)
