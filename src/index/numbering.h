@@ -96,6 +96,12 @@ struct Numbering {
                 vertex_borders.data() + vertex_borders_begin[border_vertex + 1]};
     }
 
+    // The positions of a patch's border, in its order, in the overlay of the patch's parent.
+    std::span<const uint32_t> positions_in_parent(uint32_t patch) const {
+        return {overlay_position.data() + border_begin[patch],
+                overlay_position.data() + border_begin[patch + 1]};
+    }
+
     // The position of a border vertex in the border of a patch, or NONE if it is not on it.
     uint32_t border_position(uint32_t patch, uint32_t border_vertex) const {
         for (const PatchPosition& at : borders_of(border_vertex))

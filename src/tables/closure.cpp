@@ -74,7 +74,7 @@ private:
 
     void cross(uint32_t child) {
         const uint32_t first = numbering_.border_begin[child], size = numbering_.border_size(child);
-        const uint32_t* position = numbering_.overlay_position.data() + first;
+        const auto position = numbering_.positions_in_parent(child);
         const float* table = tables_.overlay[child].data(); // its first rows and columns are the border
         const size_t stride = numbering_.overlay_size(child);
         from_.clear();
@@ -167,13 +167,12 @@ private:
 
 // The part of the parent's table that holds the distances between the border vertices of a patch.
 std::vector<float> border_block(uint32_t patch, const Numbering& numbering, const DistanceTables& tables) {
-    const uint32_t parent = numbering.parent[patch], first = numbering.border_begin[patch];
-    const size_t border = numbering.border_size(patch), stride = numbering.overlay_size(parent);
+    const uint32_t parent = numbering.parent[patch];
+    const size_t stride = numbering.overlay_size(parent);
     std::vector<float> block;
-    for (size_t i = 0; i < border; ++i)
-        for (size_t j = 0; j < border; ++j)
-            block.push_back(tables.overlay[parent][numbering.overlay_position[first + i] * stride +
-                                                   numbering.overlay_position[first + j]]);
+    for (const uint32_t i : numbering.positions_in_parent(patch))
+        for (const uint32_t j : numbering.positions_in_parent(patch))
+            block.push_back(tables.overlay[parent][i * stride + j]);
     return block;
 }
 

@@ -27,15 +27,15 @@ public:
         }
     }
 
-    // A border consists of several rings, one after the other. The last vertex of each may be joined to its
+    // A border consists of several chains, one after the other. The last vertex of each may be joined to its
     // first.
     void find(uint32_t patch) {
         const uint32_t size = numbering_.border_size(patch);
-        uint32_t ring = 0;
+        uint32_t chain_begin = 0;
         for (uint32_t i = 0; i < size; ++i) {
             if (i + 1 < size && join(patch, i, i + 1)) continue;
-            if (i - ring >= 2) join(patch, i, ring);
-            ring = i + 1;
+            if (i - chain_begin >= 2) join(patch, i, chain_begin);
+            chain_begin = i + 1;
         }
         find_bridges(patch);
     }
@@ -103,11 +103,11 @@ private:
         for (const PatchPosition& at : numbering_.borders_of(a))
             for (const PatchPosition& bt : numbering_.borders_of(b)) {
                 if (at.patch != bt.patch || at.patch < numbering_.first_leaf()) continue;
-                const uint32_t parent = numbering_.parent[at.patch],
-                               first = numbering_.border_begin[at.patch];
-                const size_t row = numbering_.overlay_position[first + at.position];
-                return tables_.overlay[parent][row * numbering_.overlay_size(parent) +
-                                               numbering_.overlay_position[first + bt.position]];
+                const uint32_t parent = numbering_.parent[at.patch];
+                const auto in_parent = numbering_.positions_in_parent(at.patch);
+                const size_t row = in_parent[at.position];
+                return tables_
+                    .overlay[parent][row * numbering_.overlay_size(parent) + in_parent[bt.position]];
             }
         return 0;
     }

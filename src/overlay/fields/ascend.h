@@ -46,14 +46,12 @@ void for_each_way_in_leaves(const OverlayIndex& index, uint32_t source, const Fu
     if (!numbering.is_border(source)) return for_each_way_from(index, source, function);
     for (const auto& [leaf, position] : numbering.borders_of(source)) {
         if (leaf < numbering.first_leaf()) continue;
-        const uint32_t* const overlay_positions =
-            numbering.overlay_position.data() + numbering.border_begin[leaf];
+        const auto in_parent = numbering.positions_in_parent(leaf);
         const auto border = numbering.border_of(leaf);
         const uint32_t parent = numbering.parent[leaf], first = numbering.first_internal(leaf);
         for (uint32_t i = 0; i < border.size(); ++i)
-            function(border[i], index.distance(index.overlay_code(parent, overlay_positions[position],
-                                                                  overlay_positions[i]),
-                                               parent));
+            function(border[i],
+                     index.distance(index.overlay_code(parent, in_parent[position], in_parent[i]), parent));
         for (uint32_t i = 0; i < numbering.internal_size(leaf); ++i)
             function(first + i, index.distance(index.border_internal_code(leaf, position, i), leaf));
     }

@@ -23,10 +23,10 @@ float distance_between(const OverlayIndex& index, uint32_t leaf, const LeafVerte
     if (a.internal != NONE)
         return index.distance(index.border_internal_code(leaf, b.border_position, a.internal), leaf);
     if (b.internal != NONE) return distance_between(index, leaf, b, a);
-    const uint32_t* const positions = numbering.overlay_position.data() + numbering.border_begin[leaf];
+    const auto in_parent = numbering.positions_in_parent(leaf);
     const uint32_t parent = numbering.parent[leaf];
     return index.distance(
-        index.overlay_code(parent, positions[a.border_position], positions[b.border_position]), parent);
+        index.overlay_code(parent, in_parent[a.border_position], in_parent[b.border_position]), parent);
 }
 
 // A vertex of a border, and the segment that leads to it.
@@ -97,11 +97,6 @@ std::optional<size_t> find_on_border(const OverlayIndex& index, uint32_t leaf, u
     return between;
 }
 
-float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b) {
-    return distance_between(index, leaf, leaf_vertex(index.numbering, leaf, a),
-                            leaf_vertex(index.numbering, leaf, b));
-}
-
 bool PointsInLeaf::has_both(const FacePoint& point, const FacePoint& other) const {
     if (point.vertex != NONE) return is_in_leaf(index_.numbering, other.leaf, point.vertex);
     if (other.vertex != NONE) return is_in_leaf(index_.numbering, point.leaf, other.vertex);
@@ -167,25 +162,23 @@ std::span<const float> PointsInLeaf::to_all(const FacePoint& point) {
 
 void PointsInLeaf::take_columns(uint32_t leaf) {
     const Numbering& numbering = index_.numbering;
-    const uint32_t* const positions = numbering.overlay_position.data() + numbering.border_begin[leaf];
-    columns_.resize(numbering.border_size(leaf));
-    for (size_t i = 0; i < columns_.size(); ++i)
-        columns_[i] = index_.overlay_column(numbering.parent[leaf], positions[i]);
+    columns_.clear();
+    for (const uint32_t position : numbering.positions_in_parent(leaf))
+        columns_.push_back(index_.overlay_column(numbering.parent[leaf], position));
 }
 
 void PointsInLeaf::fill_border_row(uint32_t leaf, const LeafVertex& from, float* row) const {
     const Numbering& numbering = index_.numbering;
-    const uint32_t first_slot = numbering.border_begin[leaf];
     const size_t count = columns_.size();
     if (from.internal != NONE) {
         const uint16_t* const codes = index_.hops.inner.data() + index_.inner_row(leaf, from.internal);
-        const uint16_t* const places = index_.rings.place_of_slot.data() + first_slot;
+        const uint16_t* const places = index_.rings.place_of_slot.data() + numbering.border_begin[leaf];
         const float quantum = index_.quantum[leaf];
         for (size_t i = 0; i < count; ++i) row[i] = TableCode::distance(codes[places[i]], quantum);
         return;
     }
     const uint32_t parent = numbering.parent[leaf],
-                   position = numbering.overlay_position[first_slot + from.border_position];
+                   position = numbering.positions_in_parent(leaf)[from.border_position];
     const float quantum = index_.quantum[parent];
     if (index_.is_large[parent]) {
         for (size_t i = 0; i < count; ++i)

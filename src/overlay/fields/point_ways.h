@@ -54,9 +54,6 @@ inline bool is_on_border(const OverlayIndex& index, uint32_t leaf, uint32_t a, u
     return find_on_border(index, leaf, a, b, length, {}).has_value();
 }
 
-// The distance of two such vertices, by the tables.
-float distance_in_leaf(const OverlayIndex& index, uint32_t leaf, uint32_t a, uint32_t b);
-
 // Distances of points by the tables of their leaves, which have all vertices of their polygons. What is
 // returned lasts until the next call.
 class PointsInLeaf {

@@ -29,7 +29,7 @@ bool OuterCrossing::begin_to_border(uint32_t child, uint32_t patch, DistanceFiel
                                     const RingSegments& segments) {
     read_border(child, distance, segments);
     const auto border = numbering_.border_of(patch);
-    const uint32_t* const in_parent = numbering_.overlay_position.data() + numbering_.border_begin[patch];
+    const auto in_parent = numbering_.positions_in_parent(patch);
     const uint32_t on_border = numbering_.border_size(parent_);
     const auto is_known = [&](uint32_t i) { return distance[border[i]] < INFINITE; };
     for (uint32_t i = 0; i < border.size(); ++i)

@@ -267,7 +267,7 @@ struct OverlayIndex {
     }
     // Where the vertex at a place of a patch's ring, counted over all rings, is in the parent's overlay.
     uint32_t position_in_parent(uint32_t patch, size_t place) const {
-        return numbering.overlay_position[numbering.border_begin[patch] + rings.position[place]];
+        return numbering.positions_in_parent(patch)[rings.position[place]];
     }
 
     uint16_t border_internal_code(uint32_t leaf, uint32_t border_position, uint32_t internal) const {
