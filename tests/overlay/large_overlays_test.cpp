@@ -1,5 +1,5 @@
 // Overlays that have each distance once.
-#include "src/overlay/tables/large_overlays.h"
+#include "src/overlay/prepare/large_overlays.h"
 
 #include <doctest/doctest.h>
 

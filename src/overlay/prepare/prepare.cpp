@@ -10,10 +10,10 @@
 #include "geoidx.h"
 #include "src/index/section_tags.h"
 #include "src/overlay/prepare/bounds.h"
+#include "src/overlay/prepare/large_overlays.h"
 #include "src/overlay/prepare/middles.h"
+#include "src/overlay/prepare/overlay_tables.h"
 #include "src/overlay/prepare/proportion.h"
-#include "src/overlay/tables/large_overlays.h"
-#include "src/overlay/tables/overlay_tables.h"
 
 namespace geodesic {
 

@@ -1,4 +1,4 @@
-#include "src/overlay/tables/overlay_tables.h"
+#include "src/overlay/prepare/overlay_tables.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ public:
           border_(index.numbering.border_size(patch)), owned_(index.numbering.inner_size(patch)),
           parent_(border_ > 0 ? index.numbering.parent[patch] : patch),
           parent_quantum_(index.quantum[parent_]), quantum_(index.quantum[patch]),
-          position_in_parent_(index.numbering.overlay_position.data() + index.numbering.border_begin[patch]),
+          position_in_parent_(index.numbering.positions_in_parent(patch)),
           place_(index.rings.place_of_slot.data() + index.numbering.border_begin[patch]),
           place_position_(index.rings.position.data() + index.rings.begin[patch]), tables_(tables) {}
 
@@ -77,9 +77,9 @@ private:
     const OverlayIndex& index_;
     uint32_t patch_, places_, border_, owned_, parent_;
     float parent_quantum_, quantum_;
-    const uint32_t* position_in_parent_; // per position of the border: in the overlay of the parent
-    const uint16_t* place_;              // per position of the border: its own place
-    const uint16_t* place_position_;     // per place
+    std::span<const uint32_t> position_in_parent_; // per position of the border
+    const uint16_t* place_;                        // per position of the border: its own place
+    const uint16_t* place_position_;               // per place
     OverlayTables tables_;
 };
 

@@ -1,4 +1,4 @@
-#include "src/overlay/tables/large_overlays.h"
+#include "src/overlay/prepare/large_overlays.h"
 
 #include <algorithm>
 #include <functional>
