@@ -51,7 +51,8 @@ double Funnel::turn_or_rounding(double turn, const Vector2d& way, const Vector2d
     return std::abs(turn) <= ROUNDING * farthest_ * (way.lpNorm<1>() + on.lpNorm<1>()) ? 0 : turn;
 }
 
-// No way between two positions is longer than twice as far as the farthest of them.
+// No way between two positions is longer than twice as far as the farthest of them, so that no turn above
+// four times the rounding of its square is rounding; a little more covers the rounding of this bound.
 inline void Funnel::reach(const Vector2d& at) {
     farthest_ = std::max(farthest_, at.lpNorm<1>());
     most_rounding_ = 4.1 * ROUNDING * farthest_ * farthest_;

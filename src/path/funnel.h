@@ -17,13 +17,13 @@ public:
     struct Point {
         Eigen::Vector2d at;
         uint32_t vertex;       // NONE of an end of the way
-        uint32_t gate, before; // `before` is the position of the point before it on the shortest way
+        uint32_t gate, before; // `before` is the index of the point before it on the shortest way
     };
 
     // So many points may be added.
     void begin(const Eigen::Vector2d& source, size_t count);
 
-    // The next point that a side comes to, at a gate. Gives its position in points().
+    // The next point that a side comes to, at a gate. Gives its index in points().
     uint32_t add_left(const Eigen::Vector2d& at, uint32_t vertex, uint32_t gate);
     uint32_t add_right(const Eigen::Vector2d& at, uint32_t vertex, uint32_t gate);
 
@@ -42,7 +42,7 @@ private:
     double most_rounding_ = 0;  // of a turn at these positions
     std::vector<Point> points_; // room for all that may be added
     uint32_t count_ = 0;
-    // Positions of points: the chain to the left end, from the end back to the apex, and then that to the
+    // Indices of points: the chain to the left end, from the end back to the apex, and then that to the
     // right end.
     std::vector<uint32_t> chain_;
     size_t left_ = 0, apex_ = 0, right_ = 0; // in chain_

@@ -6,7 +6,10 @@
 #include <utility>
 
 #include "geoidx.h"
+#include "src/path/exact_path.h"
+#include "src/path/path.h"
 #include "src/path/straighten.h"
+#include "src/points/point_queries.h"
 #include "src/surface/nearby.h"
 
 namespace geodesic {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
-
-#include "src/path/path.h"
+#include "src/path/strip.h"
+#include "src/path/surface_path.h"
+#include "src/query/query.h"
 
 namespace geodesic {
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "src/path/path.h"
+#include "src/path/exact_path.h"
+#include "src/points/point_queries.h"
 
 namespace geodesic {
 
@@ -23,7 +24,7 @@ float distance_of_points(const Index& index, Query& query, const Surface& surfac
     const bool is_turned = is_before(target, source);
     const SurfacePoint &first = is_turned ? target : source, &second = is_turned ? source : target;
     const PointQueries::Pair pair = PointQueries(index, query, surface).pair(first, second);
-    if (pair.is_sure) return pair.distance;
+    if (!pair.needs_path) return pair.distance;
     const auto length =
         length_of_near_path(index, query, surface, first, second, double{pair.distance}, MOST_STEPS);
     return length ? std::min(static_cast<float>(*length), pair.known_way) : pair.distance;

@@ -26,8 +26,10 @@ private:
     static constexpr uint32_t MOST_TIMES = 3;         // that a node is left
     struct Node {
         Vector3d at;
-        double rest;                        // to the target, as far as is known
-        uint32_t edge = NONE, position = 0; // on an edge of the search; of a vertex NONE and its number
+        double rest; // to the target, as far as is known
+        uint32_t edge = NONE,
+                 on_edge = 0;   // of a point of an edge: the edge, and which point it is, from 1 on
+        uint32_t vertex = NONE; // or the vertex, of one that is at a vertex
         double length = UNREACHABLE;
         uint32_t before = NONE, face = NONE; // that the way arrives through
         double left_at = UNREACHABLE;        // its length when it was left
@@ -42,7 +44,7 @@ private:
     uint32_t node_of_vertex(uint32_t vertex);
     uint32_t edge_between(uint32_t face, uint32_t a, uint32_t b);
     uint32_t add_edge(uint32_t face, uint32_t a, uint32_t b);
-    uint32_t node_at(uint32_t edge, uint32_t position);
+    uint32_t node_at(uint32_t edge, uint32_t on_edge);
     double rest_on_edge(double from_a, double from_b, double length, double along) const;
     void reach(uint32_t node, double length, uint32_t before, uint32_t face);
     void reach_through(uint32_t face, uint32_t node, uint32_t from);
@@ -76,7 +78,7 @@ SteinerWay::SteinerWay(const Surface& surface, const WeightedSearchRequest& requ
 uint32_t SteinerWay::node_of_vertex(uint32_t vertex) {
     const auto [found, is_new] = vertex_nodes_.try_emplace(vertex, static_cast<uint32_t>(nodes_.size()));
     if (is_new)
-        nodes_.push_back({surface_.positions[vertex], request_.distance_to_target(vertex), NONE, vertex});
+        nodes_.push_back({surface_.positions[vertex], request_.distance_to_target(vertex), NONE, 0, vertex});
     return found->second;
 }
 
@@ -101,10 +103,10 @@ uint32_t SteinerWay::add_edge(uint32_t face, uint32_t a, uint32_t b) {
     return number;
 }
 
-uint32_t SteinerWay::node_at(uint32_t edge, uint32_t position) {
-    if (position == 0) return node_of_vertex(edges_[edge].a);
-    if (position == count_ + 1) return node_of_vertex(edges_[edge].b);
-    return edges_[edge].first_node + position - 1;
+uint32_t SteinerWay::node_at(uint32_t edge, uint32_t on_edge) {
+    if (on_edge == 0) return node_of_vertex(edges_[edge].a);
+    if (on_edge == count_ + 1) return node_of_vertex(edges_[edge].b);
+    return edges_[edge].first_node + on_edge - 1;
 }
 
 // By the distances of the edge's ends, all as costs: along the edge, or straight to where they place the
@@ -157,7 +159,7 @@ void SteinerWay::leave_source() {
 }
 
 void SteinerWay::leave_vertex(uint32_t from) {
-    const uint32_t vertex = nodes_[from].position;
+    const uint32_t vertex = nodes_[from].vertex;
     for (const uint32_t face : surface_.vertex_faces[vertex]) {
         const uint32_t k = corner_of(surface_, face, vertex);
         const uint32_t ends[] = {surface_.faces[face][(k + 1) % 3], surface_.faces[face][(k + 2) % 3]};
@@ -176,7 +178,7 @@ void SteinerWay::leave_vertex(uint32_t from) {
 void SteinerWay::leave_edge(uint32_t from) {
     const Node node = nodes_[from];
     const Edge edge = edges_[node.edge];
-    for (const uint32_t next : {node_at(node.edge, node.position - 1), node_at(node.edge, node.position + 1)})
+    for (const uint32_t next : {node_at(node.edge, node.on_edge - 1), node_at(node.edge, node.on_edge + 1)})
         reach(next, node.length + edge.step, from, edge.cheapest_face);
     for (const uint32_t face : surface_.vertex_faces[edge.a])
         if (face != node.face && corner_of(surface_, face, edge.b) != NONE) cross(face, from);
@@ -217,9 +219,9 @@ StripWay SteinerWay::way() const {
         if (node != TARGET) {
             if (way.strip.faces.back() == at.face) continue;
             const bool is_vertex = at.edge == NONE;
-            way.strip.portals.push_back(is_vertex ? Portal{at.position, at.position}
+            way.strip.portals.push_back(is_vertex ? Portal{at.vertex, at.vertex}
                                                   : Portal{edges_[at.edge].a, edges_[at.edge].b});
-            way.path.shares.push_back(is_vertex ? 0 : double(at.position) / (count_ + 1));
+            way.path.shares.push_back(is_vertex ? 0 : double(at.on_edge) / (count_ + 1));
         }
         way.strip.faces.push_back(at.face);
     }

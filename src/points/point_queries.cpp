@@ -133,20 +133,21 @@ double PointQueries::straight_way_of_near(const SurfacePoint& source, const Surf
     return std::min(seen_from(source, target), seen_from(target, source));
 }
 
-// Whether the distance that tables tell, with ways that are known besides, needs no search for a path. A
+// Whether the distance that tables tell, with ways that are known besides, calls for a search for a path. A
 // search asks for distances that points without tables, and the graph engine, have by whole fields only:
 // there the distance has to do.
-bool PointQueries::is_sure(const FacePoint& source, const FacePoint& target, const WaysBetween& ways,
-                           float distance) const {
+bool PointQueries::needs_path(const FacePoint& source, const FacePoint& target, const WaysBetween& ways,
+                              float distance) const {
     constexpr double FEW_EDGES = 4;
-    if (ways.is_shortest || distance == INFINITE || !source.has_tables() || !target.has_tables()) return true;
-    if (!unfolds() || std::holds_alternative<GraphIndex>(index_.engine)) return true;
+    if (ways.is_shortest || distance == INFINITE || !source.has_tables() || !target.has_tables())
+        return false;
+    if (!unfolds() || std::holds_alternative<GraphIndex>(index_.engine)) return false;
     // Pairs of vertices that tables have wrong are measured, so that only edges around points that are at no
     // vertex count. Where these are short for the mesh, its average edge does, of which tables round to a
     // share.
     const double longest =
-        std::max({longest_edge_around(source), longest_edge_around(target), double{surface_.average_edge}});
-    return double{distance} >= FEW_EDGES * longest;
+        std::max({longest_edge_around(source), longest_edge_around(target), surface_.average_edge});
+    return double{distance} < FEW_EDGES * longest;
 }
 
 PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfacePoint& target) {
@@ -160,8 +161,8 @@ PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfaceP
     const float by_tables = query_.point_sssd(from.point, to.point);
     const WaysBetween ways = ways_between(source, from, target, to, by_tables);
     const float distance = ways.corrected(by_tables);
-    if (is_sure(from.point, to.point, ways, distance)) return {distance};
-    return {distance, false, ways.corrected(INFINITE)};
+    if (!needs_path(from.point, to.point, ways, distance)) return {distance};
+    return {distance, true, ways.corrected(INFINITE)};
 }
 
 // To the corners of the face and, if the metric unfolds, to those of all faces that the point lies in, to the

@@ -30,18 +30,22 @@ public:
     // does not tell what a way within a face costs.
     PointQueries(const Index& index, Query& query, const Surface& surface);
 
-    // Of two points, and whether that is sure. Where the edges around a point are long for how far the other
-    // one is away, a way that crosses them may come from another side than tables tell of.
+    // Of two points, and whether a path between them would tell more. Where the edges around a point are long
+    // for how far the other one is away, a way that crosses them may come from another side than tables tell
+    // of. False where no path can be looked for, as with the graph engine, however wrong the distance may be.
     struct Pair {
         float distance;
-        bool is_sure = true;
-        float known_way = INFINITE; // the length of some way, where the distance is not sure
+        bool needs_path = false;
+        float known_way = INFINITE; // the length of some way, where a path is needed
     };
     Pair pair(const SurfacePoint& source, const SurfacePoint& target);
     float sssd(const SurfacePoint& source, const SurfacePoint& target) {
         return pair(source, target).distance;
     }
-    // Of several sources; `offsets` are as many, or none.
+    // Of several sources; `offsets` are as many, or none. distances[id] is in the mesh's unit, and infinite
+    // where no source reaches; there are as many as the index has ids. nearest[id] is the position of the
+    // source, or NONE; nearest_sources() may be given no distances. within() gives ids in ascending order of
+    // their distances, valid until the query is asked again.
     void msad(std::span<const SurfacePoint> sources, std::span<const float> offsets,
               std::span<float> distances);
     void nearest_sources(std::span<const SurfacePoint> sources, std::span<const float> offsets,
@@ -50,7 +54,7 @@ public:
                                          std::span<const float> offsets, float radius);
 
     // The nearest `count` targets or, if fewer can be reached, all of these, in ascending order. Few targets
-    // are asked for one by one, and so is each of many whose distance is not sure (see Pair): of_pair(i) is
+    // are asked for one by one, and so is each of many that needs a path (see Pair): of_pair(i) is
     // to return that of targets[i], along a path if need be, which this folder does not know. It may use the
     // query, but neither within() nor sweeps.
     std::vector<Query::Found> nearest_targets(const SurfacePoint& source,
@@ -76,8 +80,8 @@ private:
     void add_known_ways(const SurfacePoint& source, const SeenAround& around,
                         std::vector<KnownWay>& known) const;
     void add_measured_ways(const FacePoint& point, std::vector<KnownWay>& known) const;
-    bool is_sure(const FacePoint& source, const FacePoint& target, const WaysBetween& ways,
-                 float distance) const;
+    bool needs_path(const FacePoint& source, const FacePoint& target, const WaysBetween& ways,
+                    float distance) const;
     WaysBetween ways_between(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
                              const PointView& to, float distance) const;
     double way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const;
