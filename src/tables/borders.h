@@ -17,10 +17,10 @@ ListOfLists<uint32_t> leaves_at_vertices(const Mesh& mesh, const Hierarchy& hier
 uint32_t common_ancestor(const Hierarchy& hierarchy, std::span<const uint32_t> leaves);
 
 // The vertices of all edges between a patch, given by its faces, and other patches. Each vertex comes once,
-// and the vertices follow these edges ring by ring. A closed ring goes from its smallest vertex to the
+// and the vertices follow these edges walk by walk. A closed walk goes from its smallest vertex to the
 // smaller of that vertex's neighbours. An open one goes from one end to the other: the boundary of the mesh
-// breaks a ring, and so does another ring that touches it and was walked before. `inside[f]` tells whether
-// face f is in the patch.
+// breaks a walk, and so does one that touches it and came before. `inside[f]` tells whether face f is in the
+// patch.
 std::vector<std::vector<uint32_t>> walk_border(const Mesh& mesh, std::span<const uint32_t> faces,
                                                const std::vector<uint8_t>& inside);
 

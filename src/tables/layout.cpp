@@ -48,7 +48,7 @@ public:
         const auto on_border = [&](uint32_t v) { return is_on_border(v, patch); };
         std::vector<uint32_t> border;
         for (auto& walk : walks) {
-            // If some vertices of a ring are not on the border, the walk begins at one of them, so that the
+            // If some vertices of a walk are not on the border, the walk begins at one of them, so that the
             // end of the walk and its beginning do not cut a chain in two.
             if (const auto other = std::ranges::find_if_not(walk, on_border); other != walk.end())
                 std::rotate(walk.begin(), other, walk.end());
@@ -82,7 +82,8 @@ private:
     std::vector<uint8_t> inside_;        // per face
 };
 
-// The border of each patch; that of the whole mesh is empty.
+// The border of each patch; that of the whole mesh is empty. The finder serves one patch at a time, so that a
+// level is one task, of which the calling thread tells and which it may cancel.
 std::vector<std::vector<uint32_t>> find_borders(BorderFinder& finder, const Hierarchy& hierarchy,
                                                 Workers& workers) {
     const auto faces = faces_by_level(hierarchy);

@@ -16,7 +16,7 @@ float measured_distance(const FieldSolver& solver, uint32_t vertex) {
     return static_cast<float>(distance);
 }
 
-void solve_for_tables(const uint32_t& vertex, std::span<const uint32_t> targets, const NearDistances* near,
+void solve_for_tables(uint32_t vertex, std::span<const uint32_t> targets, const NearDistances* near,
                       FieldSolver& solver) {
     if (near)
         solver.solve(near->with_near(vertex, targets));

@@ -13,7 +13,7 @@ namespace geodesic {
 float measured_distance(const FieldSolver& solver, uint32_t vertex);
 
 // Solves from one vertex for these targets and, unless `near` is NULL, for what is near.
-void solve_for_tables(const uint32_t& vertex, std::span<const uint32_t> targets, const NearDistances* near,
+void solve_for_tables(uint32_t vertex, std::span<const uint32_t> targets, const NearDistances* near,
                       FieldSolver& solver);
 
 // Measures the distances of an internal vertex to the border of its leaf and to the leaf's internal vertices

@@ -5,7 +5,7 @@
 
 namespace geodesic {
 
-// Of those that are equally far, the ones with smaller numbers, so that each run keeps the same.
+// Of those that are equally far, the ones that come first in the mesh, so that each run keeps the same.
 void NearDistances::take(uint32_t vertex, const FieldSolver& solver) {
     std::vector<Near> near;
     for (const uint32_t other : solver.reached())

@@ -35,7 +35,7 @@ public:
 
     // The vertices that are near this one and not at the same place, in no particular order.
     std::span<const Near> of(uint32_t vertex) const { return around_[vertex].near; }
-    // All vertices that are nearer than this are among them.
+    // All vertices that are nearer than this, to the precision of a float, are among them.
     double reach(uint32_t vertex) const { return around_[vertex].reach; }
 
     // How many vertices around this one a wider look would find, 0 where it is wide enough already.
@@ -43,7 +43,7 @@ public:
         const uint32_t wider = 2 * around_[vertex].count;
         return wider <= WIDEST * nearest_ ? wider : 0;
     }
-    // Finds that many. Different threads may widen different vertices at once.
+    // Finds that many, which must not be 0. Different threads may widen different vertices at once.
     void widen(uint32_t vertex, FieldSolver& solver);
 
 private:

@@ -85,7 +85,7 @@ void merge_shared_border(const SharedBorder& border, double largest_error, std::
             into = group_of[i];
             from = group_of[j];
         }
-        if (!(best.error <= largest_error)) break;
+        if (into == NONE || !(best.error <= largest_error)) break;
         groups[into].representative = best.representative;
         for (uint32_t member : groups[from].members) {
             group_of[member] = into;

@@ -62,8 +62,8 @@ void OverlayMsad::sweep(const Sources& sources, float radius, const Field& field
 }
 
 // Takes the ways that need no hop. Those to border vertices are kept source by source. A way that is no
-// shorter than the distance found so far is passed over: a correction would make it longer, or as short as a
-// way that take_known() takes anyway.
+// shorter than the distance found so far is passed over: to correct it could only lengthen it to a bound, or
+// shorten it to a known way, which take_known() takes in any case.
 void OverlayMsad::begin(const Field& field) {
     nearest_.clear();
     std::ranges::fill(field.distance, INFINITE);

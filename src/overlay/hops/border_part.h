@@ -41,7 +41,7 @@ public:
     std::span<const BorderRange> ranges() const { return {ranges_.data(), count_}; }
     uint32_t size() const { return size_; }
     bool covers(const BorderPart& other) const;
-    // The place with this index.
+    // The place with this index, which is less than size().
     uint32_t place(uint32_t index) const {
         const BorderRange* range = ranges_.data();
         for (; index >= range->size(); ++range) index -= range->size();
@@ -71,7 +71,7 @@ private:
     }
     void join(BorderRange range);
 
-    std::array<BorderRange, MOST_RANGES> ranges_;
+    std::array<BorderRange, MOST_RANGES> ranges_{};
     uint32_t count_ = 0, size_ = 0;
 };
 

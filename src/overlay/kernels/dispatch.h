@@ -43,7 +43,8 @@ struct BorderFromSource {
     const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
     const float *foot, *height;         // of the source, in the plane of the segment
     float quantum;                      // of the rows
-    float near_segments = NEAR_SEGMENTS;
+    float near_segments =
+        NEAR_SEGMENTS; // a distance is near up to so many of the longest segment, see near.h
 };
 
 // The part of a border that is near to the source.
@@ -141,17 +142,20 @@ struct Kernels {
     NearRange (*prepare_crossing)(const BorderFromSource& border, const int8_t* is_own, int16_t* code,
                                   float* foot, float* height);
 
-    // To columns of a table in which each place k of the border has a row, rows[k]. distances[i]: the least
-    // way over a place to columns[i], straightened over the segments near the place where that is shorter, or
-    // infinity; winners[i], if not NULL: that place, or NO_PLACE. Rows are read up to whole blocks behind a
-    // column. Columns side by side take least time, in ascending or descending order.
+    // To columns of a table in which each place k of the border has a row, rows[k]. The winner of columns[i]
+    // is the first place with the least sum of codes, and distances[i] is the way over it or, where that is
+    // shorter, straightened over one of Rings::REACH segments on each side of it; infinity where there is no
+    // way. winners[i], if not NULL: that place, or NO_PLACE. Each place that has a code has REACH places of
+    // the border on each side, whose rows are read. Rows are read up to whole blocks behind a column. Columns
+    // side by side take least time, in ascending or descending order.
     void (*cross)(const BorderFromSource& border, Rows rows, Columns columns, float* distances,
                   uint16_t* winners);
 
-    // rows[r] is that of target r. distances[r] is read and, if it is at most range.reach, replaced: by the
-    // least sum of distance and code over the near places, or by a shorter way that is straightened over a
-    // near segment. Where a border is jagged, the straight way does not always pass near the place
-    // with the least sum. Of a row, the codes from range.begin() up to that at range.end() are read.
+    // rows[r] is that of target r. distances[r] is read and, if it is at most range.reach and there is a way
+    // over a near place, replaced, by what may be longer: by the least sum of distance and code over the near
+    // places, or by a shorter way that is straightened over a near segment. Where a border is jagged, the
+    // straight way does not always pass near the place with the least sum. Of a row, the codes from
+    // range.begin() up to that at range.end() are read.
     void (*cross_near)(const BorderFromSource& border, const NearRange& range, Rows rows, float* distances);
 
     // ways[c]: the least way over a near place, or straightened over any segment that is near, to column
@@ -170,7 +174,8 @@ struct Kernels {
     // Fills border.code. rows[i] belongs to the i-th sample; the last one is followed by readable codes.
     // distances[c]: the least way over a sample to column c, or straightened over a long segment where that
     // is shorter, or infinity; winners[c]: the first sample with the least way, or the first end of that
-    // segment, if there is any way. Both are written in whole blocks.
+    // segment, if there is any way. Both are written in whole blocks, but winners not at all where no sample
+    // is reached.
     void (*cross_samples)(const SampledBorder& border, const TableRows& rows, float* distances,
                           uint16_t* winners);
 

@@ -223,7 +223,6 @@ struct Sweep {
 
     [[gnu::always_inline]] static void run(const BorderDistances& border, const BorderCodes& codes,
                                            const SweepRows& rows, float* distances) {
-        if (rows.count == 0) return;
         size_t row_begin[ROWS];
         for (size_t done = 0; done < rows.count; done += ROWS) {
             for (size_t r = 0; r < ROWS; ++r)

@@ -130,16 +130,15 @@ void SampledAscent::measure_over_vertices() {
 // no segments, so that all of its vertices are samples.
 void SampledAscent::keep_common(uint32_t before) {
     const size_t border = borders_.size() - 1;
-    const auto samples_before = index_.pairs.samples.of(before);
     const auto samples = samples_of(borders_.back());
     for (uint32_t i = 0; i < samples.size(); ++i) {
         const uint32_t vertex = index_.rings.vertex[index_.rings.begin[borders_.back().patch] + samples[i]];
         const uint32_t position = index_.numbering.border_position(before, vertex);
         if (position == NONE) continue;
         const uint32_t place = own_place(index_.rings, index_.numbering, before, position);
-        const auto sample = std::ranges::lower_bound(samples_before, place - index_.rings.begin[before]);
-        winners_[border * stride_ + i] = static_cast<uint16_t>(sample - samples_before.begin());
-        distances_of(border)[i] = distances_of(border - 1)[sample - samples_before.begin()];
+        const uint32_t sample = first_sample_from(index_.rings, index_.pairs.samples, before, place);
+        winners_[border * stride_ + i] = static_cast<uint16_t>(sample);
+        distances_of(border)[i] = distances_of(border - 1)[sample];
     }
 }
 

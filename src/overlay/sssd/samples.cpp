@@ -228,9 +228,7 @@ private:
     void add_long_segments(uint32_t patch) {
         const auto sample_at = [&](uint32_t place) {
             const uint32_t own = own_place(index_.rings, numbering_, patch, index_.rings.position[place]);
-            const auto places = samples_.of(patch);
-            return static_cast<uint32_t>(std::ranges::lower_bound(places, own - index_.rings.begin[patch]) -
-                                         places.begin());
+            return first_sample_from(index_.rings, samples_, patch, own);
         };
         for_each_segment(index_.rings, patch, [&](uint32_t place, float length) {
             if (length > samples_.spacing[patch])

@@ -28,8 +28,9 @@ constexpr float LONGER_BY_SEGMENT = 0.5f;
 // Distances over samples come from rounded codes: they may be too short by less than this share.
 constexpr float SAMPLES_ROUNDING = 1e-3f;
 
-// A distance that begins at labels is a sum of two that were rounded, each by half a step or less: by no more
-// than 0.1 % where it has so many steps.
+// A distance that begins at labels is a sum of two that were rounded, each by half a step, and by more where
+// distances along a border change faster than its segments are long (label_rows.h). One of fewer steps than
+// this is measured again without labels.
 constexpr float FEW_STEPS = 1000;
 
 // Parts are moved along with the way at most this many times.

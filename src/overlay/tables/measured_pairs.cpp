@@ -4,9 +4,8 @@
 
 namespace geodesic {
 
-std::span<const MeasuredPairs::Other> MeasuredPairs::of(uint32_t key, uint32_t first, uint32_t end) const {
-    if (size_t{key} + 1 >= begin.size()) return {};
-    const auto all = of(key);
+std::span<const MeasuredPairs::Other> MeasuredPairs::of(uint32_t number, uint32_t first, uint32_t end) const {
+    const auto all = of(number);
     const auto from = std::ranges::lower_bound(all, first, {}, &Other::number);
     return {from, std::ranges::lower_bound(from, all.end(), end, {}, &Other::number)};
 }

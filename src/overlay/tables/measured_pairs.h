@@ -12,12 +12,11 @@ struct MeasuredPairs : PairsOfVertices {
     using PairsOfVertices::of;
     using PairsOfVertices::PairsOfVertices;
 
-    // Of what tables say of these pairs, relative to their distances, by the classes of these.
+    // By classes of distances: the largest relative error of what tables say of these pairs.
     std::array<float, DISTANCE_CLASSES> largest_errors{};
 
-    // Those whose other vertex has a number in first .. end - 1. A point of a face, whose key follows the
-    // numbers of all vertices, has none.
-    std::span<const Other> of(uint32_t key, uint32_t first, uint32_t end) const;
+    // Those of a vertex whose other vertex has a number in first .. end - 1.
+    std::span<const Other> of(uint32_t number, uint32_t first, uint32_t end) const;
 
     // The distance of a pair, NULL if it is not one of these.
     const float* distance(uint32_t first, uint32_t second) const;
