@@ -200,9 +200,8 @@ TEST_CASE("samples: their tables are entries of the overlay tables, but between 
         };
         const auto expected = [&](uint32_t patch, uint16_t place, uint32_t other, bool along) -> Expected {
             const uint32_t parent = numbering.parent[patch], own = overlay_position(patch, place);
-            const auto border = numbering.border_of(patch);
             const uint16_t code = overlay.overlay_code(parent, own, other);
-            if (std::ranges::find(border, numbering.overlay_number(parent, other)) == border.end())
+            if (numbering.border_position(patch, numbering.overlay_number(parent, other)) == NONE)
                 return {code};
             if (other == own) return {0};
             if (!along || code == TableCode::UNREACHED) return {TableCode::UNREACHED};
