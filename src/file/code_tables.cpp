@@ -78,23 +78,25 @@ std::vector<CodeTable> internal_tables(const StoredIndex& stored) {
     return list.take();
 }
 
-std::optional<uint16_t> code_between_steps(std::span<const uint16_t> codes, std::span<const uint8_t> shift,
-                                           std::span<const CodeTable> tables) {
+std::optional<std::string> code_between_steps(std::span<const uint16_t> codes, std::span<const uint8_t> shift,
+                                              std::span<const CodeTable> tables) {
     for (const CodeTable& table : tables) {
-        const int below = (1 << shift[table.patch]) - 1;
+        const int step = 1 << shift[table.patch];
         for (const uint16_t code : codes.subspan(table.begin, table.size))
-            if (code != TableCode::UNREACHED && (code & below) != 0) return code;
+            if (code != TableCode::UNREACHED && code % step != 0)
+                return "the code " + std::to_string(code) + " of patch " + std::to_string(table.patch) +
+                       ", which is no multiple of " + std::to_string(step);
     }
     return std::nullopt;
 }
 
-bool are_whole_steps(const StoredIndex& stored) {
-    const auto are_whole = [&](std::span<const uint16_t> codes, std::span<const CodeTable> tables) {
-        return !code_between_steps(codes, stored.shift, tables);
-    };
-    return are_whole(stored.overlay_codes, overlay_tables(stored)) &&
-           are_whole(stored.border_internal_codes, border_internal_tables(stored)) &&
-           are_whole(stored.internal_codes, internal_tables(stored));
+std::optional<std::string> code_between_steps(const StoredIndex& stored) {
+    auto found = code_between_steps(stored.overlay_codes, stored.shift, overlay_tables(stored));
+    if (!found)
+        found =
+            code_between_steps(stored.border_internal_codes, stored.shift, border_internal_tables(stored));
+    if (!found) found = code_between_steps(stored.internal_codes, stored.shift, internal_tables(stored));
+    return found;
 }
 
 uint64_t entry_count(std::span<const CodeTable> tables) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "src/index/stored.h"
@@ -35,13 +36,13 @@ std::vector<CodeTable> overlay_tables(const StoredIndex& stored);
 std::vector<CodeTable> border_internal_tables(const StoredIndex& stored);
 std::vector<CodeTable> internal_tables(const StoredIndex& stored);
 
-// The first of the codes of some tables that is no multiple of 2^shift of its patch, or nothing. It could not
-// be saved packed.
-std::optional<uint16_t> code_between_steps(std::span<const uint16_t> codes, std::span<const uint8_t> shift,
-                                           std::span<const CodeTable> tables);
+// Says which of the codes of some tables is the first that is no multiple of 2^shift of its patch, so that it
+// could not be saved packed; nothing if there is none.
+std::optional<std::string> code_between_steps(std::span<const uint16_t> codes, std::span<const uint8_t> shift,
+                                              std::span<const CodeTable> tables);
 
-// Whether there is none in OVOV, BVIV and IVIV.
-bool are_whole_steps(const StoredIndex& stored);
+// The same of OVOV, BVIV and IVIV.
+std::optional<std::string> code_between_steps(const StoredIndex& stored);
 
 uint64_t entry_count(std::span<const CodeTable> tables);
 

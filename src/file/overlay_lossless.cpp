@@ -34,8 +34,7 @@ std::vector<uint16_t> codes_of(const std::vector<float>& values, const std::vect
     std::vector<uint16_t> codes(values.size());
     for (size_t i = 0; i < values.size(); ++i) codes[i] = code_of(values[i]);
     if (const auto code = code_between_steps(codes, shift, tables))
-        refuse_as_corrupt("a table holds the code " + std::to_string(*code) +
-                          ", which is no multiple of 2^shift of its patch");
+        refuse_as_corrupt("a table holds " + *code);
     return codes;
 }
 

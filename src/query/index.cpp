@@ -73,9 +73,8 @@ StoredIndex restore(const Index& index) {
 
 void require_hops_follow(const Index& index) {
     StoredIndex stored = restore(index);
-    if (!are_whole_steps(stored))
-        throw Error(GEOIDX_ERROR_CORRUPT,
-                    "section HOPS holds a code that is no multiple of 2^shift of its patch", TAG_HOP_CODES);
+    if (const auto code = code_between_steps(stored))
+        throw Error(GEOIDX_ERROR_CORRUPT, "section HOPS holds " + *code, TAG_HOP_CODES);
     const auto codes = std::exchange(stored.hop_codes, {});
     stored.description.codec = GEOIDX_CODEC_PACKED;
     Index again(std::pmr::get_default_resource());

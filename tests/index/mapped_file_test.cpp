@@ -269,15 +269,17 @@ TEST_CASE("mapped: verifying finds the code that does not follow") {
 TEST_CASE("mapped: codes that are no multiples of 2^shift are answered from, but not saved in another form") {
     size_t patches = 1;
     for (const uint32_t of_level : info_of(built()).patch_count) patches += of_level;
-    const Bytes file = with_section(TAG_QUANTA, [&](Bytes& raw) {
-        raw[patches * sizeof(float) + patches - 1] = std::byte{14}; // of a leaf
-    });
-    const auto index = open(file);
-    check_answers(index.get());
-    CHECK(save(index.get(), GEOIDX_CODEC_MAPPED) == file);
-    for (const uint32_t codec : {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_LOSSLESS})
-        check_refused(save_status(index.get(), codec), GEOIDX_ERROR_CORRUPT, "HOPS");
-    check_told(file, 112, "HOPS");
+    for (const size_t patch : {size_t{0}, patches - 1}) { // the whole mesh, and a leaf
+        CAPTURE(patch);
+        const Bytes file = with_section(
+            TAG_QUANTA, [&](Bytes& raw) { raw[patches * sizeof(float) + patch] = std::byte{14}; });
+        const auto index = open(file);
+        check_answers(index.get());
+        CHECK(save(index.get(), GEOIDX_CODEC_MAPPED) == file);
+        for (const uint32_t codec : {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_LOSSLESS})
+            check_refused(save_status(index.get(), codec), GEOIDX_ERROR_CORRUPT, "HOPS");
+        check_told(file, 112, "HOPS");
+    }
 }
 
 TEST_CASE("mapped: sections that do not go together are refused") {
