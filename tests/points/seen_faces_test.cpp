@@ -201,6 +201,19 @@ TEST_CASE("seen faces: edges of many faces end what is seen, and may be all that
         }
 }
 
+// A needle with a side of 1e-9, and a face beyond a long side.
+TEST_CASE("seen faces: whether a face is too flat does not depend on its first corner") {
+    for (const double width : {1e-9, 1e-3}) {
+        Soup soup;
+        soup.positions = {{0, 0, 0}, {width, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+        for (uint32_t first = 0; first < 3; ++first) {
+            soup.triangles = {{first, (first + 1) % 3, (first + 2) % 3}, {1, 3, 2}};
+            const SeenAround around = see_around(surface_of(soup), {0, {0.4, 0.3, 0.3}}, 32);
+            CHECK((around.vertex_count > 0) == (width > 1e-6));
+        }
+    }
+}
+
 TEST_CASE("seen faces: nothing is seen that is not known") {
     const Surface surface = surface_of_flipped(bumpy_sphere(3, 4));
     std::mt19937_64 random(3);
