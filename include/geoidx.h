@@ -461,7 +461,8 @@ GEOIDX_API geoidx_status geoidx_build(const geoidx_mesh* mesh, const geoidx_buil
 /* Writes the index to a file, replacing what is there: a sibling file is written, synced and renamed, so that
  * a failure leaves neither a partial file nor a damaged old one. `options` may be NULL: the file then has the
  * codec and the flags that geoidx_info names. GEOIDX_ERROR_CORRUPT if the index came from a mapped file whose
- * tables contradict each other, and another codec is asked for. */
+ * tables contradict each other, or are not rounded as other codecs have it, and another codec is asked for.
+ */
 GEOIDX_API geoidx_status geoidx_save(const geoidx* index, const char* utf8_path,
                                      const geoidx_save_options* options);
 
@@ -472,12 +473,12 @@ GEOIDX_API geoidx_status geoidx_save_memory(const geoidx* index, const geoidx_sa
                                             void* buffer, uint64_t capacity, uint64_t* needed);
 
 /* Opens an index. Everything in the file is checked before it is believed, but for whether the tables of a
- * mapped file agree with each other, which only geoidx_verify looks at: where they do not, distances are
- * wrong, and nothing worse. A mesh that the file keeps stays packed: what it holds is checked by
- * geoidx_surface_of_index and by geoidx_verify. The index, its queries and the
- * temporary memory of opening take at most 256 times the raw size of the file's sections, table entries
- * counted as 4 bytes, and 32 MiB; what would take more is GEOIDX_ERROR_LIMIT before memory is taken. A small
- * file can hold raw sections 1032 times its size. `options` may be NULL. */
+ * mapped file agree with each other and are rounded as in other files, which geoidx_verify looks at, and
+ * geoidx_save with another codec: where they do not agree, distances are wrong, and nothing worse. A mesh
+ * that the file keeps stays packed: what it holds is checked by geoidx_surface_of_index and by geoidx_verify.
+ * The index, its queries and the temporary memory of opening take at most 256 times the raw size of the
+ * file's sections, table entries counted as 4 bytes, and 32 MiB; what would take more is GEOIDX_ERROR_LIMIT
+ * before memory is taken. A small file can hold raw sections 1032 times its size. `options` may be NULL. */
 GEOIDX_API geoidx_status geoidx_open(const char* utf8_path, const geoidx_open_options* options, geoidx** out);
 
 /* The same from memory; `data` is not needed after the call, unless GEOIDX_OPEN_BORROW is given. */

@@ -22,7 +22,7 @@ uint64_t count_flag_codes(const Numbering& numbering) {
 }
 
 // No sum wraps around: a ring has fewer than 2^15 places, and the vertices of overlays are numbers that the
-// file holds, fewer than 2^31 in any file below 8 GB.
+// file holds, fewer than 2^31 in any file below 8 GB. Flags are fewer than patches times such numbers.
 uint64_t derived_codes(const OverlayIndex& index) {
     uint64_t bytes = 0;
     for (uint32_t p = 0; p < index.numbering.patch_count(); ++p) bytes += index.hop_table_bytes(p);

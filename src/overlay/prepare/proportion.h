@@ -5,8 +5,8 @@
 namespace geodesic {
 
 // The overlay engine derives codes of 16 bits from what a file holds: the border, inner and owned tables,
-// those of middles, of which two count as a code, flags of borders, of which 16 do, the bounds of long rows,
-// the tables of samples, and labels.
+// those of middles, of which two count as a code, flags of borders, one bit each, of which 16 do, the bounds
+// of long rows, the tables of samples, and labels.
 // It may derive MOST_DERIVED_EACH of them for each stored table entry, slot and vertex, and ALWAYS_DERIVED
 // more. Meshes take 1 to 12 for each, or up to 33 where nothing unfolds, because every border vertex is then
 // a chain by itself; only meshes whose triangles join vertices at random take more. What exceeds the limit is

@@ -19,7 +19,8 @@ class Info:
     """
 
     metric: MetricKind | int
-    """A number without a name where geoidx does not know the metric, which queries do not ask about."""
+    """What the distances are by; a plain int where a later version of geoidx built the index by a metric that this one
+    does not know. Queries answer all the same."""
     metric_unfoldable: bool
     """Paths may cross borders between two vertices."""
     metric_fingerprint: int

@@ -27,7 +27,7 @@ class Section:
     """A section of the file that an index was opened from; format/SPEC.md says what is in it."""
 
     tag: str
-    """Its name, four characters; of one that geoidx does not know, other bytes than ASCII as escapes."""
+    """Its name, four characters. Bytes that are not ASCII, which only later versions may have, are escaped."""
     coding: Coding | int
     """A number without a name where geoidx does not know how the section is stored."""
     offset: int
