@@ -11,11 +11,11 @@
 
 namespace geodesic {
 
-// A part of a surface as a mesh of its own, in which both ends of the strip lie that it was made for.
+// A part of a surface as a mesh of its own. It contains both ends of the strip that it was made for.
 struct Corridor {
     Mesh mesh;
-    std::vector<uint32_t>
-        surface_face; // per face of the mesh, that of the surface, with the same order of corners
+    // Per face of the mesh: the face of the surface that it is, with the same order of corners.
+    std::vector<uint32_t> surface_face;
 };
 
 // The vertices that are joined to those of a strip by edges between vertices that belong to it, and all faces

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
-#include "geoidx.h"
 #include "src/path/corridor_path.h"
 #include "src/path/sides.h"
 #include "src/path/straighten.h"
@@ -171,7 +172,7 @@ StripWay PathFinder::find_way(PathQuality quality) {
                     target = prepared_as(target_, with_all_they_see);
     auto found = find_straight(source, target);
     if (!found) no_path();
-    StripWay& way = *found;
+    StripWay way = std::move(*found);
     if (way.strip.faces.size() == 1) return way;
     if (quality == PathQuality::EXACT) {
         const auto corridor = corridor_of(way.strip, way.path.length, surface_.vertex_count());

@@ -51,8 +51,9 @@ double Funnel::turn_or_rounding(double turn, const Vector2d& way, const Vector2d
     return std::abs(turn) <= ROUNDING * farthest_ * (way.lpNorm<1>() + on.lpNorm<1>()) ? 0 : turn;
 }
 
-// No way between two positions is longer than twice as far as the farthest of them, so that no turn above
-// four times the rounding of its square is rounding; a little more covers the rounding of this bound.
+// No way between two positions is longer than twice farthest_, so that turn_or_rounding() compares a turn
+// with 4 * ROUNDING * farthest_^2 at most: a larger one is none of rounding. 4.1 leaves room for the rounding
+// of this product.
 inline void Funnel::reach(const Vector2d& at) {
     farthest_ = std::max(farthest_, at.lpNorm<1>());
     most_rounding_ = 4.1 * ROUNDING * farthest_ * farthest_;

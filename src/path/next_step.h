@@ -21,7 +21,7 @@ struct Walk {
 };
 
 // Finds the next step of whoever walks to a target and asks on the way, wherever it is. At a point of the
-// kept path, the path is left as it is; of one over vertices, the ends of its pieces alone count. By the
+// kept path, the path is left as it is; of one over vertices, only these count as its points. By the
 // exact metric, at any other point of a face of its strip it is made straight again from there, unless the
 // index knows a shorter way. Anywhere else a new path is found. Throws Error as find_path does.
 Step next_step(const Index& index, Query& query, const Surface& surface, const SurfacePoint& from,

@@ -29,7 +29,7 @@ public:
     // Only way.strip is read.
     void straighten(StripWay& way);
 
-    // The same where way.path is as TightPaths::pull_tight() leaves it.
+    // The same of a path that is as short as its strip allows (TightPaths::pull_tight()).
     void turn_bends(StripWay& way);
 
     // Puts a part with the same ends in the place of a range between two bends, whose path was so long. Gives

@@ -40,7 +40,7 @@ struct StripPath {
     double length = 0;
 };
 
-// Both: as many shares as portals.
+// A strip and a path in it, which has a share for each portal.
 struct StripWay {
     Strip strip;
     StripPath path;

@@ -35,7 +35,7 @@ SurfacePath
 path_of_points(std::vector<SurfacePoint>&& points, const SurfacePoint& target,
                const std::function<double(const std::vector<SurfacePoint>&, size_t)>& length_of_piece);
 
-// From a point to itself, which the target is, be it of another face.
+// The path of length 0 between two points that are one, be it of different faces (see is_same_point).
 SurfacePath path_within_point(const SurfacePoint& source, const SurfacePoint& target);
 
 // How far two consecutive points are apart in space.

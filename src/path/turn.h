@@ -32,7 +32,7 @@ public:
     struct Fan {
         std::vector<uint32_t> faces, spokes;
     };
-    // Nothing if the angle is not below the limit. May be asked once.
+    // Nothing if the angle is not below the limit. To be called once: it leaves its angles in the spokes.
     std::optional<Fan> below(double limit, uint32_t from_face, const Eigen::Vector3d& from, uint32_t to_face,
                              const Eigen::Vector3d& to);
 
@@ -115,7 +115,8 @@ private:
     const uint32_t vertex_;
     size_t count_ = 0;
     std::array<Sector, MOST_FACES> sectors_;
-    const bool is_closed_; // the last one: what makes it fills the others
+    const bool
+        is_closed_; // declared last: read_sectors() and put_in_order(), which it is made of, fill these
 };
 
 }

@@ -26,10 +26,10 @@ private:
     static constexpr uint32_t MOST_TIMES = 3;         // that a node is left
     struct Node {
         Vector3d at;
-        double rest; // to the target, as far as is known
-        uint32_t edge = NONE,
-                 on_edge = 0;   // of a point of an edge: the edge, and which point it is, from 1 on
-        uint32_t vertex = NONE; // or the vertex, of one that is at a vertex
+        double rest;            // to the target, as far as is known
+        uint32_t edge = NONE;   // that it is a point of
+        uint32_t on_edge = 0;   // which point of the edge, counted from 1 at its end a
+        uint32_t vertex = NONE; // that it is at; NONE of points of edges, of source and target
         double length = UNREACHABLE;
         uint32_t before = NONE, face = NONE; // that the way arrives through
         double left_at = UNREACHABLE;        // its length when it was left

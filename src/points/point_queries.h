@@ -30,9 +30,10 @@ public:
     // does not tell what a way within a face costs.
     PointQueries(const Index& index, Query& query, const Surface& surface);
 
-    // Of two points, and whether a path between them would tell more. Where the edges around a point are long
-    // for how far the other one is away, a way that crosses them may come from another side than tables tell
-    // of. False where no path can be looked for, as with the graph engine, however wrong the distance may be.
+    // Of two points. Where the edges around a point are long for how far the other one is away, a way that
+    // crosses them may come from another side than tables tell of: a path between the points tells more.
+    // needs_path is false where no path can be looked for, as with the graph engine, even if the distance may
+    // be far off.
     struct Pair {
         float distance;
         bool needs_path = false;
@@ -42,14 +43,14 @@ public:
     float sssd(const SurfacePoint& source, const SurfacePoint& target) {
         return pair(source, target).distance;
     }
-    // Of several sources; `offsets` are as many, or none. distances[id] is in the mesh's unit, and infinite
-    // where no source reaches; there are as many as the index has ids. nearest[id] is the position of the
-    // source, or NONE; nearest_sources() may be given no distances. within() gives ids in ascending order of
-    // their distances, valid until the query is asked again.
+    // Of several sources; `offsets` are as many, or none. Arrays of answers have an item for each id of the
+    // index. In the mesh's unit; infinity where no source reaches.
     void msad(std::span<const SurfacePoint> sources, std::span<const float> offsets,
               std::span<float> distances);
+    // The position of the nearest source, or NONE. `distances` may be empty.
     void nearest_sources(std::span<const SurfacePoint> sources, std::span<const float> offsets,
                          std::span<uint32_t> nearest, std::span<float> distances);
+    // Ids in ascending order of their distances, valid until the query is asked again.
     std::span<const Query::Found> within(std::span<const SurfacePoint> sources,
                                          std::span<const float> offsets, float radius);
 

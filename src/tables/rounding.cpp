@@ -102,7 +102,8 @@ std::vector<float> rounding_of_patches(const Numbering& numbering, const Distanc
 Steps choose_steps(float longest, float wanted) {
     const double smallest = double{longest} / TableCode::LARGEST;
     if (!(double{wanted} > smallest)) return {static_cast<float>(smallest), 0};
-    const double steps = std::round(double{longest} / double{wanted}); // it must be a code as it is rounded
+    // Of the longest distance, as it will be rounded: this times 2^shift must be a code.
+    const double steps = std::round(double{longest} / double{wanted});
     uint8_t shift = 0;
     while (shift < TableCode::MOST_SHIFT && steps <= TableCode::LARGEST >> (shift + 1)) ++shift;
     return {static_cast<float>(std::ldexp(double{wanted}, -shift)), shift};

@@ -43,8 +43,8 @@ struct BorderFromSource {
     const float *length, *half_inverse; // of the segment to the next place; NaN: a gap
     const float *foot, *height;         // of the source, in the plane of the segment
     float quantum;                      // of the rows
-    float near_segments =
-        NEAR_SEGMENTS; // a distance is near up to so many of the longest segment, see near.h
+    // Up to how many times the longest segment a distance is near, see near.h.
+    float near_segments = NEAR_SEGMENTS;
 };
 
 // The part of a border that is near to the source.
