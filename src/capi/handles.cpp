@@ -49,11 +49,12 @@ Query* QueryPool::take() {
     return std::pmr::polymorphic_allocator<>(&memory_).new_object<Query>(index_, &memory_);
 }
 
-void QueryPool::give_back(Query* query) {
+// Where there is no memory for it, or none that max_memory allows, the next call makes scratch anew.
+void QueryPool::give_back(Query* query) noexcept {
     try {
         const std::lock_guard lock(mutex_);
         idle_.push_back(query);
-    } catch (const std::bad_alloc&) {
+    } catch (...) {
         std::pmr::polymorphic_allocator<>(&memory_).delete_object(query);
     }
 }

@@ -49,7 +49,7 @@ public:
     ~QueryPool();
 
     Query* take();
-    void give_back(Query* query);
+    void give_back(Query* query) noexcept;
 
 private:
     const Index& index_;

@@ -342,6 +342,26 @@ TEST_CASE("open limits: vertices and memory") {
     }
 }
 
+// Scratch of a query is kept for the next one, for which there may be no room either.
+TEST_CASE("open limits: whatever memory there is, a query is answered or refused") {
+    const TestMesh mesh = hills(5, 4);
+    const Bytes file = save(build(mesh, default_options()).get(), GEOIDX_CODEC_MAPPED);
+    uint32_t refused = 0, answered = 0;
+    for (uint64_t limit = 1000; answered < 100; ++limit) {
+        auto options = open_options();
+        options.max_memory = limit;
+        geoidx* opened = nullptr;
+        if (geoidx_open_memory(file.data(), file.size(), &options, &opened) != GEOIDX_OK) continue;
+        const IndexHandle index(opened);
+        std::vector<float> distances(mesh.vertex_count());
+        const uint32_t source = 3;
+        const auto status = geoidx_msad(index.get(), &source, 1, distances.data(), mesh.vertex_count());
+        CHECK((status == GEOIDX_OK || status == GEOIDX_ERROR_LIMIT));
+        ++(status == GEOIDX_OK ? answered : refused);
+    }
+    CHECK(refused > 100);
+}
+
 TEST_CASE("open limits: what pairs need counts, too") {
     CountingAllocator memory;
     auto options = open_options();
