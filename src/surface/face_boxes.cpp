@@ -47,8 +47,8 @@ SurfacePoint closest_on_face(const Surface& surface, uint32_t face, const Vector
     if (const double area = normal.squaredNorm(); area > 0) {
         const Vector3d w = position - corners[0];
         const double second = w.cross(v).dot(normal) / area, third = u.cross(w).dot(normal) / area;
-        if (second >= 0 && third >= 0 && second + third <= 1)
-            return {face, {1 - second - third, second, third}};
+        const double first = 1 - second - third; // may be negative where the sum of both is rounded to 1
+        if (first >= 0 && second >= 0 && third >= 0) return {face, {first, second, third}};
     }
     SurfacePoint best{face, {1, 0, 0}};
     double least = std::numeric_limits<double>::infinity();

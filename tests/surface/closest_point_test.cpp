@@ -99,6 +99,23 @@ TEST_CASE("closest point: a corner of the surface, and the surface's own points"
     CHECK(distance < 1e-15);
 }
 
+TEST_CASE("closest point: on and beside an edge no weight is negative, however it is rounded") {
+    Soup soup;
+    soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    soup.triangles = {{0, 1, 2}};
+    const SurfaceHandle surface = surface_of(soup);
+    std::mt19937_64 random(2);
+    for (int i = 0; i < 2000; ++i) {
+        const double x = i == 0 ? 0.7 : uniform(random, 0, 1);
+        for (const double y : {1 - x, std::nextafter(1 - x, 0), std::nextafter(1 - x, 1)}) {
+            const std::array<double, 3> position{x, y, 0};
+            geoidx_surface_point point{};
+            REQUIRE(geoidx_closest_point(surface.get(), position.data(), &point, nullptr) == GEOIDX_OK);
+            for (const double weight : point.weights) CHECK((weight >= 0 && weight <= 1));
+        }
+    }
+}
+
 TEST_CASE("closest point: surfaces of any size, and positions far away") {
     for (const double size : {1e-9, 1e-3, 1e9}) {
         CAPTURE(size);
