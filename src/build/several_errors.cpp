@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "src/build/border_vertices.h"
+#include "src/build/nearest_by_edges.h"
 #include "src/query/query.h"
 
 namespace geodesic {
@@ -21,14 +22,8 @@ SourceGroup anywhere(uint32_t vertex_count, uint32_t size, Random& random) {
 // Some of the vertices that are the fewest edges away from a random one.
 SourceGroup around_one(const Mesh& mesh, uint32_t size, Random& random) {
     constexpr uint32_t CHOSEN_FROM = 4; // times as many
-    SourceGroup nearest{random.below(mesh.vertex_count())};
-    std::vector<bool> is_found(mesh.vertex_count(), false);
-    is_found[nearest.front()] = true;
-    for (size_t i = 0; i < nearest.size() && nearest.size() < CHOSEN_FROM * size; ++i)
-        for (const uint32_t v : neighbours(mesh, nearest[i])) {
-            if (!is_found[v]) nearest.push_back(v);
-            is_found[v] = true;
-        }
+    const uint32_t middle = random.below(mesh.vertex_count());
+    SourceGroup nearest = nearest_by_edges(mesh, {&middle, 1}, size_t{CHOSEN_FROM} * size);
     random.shuffle(std::span(nearest));
     nearest.resize(std::min<size_t>(nearest.size(), size));
     return nearest;

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "src/build/nearest_by_edges.h"
 #include "src/build/number_of_vertex.h"
 
 namespace geodesic {
@@ -50,19 +51,9 @@ std::vector<uint32_t> TwoWaySearch::vertices_around_worst(uint32_t count) const 
     auto worst = worst_;
     std::ranges::stable_sort(worst, std::ranges::greater{}, &WorstPair::error);
     worst.resize(std::min(worst.size(), WORST));
-    std::vector<uint32_t> vertices;
-    std::vector<bool> is_found(intake_.mesh.vertex_count(), false);
-    const auto find = [&](uint32_t v) {
-        if (!is_found[v]) vertices.push_back(v);
-        is_found[v] = true;
-    };
-    for (const WorstPair& pair : worst) {
-        find(pair.source);
-        find(pair.target);
-    }
-    for (size_t i = 0; i < vertices.size() && vertices.size() < count; ++i)
-        for (const uint32_t v : neighbours(intake_.mesh, vertices[i])) find(v);
-    return vertices;
+    std::vector<uint32_t> ends;
+    for (const WorstPair& pair : worst) ends.insert(ends.end(), {pair.source, pair.target});
+    return nearest_by_edges(intake_.mesh, ends, count);
 }
 
 void TwoWaySearch::look_between(std::vector<uint32_t> vertices, uint32_t sources_of_class, uint32_t pairs,
