@@ -1,5 +1,7 @@
 #include "src/path/path.h"
 
+#include <string>
+
 #include "format/error.h"
 #include "geoidx.h"
 #include "src/path/exact_path.h"
@@ -17,6 +19,9 @@ void require_path_end(const Index& index, const Surface& surface, const SurfaceP
         refuse_argument(
             "the index was built with edge_lengths, which do not say how triangles lie: there are "
             "no paths");
+    if (about.metric > GEOIDX_METRIC_WEIGHTED)
+        refuse_argument("the index has metric " + std::to_string(about.metric) +
+                        ", which this library does not know: there are no paths");
     if (about.metric == GEOIDX_METRIC_WEIGHTED) require_face_costs(index, surface);
     if (about.metric == GEOIDX_METRIC_EDGES || about.metric == GEOIDX_METRIC_CALLBACK)
         require_vertex_path_end(index, surface, point, name);

@@ -150,6 +150,24 @@ TEST_CASE("crafted VERT and POSI") {
     check_corrupt("a coordinate too many", [](TakenApart& parts) { parts.coordinates.push_back(0); });
 }
 
+TEST_CASE("an index of a metric that is not known answers pairs, but has no paths") {
+    const auto index = open(with([](TakenApart&parts) { parts.meta.metric = 4; })),
+               known = open(original().file);
+    CHECK(sssd(index.get(), 5, 60) == sssd(known.get(), 5, 60));
+    const TestMesh mesh = hills(9, 8);
+    const geoidx_mesh view = mesh.view();
+    geoidx_surface* made = nullptr;
+    require_success(geoidx_surface_create(&view, nullptr, &made));
+    const SurfaceHandle surface(made);
+    const QueryHandle query = query_of(index.get());
+    geoidx_surface_point from, to;
+    require_success(geoidx_vertex_point(surface.get(), 5, &from));
+    require_success(geoidx_vertex_point(surface.get(), 60, &to));
+    double length = 0;
+    check_refused(geoidx_query_path(query.get(), surface.get(), &from, &to, GEOIDX_PATH_STRAIGHT, &length),
+                  GEOIDX_ERROR_INVALID_ARGUMENT, "metric 4");
+}
+
 TEST_CASE("an id may be made unreachable, and then is") {
     const auto index = open(with([](TakenApart& parts) { parts.number_of_id[5] = UNREACHABLE_NUMBER; }));
     CHECK(sssd(index.get(), 5, 6) == INFINITE);
