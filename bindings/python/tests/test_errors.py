@@ -334,6 +334,9 @@ class Verify(unittest.TestCase):
         self.assertLessEqual(statuses, {Status.CHECKSUM, Status.CORRUPT})  # of data, of what says where it is
         self.assertTrue(all(0 < issue.offset < len(damaged) for issue in issues))
         self.assertEqual(geoidx.verify(damaged, most=1), issues[:1])
+        for most in (0, -1, 1.5):
+            with self.assertRaises((geoidx.InvalidArgumentError, TypeError)):
+                geoidx.verify(damaged, most=most)
 
     def test_number_and_place(self):
         other_version = bytearray(self.data)

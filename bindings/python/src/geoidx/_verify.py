@@ -8,10 +8,10 @@ from enum import IntEnum
 from typing import Any
 
 from . import _native
-from ._arrays import address
+from ._arrays import address, whole_number
 from ._callbacks import HeldSignals
 from ._ending import DaemonCall
-from ._errors import check, status_of
+from ._errors import InvalidArgumentError, check, status_of
 from ._files import bytes_of_buffer, bytes_of_file
 from ._native import library
 
@@ -87,11 +87,14 @@ def verify(source: str | os.PathLike[str] | os.PathLike[bytes] | Any, *, most: i
     if isinstance(source, (str, os.PathLike)):
         source = bytes_of_file(source)
     data = bytes_of_buffer(source)
+    limit = None if most is None else whole_number(most, "most")
+    if limit == 0:
+        raise InvalidArgumentError("most is 0: at least one issue is looked for")
     issues: list[Issue] = []
 
     def note(user: int, issue: Any) -> bool:
         issues.append(_issue_of(issue.contents))
-        return len(issues) != most and not call.must_stop
+        return (limit is None or len(issues) < limit) and not call.must_stop
 
     with DaemonCall() as call, HeldSignals() as signals:
         status = library.geoidx_verify(address(data), data.size, _native.IssueFn(note), None)
