@@ -83,7 +83,7 @@ std::optional<std::string> code_between_steps(std::span<const uint16_t> codes, s
     for (const CodeTable& table : tables) {
         const int step = 1 << shift[table.patch];
         for (const uint16_t code : codes.subspan(table.begin, table.size))
-            if (code != TableCode::UNREACHED && code % step != 0)
+            if (code != TableCode::UNREACHED && (code & (step - 1)) != 0)
                 return "the code " + std::to_string(code) + " of patch " + std::to_string(table.patch) +
                        ", which is no multiple of " + std::to_string(step);
     }
