@@ -109,7 +109,7 @@ void NearComparison::make_less_steep(uint32_t vertex) {
         const uint32_t worse = field_[vertex].deviation() < field_[other].deviation() ? other : vertex;
         const Distances& distances = field_[worse];
         if (!has_relative_error(distances.exact, too_short_)) continue;
-        if (!(distances.deviation() > ROUNDING * distances.exact)) continue;
+        if (!(distances.deviation() > LARGEST_ROUNDING * distances.exact)) continue;
         correct(worse, distances.error());
         open_.push_back(worse);
     }
@@ -118,7 +118,7 @@ void NearComparison::make_less_steep(uint32_t vertex) {
 // An edge that is shorter than the rounding of a measured distance is made less steep by none.
 bool NearComparison::is_too_steep(uint32_t a, uint32_t b) const {
     const double most = STEEPEST * (intake_.mesh.positions[a] - intake_.mesh.positions[b]).norm();
-    return most > ROUNDING * std::max(field_[a].exact, field_[b].exact) &&
+    return most > LARGEST_ROUNDING * std::max(field_[a].exact, field_[b].exact) &&
            std::abs(field_[a].answer - field_[b].answer) > most;
 }
 

@@ -230,7 +230,7 @@ void PointQueries::add_measured_ways(const FacePoint& point, std::vector<KnownWa
         if (point.straight[k] == UNREACHABLE) continue;
         for (const auto& [other, distance] : overlay->measured.of(point.numbers[k])) {
             if (known.size() == most) return;
-            const auto apart = static_cast<float>(point.straight[k] + ROUNDING * double{distance});
+            const auto apart = static_cast<float>(point.straight[k] + LARGEST_ROUNDING * double{distance});
             known.push_back({other, distance + apart, std::max(distance - apart, 0.f)});
         }
     }

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double ROUNDING = 1e-9; // by how much weights may be below 0
+constexpr double LEAST_WEIGHT = -1e-9; // of a point inside: rounding may leave so much less than 0
 // How far a point may be off the plane of a face, as a share of how far its corners are, and a way off the
 // surface, as a share of its length. Planes may be bent a little, see flip_flat_edges().
 constexpr double OFF_SURFACE = 1e-3;
@@ -29,7 +29,7 @@ std::array<double, 3> weights_of(const Vector3d& first, const Vector3d& second, 
     return {1 - of_second - of_third, of_second, of_third};
 }
 
-bool is_inside(const std::array<double, 3>& weights) { return std::ranges::min(weights) >= -ROUNDING; }
+bool is_inside(const std::array<double, 3>& weights) { return std::ranges::min(weights) >= LEAST_WEIGHT; }
 
 std::array<double, 3> without_rounding(std::array<double, 3> weights) {
     for (double& weight : weights) weight = std::max(weight, 0.0);
@@ -119,7 +119,7 @@ public:
     // Begins at a vertex, in the one of the plane's faces around it that the way leads into; in any of them
     // if the way ends there. Returns whether there is one.
     bool begin_at(uint32_t vertex, uint32_t plane) {
-        double best = -ROUNDING;
+        double best = LEAST_WEIGHT;
         row_ = NONE;
         for (const uint32_t row : flat_.around(vertex)) {
             if (flat_.plane_[row] != plane || !lies_in_plane_of(row)) continue;

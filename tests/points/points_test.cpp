@@ -445,7 +445,7 @@ TEST_CASE("points: near a vertex they are about as far from the others of its me
             const auto other = static_cast<size_t>(std::ranges::find(index.number_of_id, number) -
                                                    index.number_of_id.begin());
             CHECK(std::abs(double{distances[other]} - double{offset} - double{distance}) <
-                  away + 1.01 * ROUNDING * double{distance});
+                  away + 1.01 * LARGEST_ROUNDING * double{distance});
             ++count;
         }
     }
