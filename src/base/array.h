@@ -9,4 +9,8 @@ namespace geodesic {
 template <class T>
 using Array = std::pmr::vector<T>;
 
+// The memory of what building, opening and verifying need for a while: the global heap, whatever resource the
+// program has made its default.
+inline std::pmr::memory_resource* global_heap() { return std::pmr::new_delete_resource(); }
+
 }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/base/array.h"
 #include "src/base/quantiles.h"
 #include "src/query/index.h"
 
@@ -25,7 +26,7 @@ double common_share(std::vector<double> errors) {
 
 void calibrate(const ExactFields& exact, std::span<const uint32_t> vertex_of_number, Workers& workers,
                StoredIndex& stored) {
-    Index draft(std::pmr::get_default_resource());
+    Index draft(global_heap());
     prepare(stored, draft);
     const double share =
         common_share(relative_errors(draft, Crossing::BETWEEN_VERTICES, vertex_of_number, exact, workers));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/array.h"
 #include "src/build/calibration.h"
 #include "src/build/measure.h"
 #include "src/tables/borders.h"
@@ -72,7 +73,7 @@ std::vector<const ExactFields*> Filling::solved_fields() const {
 uint64_t Filling::count_entries(const SplitSurface& surface, Workers& workers) const {
     StoredIndex stored;
     lay_out_vertices(surface, workers, stored);
-    Numbering numbering(std::pmr::get_default_resource());
+    Numbering numbering(global_heap());
     number_vertices(stored, numbering);
     return numbering.overlay_engine_entries();
 }

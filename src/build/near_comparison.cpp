@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "src/base/array.h"
 #include "src/base/rounded.h"
 #include "src/build/number_of_vertex.h"
 #include "src/build/steep_search.h"
@@ -31,7 +32,7 @@ NearComparison::NearComparison(const Index& index, const Intake& intake, const N
                                double limit, bool finds_steep)
     : index_(index), intake_(intake), near_(near), edge_ends_(edge_ends), limit_(limit),
       finds_steep_(finds_steep), too_short_(scale.too_short), rounded_by_limit_(largest_step(index) / limit),
-      query_(index, std::pmr::get_default_resource()), answer_(index.description.id_count, INFINITE),
+      query_(index, global_heap()), answer_(index.description.id_count, INFINITE),
       field_(near.vertex_count(), {0, 0}), let_pass_(scale.average_edge) {}
 
 void NearComparison::compare(uint32_t source, std::vector<WrongPair>& wrong) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "src/base/array.h"
 #include "src/build/border_vertices.h"
 #include "src/query/query.h"
 
@@ -25,7 +26,7 @@ public:
     explicit Answers(const NearSearch& search)
         : index_(search.index_), intake_(search.intake_),
           largest_radius_(SEARCHED_EDGES * search.average_edge_), too_short_(search.too_short_),
-          query_(index_, std::pmr::get_default_resource()), field_(index_.description.id_count) {}
+          query_(index_, global_heap()), field_(index_.description.id_count) {}
 
     // Answers MSAD, which may leave out what is farther than twice the largest radius.
     void set_source(uint32_t vertex) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "src/base/array.h"
 #include "src/build/errors_by_distance.h"
 #include "src/build/relative_errors.h"
 #include "src/mesh/parts.h"
@@ -91,7 +92,7 @@ MeasuredError PointErrors::measure(const Index& index, Workers& workers) const {
     const double too_short = too_short_beside(surface_.bounding_box_diagonal);
     std::vector<std::vector<double>> of_point(points_.size());
     workers.run(points_.size(), [&](FieldSolver&, size_t i) {
-        Query query(index, std::pmr::get_default_resource());
+        Query query(index, global_heap());
         std::vector<float> answers(index.description.id_count);
         PointQueries(index, query, surface_).msad({&points_[i], 1}, {}, answers);
         for_each_comparison(

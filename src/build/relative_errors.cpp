@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geoidx.h"
+#include "src/base/array.h"
 #include "src/build/errors_by_distance.h"
 #include "src/graph/query.h"
 #include "src/partition/random.h"
@@ -16,7 +17,7 @@ constexpr uint32_t SOURCES = 20;
 
 // Returns the distances of MSAD from one source, by vertex number.
 void answer(const Index& index, Crossing crossing, uint32_t source, std::span<float> distance) {
-    std::pmr::memory_resource* const memory = std::pmr::get_default_resource();
+    std::pmr::memory_resource* const memory = global_heap();
     if (const auto* const overlay = std::get_if<OverlayIndex>(&index.engine))
         OverlaySsad(*overlay, memory, 1, crossing).sweep({&source, 1}, INFINITE, distance);
     else

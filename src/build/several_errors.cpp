@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "src/base/array.h"
 #include "src/build/border_vertices.h"
 #include "src/build/nearest_by_edges.h"
 #include "src/query/query.h"
@@ -40,7 +41,7 @@ ErrorSum compare(const Index& index, const Intake& intake, std::span<const Sourc
         std::vector<uint32_t> ids;
         for (const uint32_t source : groups[i]) ids.push_back(intake.id_of_vertex[source]);
         std::vector<float> answers(index.description.id_count);
-        Query(index, std::pmr::get_default_resource()).msad(ids, INFINITE, answers);
+        Query(index, global_heap()).msad(ids, INFINITE, answers);
         for_each_comparison(
             answers, intake.id_of_vertex, too_short, [&](uint32_t v) { return distance(solver, i, v); },
             [&](double exact, double answer) { errors[i].add(relative_error(exact, answer)); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geoidx.h"
+#include "src/base/array.h"
 #include "src/build/errors_by_distance.h"
 #include "src/build/near_search.h"
 #include "src/build/several_errors.h"
@@ -82,7 +83,7 @@ FieldErrors errors_of_field(const Index& index, const Intake& intake, const Exac
                             double too_short, bool counts_in_means, uint32_t pairs,
                             const ErrorsByDistance& none) {
     FieldErrors errors{none, {}};
-    Query query(index, std::pmr::get_default_resource());
+    Query query(index, global_heap());
     const auto& distances = exact.distances[i];
     const uint32_t source = intake.id_of_vertex[exact.sources[i]];
     std::vector<float> answers(index.description.id_count);

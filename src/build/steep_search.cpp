@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "src/base/array.h"
 #include "src/base/rounded.h"
 #include "src/build/number_of_vertex.h"
 #include "src/overlay/query.h"
@@ -65,7 +66,7 @@ private:
         std::vector<uint8_t> has_steep_edges(batches * FIELDS_AT_ONCE, 0);
         workers_.begin_half_of_stage("accuracy", end_fraction_);
         workers_.run((batches + of_task - 1) / of_task, [&](FieldSolver&, size_t task) {
-            OverlayQuery query(index_, std::pmr::get_default_resource());
+            OverlayQuery query(index_, global_heap());
             std::vector<float> fields(FIELDS_AT_ONCE * index_.numbering.vertex_count());
             for (size_t b = task * of_task; b < std::min((task + 1) * of_task, batches); ++b) {
                 workers_.check_cancelled();

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "src/base/array.h"
 #include "src/build/nearest_by_edges.h"
 #include "src/build/number_of_vertex.h"
 
@@ -76,7 +77,7 @@ void TwoWaySearch::fill_answers(Workers& workers) {
     for (const uint32_t vertex : vertices_) numbers.push_back(number_of_vertex(index_, intake_, vertex));
     const auto& overlay = std::get<OverlayIndex>(index_.engine);
     workers.run(task_count(count, FIELDS_OF_TASK), [&](FieldSolver&, size_t task) {
-        OverlayQuery query(overlay, std::pmr::get_default_resource());
+        OverlayQuery query(overlay, global_heap());
         std::vector<float> fields(FIELDS_AT_ONCE * overlay.numbering.vertex_count());
         const size_t end = std::min((task + 1) * FIELDS_OF_TASK, count);
         for (size_t first = task * FIELDS_OF_TASK; first < end; first += FIELDS_AT_ONCE) {
@@ -141,7 +142,7 @@ std::vector<TwoWaySearch::Differences> TwoWaySearch::differences_of_pairs(uint32
 
 void TwoWaySearch::measure(std::span<Pair> pairs, Workers& workers) const {
     workers.run(task_count(pairs.size(), PAIRS_OF_TASK), [&](FieldSolver&, size_t task) {
-        Query query(index_, std::pmr::get_default_resource());
+        Query query(index_, global_heap());
         const size_t first = task * PAIRS_OF_TASK;
         for (Pair& pair : pairs.subspan(first, std::min(PAIRS_OF_TASK, pairs.size() - first)))
             measure(query, pair);
@@ -258,7 +259,7 @@ TwoWaySearch::WorstPair TwoWaySearch::compare_fields(const Source& source, const
 
 void TwoWaySearch::compare_pairs(const Source& source, const FieldSolver& exact, ErrorsByDistance& errors,
                                  WorstPair& worst) const {
-    Query query(index_, std::pmr::get_default_resource());
+    Query query(index_, global_heap());
     for (const uint32_t other : source.of_pairs) {
         const double distance = exact.distance(vertices_[other]);
         if (distance > source.radius || !has_relative_error(distance, too_short_)) continue;

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "geoidx.h"
+#include "src/base/array.h"
 #include "src/base/threads.h"
 #include "src/capi/handles.h"
 #include "src/capi/status.h"
@@ -52,7 +53,7 @@ std::vector<format::Issue> issues_of(std::span<const std::byte> file) {
     if (!issues.empty()) return issues;
     const auto container = format::Container::parse(file, INDEX_TAGS);
     try {
-        Index index(std::pmr::get_default_resource());
+        Index index(global_heap());
         prepare(read_index(container, {.threads = thread_count(0), .may_lack_positions = true}), index);
         if (index.description.codec == GEOIDX_CODEC_MAPPED) require_hops_follow(index);
         if (index.keeps_mesh()) unpack_mesh(index.mesh, index.description, index.number_of_id);

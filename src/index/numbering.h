@@ -33,6 +33,10 @@ struct PatchPosition {
 // its order, and then of the vertices that P owns. A position in this list is called an overlay position.
 struct Numbering {
     explicit Numbering(std::pmr::memory_resource* memory);
+    // A copy would have its arrays in the memory resource that the program has made its default.
+    Numbering(const Numbering&) = delete;
+    Numbering(Numbering&&) = default;
+    Numbering& operator=(Numbering&&) = default;
 
     // The hierarchy.
     Array<uint32_t> level_begin; // level l has the patches level_begin[l] .. level_begin[l + 1] - 1

@@ -5,6 +5,7 @@
 
 #include "format/error.h"
 #include "geoidx.h"
+#include "src/base/array.h"
 #include "src/file/code_tables.h"
 #include "src/graph/prepare.h"
 #include "src/index/section_tags.h"
@@ -77,7 +78,7 @@ void require_hops_follow(const Index& index) {
         throw Error(GEOIDX_ERROR_CORRUPT, "section HOPS holds " + *code, TAG_HOP_CODES);
     const auto codes = std::exchange(stored.hop_codes, {});
     stored.description.codec = GEOIDX_CODEC_PACKED;
-    Index again(std::pmr::get_default_resource());
+    Index again(global_heap());
     prepare(stored, again);
     if (!std::ranges::equal(std::get<OverlayIndex>(again.engine).hops.codes, codes))
         throw Error(GEOIDX_ERROR_CORRUPT, "section HOPS: tables of the same distances contradict each other",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src/base/array.h"
 #include "src/index/numbering.h"
 #include "src/tables/measuring.h"
 
@@ -90,7 +91,7 @@ float bound_scale(const RowFiller& filler, uint32_t patch_count, Workers& worker
 }
 
 void fill_graph_tables(std::span<const uint32_t> vertex_of_number, Workers& workers, StoredIndex& stored) {
-    Numbering numbering(std::pmr::get_default_resource());
+    Numbering numbering(global_heap());
     number_vertices(stored, numbering);
     RowFiller filler(numbering, vertex_of_number, stored);
     workers.run(numbering.vertex_count(), [&](FieldSolver& solver, size_t number) {

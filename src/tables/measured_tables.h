@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "src/base/array.h"
 #include "src/index/numbering.h"
 #include "src/tables/distance_tables.h"
 
@@ -15,7 +16,7 @@ namespace geodesic {
 // leaves: the distances between these vertices are the same there, and so are the borders that they lie on,
 // unless borders are pruned.
 struct MeasuredTables {
-    Numbering numbering{std::pmr::get_default_resource()};
+    Numbering numbering{global_heap()};
     std::vector<uint32_t> number_of_vertex; // per vertex of the mesh
     DistanceTables tables;                  // of leaves and measured patches; none of others
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src/base/array.h"
 #include "src/tables/closure.h"
 #include "src/tables/distance_tables.h"
 #include "src/tables/measuring.h"
@@ -187,7 +188,7 @@ void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_fac
                          std::span<const uint32_t> vertex_of_number, const OverlayOptions& options,
                          Workers& workers, StoredIndex& stored, NearDistances* near,
                          std::optional<MeasuredTables>* measured) {
-    Numbering numbering(std::pmr::get_default_resource());
+    Numbering numbering(global_heap());
     number_vertices(stored, numbering);
     DistanceTables tables(numbering);
     const auto exact = exact_patches(numbering, options.exact_vertices);
@@ -196,15 +197,18 @@ void fill_overlay_tables(const Mesh& mesh, std::span<const uint32_t> leaf_of_fac
     workers.run(numbering.vertex_count(), [&](FieldSolver& solver, size_t number) {
         filler.fill(solver, static_cast<uint32_t>(number));
     });
-    if (measured)
-        *measured =
-            MeasuredTables{numbering, numbers_of_vertices(vertex_of_number), measured_part(exact, tables)};
+    if (measured) {
+        measured->emplace();
+        number_vertices(stored, (*measured)->numbering);
+        (*measured)->number_of_vertex = numbers_of_vertices(vertex_of_number);
+        (*measured)->tables = measured_part(exact, tables);
+    }
     BorderSegments segments(numbering.border.size());
     if (options.unfold) segments = find_segments(mesh, leaf_of_face, vertex_of_number, tables, numbering);
     if (!can_be_squared(segments)) segments = BorderSegments(numbering.border.size());
-    Rings rings(std::pmr::get_default_resource());
+    Rings rings(global_heap());
     lay_out_rings(segments, numbering, rings);
-    Slots slots(std::pmr::get_default_resource());
+    Slots slots(global_heap());
     find_slots(numbering, slots);
     workers.begin_stage("closure", options.stage_end, closure_rows(numbering, exact));
     for (uint32_t p = numbering.first_leaf(); p-- > 0;)

@@ -1,6 +1,7 @@
 // The caller's allocator: asked and paid back exactly, and failing at every possible call.
 
 #include <functional>
+#include <memory_resource>
 
 #include "tests/capi/calls.h"
 #include "tests/capi/counting_allocator.h"
@@ -136,6 +137,30 @@ TEST_CASE("flags of opening that mean nothing are refused") {
 }
 
 TEST_CASE("out of memory while opening") {
+// A program may have made another resource the default, which need not bear threads, nor memory that is freed
+// after it.
+TEST_CASE("the default memory resource of the program is not used") {
+    const auto use = [] {
+        for_each_engine([](const geoidx_build_options& options) {
+            auto with_threads = options;
+            with_threads.threads = 2;
+            const TestMesh mesh = small_mesh();
+            const auto built = build(mesh, with_threads);
+            for (const uint32_t codec : {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_LOSSLESS, GEOIDX_CODEC_MAPPED}) {
+                const Bytes file = save(built.get(), codec);
+                const auto opened = open(file);
+                CHECK(save(opened.get(), GEOIDX_CODEC_PACKED) == save(built.get(), GEOIDX_CODEC_PACKED));
+                CHECK(sssd(opened.get(), 0, 70) > 0);
+                CHECK(msad(opened.get(), 0, mesh.vertex_count())[70] > 0);
+            }
+        });
+    };
+    std::pmr::memory_resource* const before =
+        std::pmr::set_default_resource(std::pmr::null_memory_resource());
+    CHECK_NOTHROW(use());
+    std::pmr::set_default_resource(before);
+}
+
     for_each_file([](const Bytes& bytes) {
         fail_at_every_call([&](const geoidx_allocator& allocator) {
             const auto options = opening_with(allocator);

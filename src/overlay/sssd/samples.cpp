@@ -1,4 +1,5 @@
 #include "src/overlay/sssd/samples.h"
+#include "src/base/array.h"
 
 #include <algorithm>
 #include <cmath>
@@ -178,8 +179,7 @@ uint16_t longer_code(uint16_t code, int by) {
 class SampleWriter {
 public:
     SampleWriter(const OverlayIndex& index, Samples& samples)
-        : index_(index), numbering_(index.numbering), samples_(samples),
-          across_(std::pmr::get_default_resource()) {}
+        : index_(index), numbering_(index.numbering), samples_(samples), across_(global_heap()) {}
 
     void write() {
         const uint32_t patch_count = numbering_.patch_count();
