@@ -18,12 +18,21 @@ uint64_t seed_of_patch(uint64_t seed, uint32_t patch) {
     return Random(seed ^ (uint64_t{patch} << 20)).next();
 }
 
-uint32_t child_count(const HierarchyOptions& options, uint32_t level, double share_of_faces) {
+// Of a patch of so many faces.
+uint32_t child_count(const HierarchyOptions& options, uint32_t level, size_t faces, size_t faces_of_mesh) {
     const uint32_t count = options.split[level];
     if (options.in_proportion.empty() || !options.in_proportion[level]) return count;
-    double average_share = 1;
-    for (uint32_t l = 0; l < level; ++l) average_share /= options.split[l];
-    return std::max(1u, static_cast<uint32_t>(std::lround(count * share_of_faces / average_share)));
+    double average = static_cast<double>(faces_of_mesh);
+    for (uint32_t l = 0; l < level; ++l) average /= options.split[l];
+    const auto most = static_cast<double>(faces);
+    return static_cast<uint32_t>(std::clamp(std::floor(count * (most / average) + 0.5), 1.0, most));
+}
+
+// How many levels split this many leaves off the root, each patch into no more than `largest_split` others.
+uint32_t fewest_levels(double leaves, double largest_split) {
+    uint32_t count = 1;
+    for (double most = largest_split; most < leaves; most *= largest_split) ++count;
+    return count;
 }
 
 // A caller who gives the patch counts of three levels wants three levels.
@@ -81,9 +90,7 @@ std::vector<uint32_t> automatic_split(uint32_t vertex_count, uint32_t level_coun
                                       std::span<const uint32_t> given, const SplitShape& shape) {
     const double leaves = std::max(1.0, vertex_count / shape.leaf_vertices);
     if (level_count == 0) level_count = levels_named(given);
-    if (level_count == 0)
-        level_count =
-            std::max(1u, static_cast<uint32_t>(std::ceil(std::log(leaves) / std::log(shape.largest_split))));
+    if (level_count == 0) level_count = fewest_levels(leaves, shape.largest_split);
     level_count = std::min<uint32_t>(level_count, GEOIDX_MAX_LEVELS);
     double remaining = leaves;
     uint32_t open = 0;
@@ -122,8 +129,7 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
         const uint32_t first = hierarchy.level_begin[hierarchy.level_begin.size() - 2];
         std::vector<std::vector<std::vector<uint32_t>>> children(patches.size());
         workers.run(patches.size(), [&](FieldSolver& solver, size_t i) {
-            const double share = static_cast<double>(patches[i].size()) / mesh.face_count();
-            const uint32_t count = child_count(options, level, share);
+            const uint32_t count = child_count(options, level, patches[i].size(), mesh.face_count());
             const auto split = [&](FieldSolver& by) {
                 Random random(seed_of_patch(options.seed, first + static_cast<uint32_t>(i)));
                 return split_patch(mesh, lengths, patches[i], count, options.lloyd_iterations, by, random);

@@ -426,6 +426,10 @@ TEST_CASE("automatic_split: what the caller gives is kept, the rest fills up to 
             }
         }
     CHECK(automatic_split(1, 0, {}, GRAPH_SPLIT) == std::vector<uint32_t>{1});
+    // No more levels than needed, also where the leaves are a power of the largest split.
+    CHECK(automatic_split(64 * 36, 0, {}, OVERLAY_SPLIT) == std::vector<uint32_t>{6, 6});
+    CHECK(automatic_split(64 * 216, 0, {}, OVERLAY_SPLIT) == std::vector<uint32_t>{6, 6, 6});
+    CHECK(automatic_split(64 * 216 + 1, 0, {}, OVERLAY_SPLIT).size() == 4);
     // More levels for more vertices, never fewer.
     size_t before = 1;
     for (uint32_t vertices = 100; vertices < 100000000; vertices *= 2) {

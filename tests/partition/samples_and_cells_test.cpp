@@ -102,6 +102,31 @@ TEST_CASE("Poisson-disk samples: every component gets some, the seed decides whi
     CHECK(seen.size() == 5);
 }
 
+// Whatever comes first in the random order: loose triangles are smaller than any disk on the body.
+TEST_CASE("Poisson-disk samples: loose triangles beside a body get none, and the body's are apart") {
+    const Soup body = sphere(3);
+    Soup soup = body;
+    for (uint32_t i = 0; i < 500; ++i) {
+        const auto first = soup.vertex_count();
+        for (const double x : {0.0, 1e-3, 0.0})
+            soup.positions.push_back({3 + x, 1e-3 * (soup.vertex_count() % 3), 1.0 * i});
+        soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    const Mesh mesh = mesh_of(soup);
+    const auto solver = ExactMetric(mesh).make_solver();
+    const auto candidates = numbers_below(mesh.vertex_count());
+    const auto is_on_body = [&](uint32_t v) { return mesh.positions[v].norm() < 2; };
+    for (uint64_t seed = 1; seed <= 5; ++seed) {
+        Random random(seed);
+        const auto samples = poisson_disk_samples(*solver, candidates, 12, random);
+        REQUIRE(samples.size() == 12);
+        CHECK(std::ranges::all_of(samples, is_on_body));
+        for (size_t i = 0; i < samples.size(); ++i)
+            for (size_t j = 0; j < i; ++j)
+                CHECK((mesh.positions[samples[i]] - mesh.positions[samples[j]]).norm() > 0.5);
+    }
+}
+
 TEST_CASE("Poisson-disk samples: vertices at distance zero of each other are one sample, and it ends") {
     const Mesh mesh = mesh_of(grid(6, 6, 1, 1));
     std::vector<double> cost(mesh.edges.size(), 0.0);
