@@ -145,6 +145,7 @@ private:
     std::span<const WithinSweep::Found> found_in(std::span<const float> field, float radius);
     void keep_least();
     void replace_numbers();
+    void keep_least_if_many(size_t& different);
     void rank_by_pairs(uint32_t source_id, std::span<const uint32_t> target_ids);
     void rank_by_sweeps(uint32_t source, std::span<const uint32_t> target_ids, size_t count);
     class TargetsAtNumbers;

@@ -57,9 +57,12 @@ std::span<const Query::Found> Query::within(std::span<const uint32_t> source_ids
     if (!(radius >= 0)) refuse_argument("the radius is negative or NaN");
     take_sources(source_ids);
     ranked_.clear();
-    for (const uint32_t source : sources_)
+    size_t different = 0;
+    for (const uint32_t source : sources_) {
         for (const auto& [number, distance] : numbers_within(source, radius))
             ranked_.push_back({distance, number});
+        keep_least_if_many(different);
+    }
     if (sources_.size() > 1) keep_least();
     replace_numbers();
     for (const uint32_t id : source_ids)
@@ -73,12 +76,14 @@ std::span<const Query::Found> Query::within(std::span<const uint32_t> source_ids
 std::span<const Query::Found> Query::point_within(const PointSources& sources, float radius) {
     if (!(radius >= 0)) refuse_argument("the radius is negative or NaN");
     ranked_.clear();
+    size_t different = 0;
     for (size_t i = 0; i < sources.points.size(); ++i) {
         const float offset = sources.offset(i), swept = radius_without(offset, radius);
         if (swept < 0) continue;
         for (const auto& [number, distance] : numbers_within(sources.only(i), swept))
             if (const float whole = offset + distance; whole <= radius && whole < INFINITE)
                 ranked_.push_back({whole, number});
+        keep_least_if_many(different);
     }
     keep_least();
     replace_numbers();
@@ -106,6 +111,15 @@ void Query::keep_least() {
     });
     const auto is_same = [](const Found& a, const Found& b) { return a.which == b.which; };
     ranked_.erase(std::unique(ranked_.begin(), ranked_.end(), is_same), ranked_.end());
+}
+
+// What many sources find takes no more than twice the memory of the vertices that they find. `different` is
+// how many vertices there were when this was last done.
+void Query::keep_least_if_many(size_t& different) {
+    constexpr size_t FEW = 1 << 12;
+    if (ranked_.size() < 2 * different + FEW) return;
+    keep_least();
+    different = ranked_.size();
 }
 
 // Replaces numbers by ids: more where vertices were welded, none for an added vertex.

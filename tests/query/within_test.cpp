@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/capi/counting_allocator.h"
 #include "tests/capi/refusals.h"
 #include "tests/query/query_cases.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 
@@ -110,9 +112,28 @@ TEST_CASE("within: default options, and a bumpy mesh of some size") {
     check_within(index_of(test), test.mesh.vertex_count());
 }
 
+// Memory is that of the vertices that are found, however many sources find each.
+TEST_CASE("within: many sources take little more memory than one") {
+    const TestMesh mesh = hills(40, 40);
+    const auto scratch = [&](uint32_t source_count) {
+        CountingAllocator memory;
+        auto options = build_options(GEOIDX_METRIC_EXACT, 2);
+        options.engine = GEOIDX_ENGINE_OVERLAY;
+        options.allocator = memory.get();
+        const auto index = build(mesh, options);
+        const uint64_t before = memory.bytes();
+        const QueryHandle query = query_of(index.get());
+        Ids sources;
+        for (uint32_t i = 0; i < source_count; ++i) sources.push_back(i);
+        CHECK(within(query.get(), sources, INFINITE).size() == mesh.vertex_count());
+        return memory.bytes() - before;
+    };
+    CHECK(scratch(400) < scratch(1) + 100 * uint64_t{mesh.vertex_count()});
+}
+
 // Paths cross long segments far from their ends: a vertex may be within a radius that no vertex of the border
 // around it is.
-TEST_CASE("within: on long triangles, at every distance of a field") {
+TEST_CASE("within: on long triangles, at every distance of a field" * doctest::skip(SANITIZED)) {
     for (const float stretch : {4.0f, 8.0f}) {
         TestMesh mesh = grid(40, 30, 0.45);
         for (size_t k = 0; k < mesh.positions.size(); k += 3) mesh.positions[k] *= stretch;
