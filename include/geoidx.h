@@ -208,7 +208,8 @@ typedef struct geoidx_build_options {
     uint32_t level_count;
     /* patches[0] is n1, the number of patches of level 1; patches[i] how many each patch of level i is split
      * into (patches[1] is n2). A patch is connected, so there can be more. 0 (default): in proportion to the
-     * vertices. */
+     * triangles. Numbers of levels beyond level_count, if that is not 0, are GEOIDX_ERROR_INVALID_ARGUMENT.
+     */
     uint32_t patches[8];
     uint32_t lloyd_iterations; /* relaxations of the seeds (paper 3.1), 0 .. 1000; default 4 */
     /* Costs and lengths are GEOIDX_ERROR_INVALID_ARGUMENT with a metric that does not take them. They are
@@ -223,8 +224,8 @@ typedef struct geoidx_build_options {
     geoidx_progress_fn progress; /* may be NULL */
     void* progress_user;
     geoidx_allocator allocator;
-    uint32_t refuse_edges_of_many; /* 1: an edge with more than two triangles is GEOIDX_ERROR_BAD_MESH;
-                                      default 0 */
+    uint32_t refuse_edges_of_many; /* 1: an edge with more than two triangles is GEOIDX_ERROR_BAD_MESH; 0
+                                      (default): paths pass from each to every other */
     uint32_t metric_flags; /* what GEOIDX_METRIC_CALLBACK declares itself to be: GEOIDX_METRIC_UNFOLDABLE or 0
                               (default: symmetric only); not used by other metrics. Unknown flags are
                               GEOIDX_ERROR_INVALID_ARGUMENT, whatever the metric */

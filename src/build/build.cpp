@@ -40,6 +40,11 @@ void check_options(const geoidx_build_options& options) {
         refuse_argument("level_count is " + std::to_string(options.level_count) + ", more than " +
                         std::to_string(GEOIDX_MAX_LEVELS));
     thread_count(options.threads);
+    if (options.level_count > 0)
+        for (uint32_t l = options.level_count; l < GEOIDX_MAX_LEVELS; ++l)
+            if (options.patches[l] > 0)
+                refuse_argument("patches are given for level " + std::to_string(l + 1) +
+                                ", but level_count is " + std::to_string(options.level_count));
     if (options.lloyd_iterations > 1000)
         refuse_argument("lloyd_iterations is " + std::to_string(options.lloyd_iterations) +
                         ", more than 1000");

@@ -114,6 +114,9 @@ void check_metric_options(const geoidx_build_options& options) {
     if (options.metric_flags & ~uint32_t{GEOIDX_METRIC_UNFOLDABLE})
         refuse_argument("metric_flags is " + std::to_string(options.metric_flags) +
                         ", which has unknown flags");
+    if (options.refuse_edges_of_many > 1)
+        refuse_argument("refuse_edges_of_many is " + std::to_string(options.refuse_edges_of_many) +
+                        ", not 0 or 1");
 }
 
 IntakeOptions intake_options(const geoidx_build_options& options) {

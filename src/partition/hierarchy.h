@@ -37,7 +37,7 @@ struct HierarchyOptions {
     uint32_t lloyd_iterations = 4;
     uint64_t seed = 0;
     // Per level, as `split` has them; empty means false for all. Where it is true, split[l] is meant for a
-    // patch of average size, and each patch is split into a number in proportion to its own size.
+    // patch of average size, and each patch is split into a number in proportion to its faces.
     std::vector<uint8_t> in_proportion = {};
     // Of each edge of the mesh; empty means those that follow from the positions.
     std::vector<double> edge_lengths = {};

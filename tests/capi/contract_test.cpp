@@ -322,6 +322,18 @@ TEST_CASE("bad meshes are refused and the element is named") {
     refused(mesh, "vertex 2");
     mesh.positions[3 * 2 + 1] = -INFINITE;
     refused(mesh, "vertex 2");
+    options.refuse_edges_of_many = 2;
+    check_build_refused(two_triangles(), options, GEOIDX_ERROR_INVALID_ARGUMENT, "not 0 or 1");
+}
+
+TEST_CASE("patches of levels that are not asked for are refused") {
+    auto options = build_options(GEOIDX_METRIC_EXACT, 2);
+    options.patches[2] = 4;
+    check_build_refused(grid(9, 9), options, GEOIDX_ERROR_INVALID_ARGUMENT, "level 3");
+    options.level_count = 3;
+    CHECK(build(grid(9, 9), options) != nullptr);
+    options.level_count = 0; // so many as are named
+    CHECK(build(grid(9, 9), options) != nullptr);
     mesh = two_triangles();
     mesh.triangles[4] = 4;
     refused(mesh, "triangle 1");

@@ -51,7 +51,7 @@ namespace Geoidx
 
         /// <summary>
         /// Into how many patches the whole mesh is split, each of these, and so on; 0 or nothing (the default) means in
-        /// proportion to the vertices.
+        /// proportion to the triangles.
         /// </summary>
         public ReadOnlyMemory<int> Patches { get; set; }
 

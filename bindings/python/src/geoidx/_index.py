@@ -101,7 +101,7 @@ class Index(Closable):
         metric: "exact", "edges", a function as of `Callback`, or an Exact, Edges, Weighted or Callback.
         engine: "overlay", or "graph" for the paper's graph search.
         levels: below the whole mesh, at most 8; 0: as many as `patches` names, or automatic.
-        patches: of level 1, then into how many each patch of a level is split; 0: in proportion to the vertices.
+        patches: of level 1, then into how many each patch of a level is split; 0: in proportion to the triangles.
         delta: pruning threshold, % of the bounding-box diagonal.
         weld_tolerance: vertices at most this far apart are one; 0: equal positions only.
         exact_vertices: overlay tables of patches of up to so many vertices hold the metric's own distances.
