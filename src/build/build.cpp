@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "format/error.h"
 #include "src/base/number_text.h"
@@ -39,12 +40,12 @@ void check_options(const geoidx_build_options& options) {
     if (options.level_count > GEOIDX_MAX_LEVELS)
         refuse_argument("level_count is " + std::to_string(options.level_count) + ", more than " +
                         std::to_string(GEOIDX_MAX_LEVELS));
-    thread_count(options.threads);
     if (options.level_count > 0)
         for (uint32_t l = options.level_count; l < GEOIDX_MAX_LEVELS; ++l)
             if (options.patches[l] > 0)
                 refuse_argument("patches are given for level " + std::to_string(l + 1) +
                                 ", but level_count is " + std::to_string(options.level_count));
+    thread_count(options.threads);
     if (options.lloyd_iterations > 1000)
         refuse_argument("lloyd_iterations is " + std::to_string(options.lloyd_iterations) +
                         ", more than 1000");
@@ -100,13 +101,13 @@ Description describe(const Intake& intake, const geoidx_build_options& options) 
 }
 
 // Whether distances are those along the surface that the positions give, however it is cut into faces.
-bool is_by_positions(const geoidx_build_options& options) {
+bool is_exact_by_positions(const geoidx_build_options& options) {
     return options.metric == GEOIDX_METRIC_EXACT && options.edge_length_count == 0;
 }
 
 bool may_add_vertices(const geoidx_build_options& options) {
-    return options.target_error > 0 && options.engine == GEOIDX_ENGINE_OVERLAY && is_by_positions(options) &&
-           options.delta == 0;
+    return options.target_error > 0 && options.engine == GEOIDX_ENGINE_OVERLAY &&
+           is_exact_by_positions(options) && options.delta == 0;
 }
 
 ProgressFunction progress_function(const geoidx_build_options& options) {
@@ -116,6 +117,37 @@ ProgressFunction progress_function(const geoidx_build_options& options) {
     };
 }
 
+// What the first filling leaves for rounds of added vertices.
+struct FirstFilling {
+    Hierarchy hierarchy;
+    StoredIndex stored;
+    std::optional<MeasuredTables> measured; // only if rounds may follow
+};
+
+// The workers end with it: later ones have solvers of their own, which take some 150 bytes a vertex each.
+FirstFilling first_filling(const Mesh& surface, const HierarchyOptions& hierarchy_options,
+                           bool rounds_may_follow, Filling& filling, Workers&& workers) {
+    workers.begin_stage("patches", 0.05);
+    FirstFilling first{build_hierarchy(surface, hierarchy_options, workers), {}, {}};
+    first.stored =
+        filling.fill({surface, first.hierarchy}, workers, rounds_may_follow ? &first.measured : nullptr);
+    return first;
+}
+
+// Makes the index hold what its tables have wrong, and states the errors that are left.
+void correct_and_state_errors(const Intake& intake, Filling& filling, Workers&& workers, Index& index) {
+    const auto scale = distance_scale(index.description, intake.mesh, *filling.solved_fields().front());
+    std::optional<ErrorsByDistance> let_pass;
+    if (filling.near_distances()) {
+        let_pass =
+            hold_wrong_pairs(intake, scale, *filling.near_distances(), workers, index, WRONG_PAIRS_END);
+        filling.near_distances().reset();
+        if (follows_positions(index.description)) hold_steep_edges(intake, workers, index, STEEP_EDGES_END);
+    }
+    workers.begin_stage("accuracy", 1);
+    state_errors(intake, scale, filling.solved_fields(), let_pass, workers, index);
+}
+
 }
 
 void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, Index& index) {
@@ -123,37 +155,25 @@ void build_index(const geoidx_mesh& mesh, const geoidx_build_options& options, I
     const ProgressFunction progress = progress_function(options);
     if (progress && !progress(0, "mesh")) throw_cancelled();
     const Intake intake = take_in(mesh, intake_options(options));
-    const auto flipped = is_by_positions(options) ? flip_flat_edges(intake.mesh) : std::nullopt;
+    const auto flipped = is_exact_by_positions(options) ? flip_flat_edges(intake.mesh) : std::nullopt;
     const Mesh& surface = flipped ? flipped->mesh : intake.mesh;
     const double tolerance = tolerance_of_tables(options);
     const auto metric = flipped ? std::make_unique<ExactMetric>(surface, tolerance)
                                 : make_metric(mesh, intake, options, tolerance);
     const Description about = describe(intake, options);
     const ProgressFunction filling_progress = part_of_progress(progress, 0, FILLING_END);
-    const double first_end = may_add_vertices(options) ? FIRST_FILLING_END : 1;
-    Workers workers(*metric, options.threads, part_of_progress(filling_progress, 0, first_end));
-
-    workers.begin_stage("patches", 0.05);
-    const Hierarchy hierarchy =
-        build_hierarchy(surface, hierarchy_options(mesh, intake, surface, options), workers);
+    const bool rounds_may_follow = may_add_vertices(options);
+    const double first_end = rounds_may_follow ? FIRST_FILLING_END : 1;
     Filling filling(intake, options, about, index);
-    std::optional<MeasuredTables> measured;
-    StoredIndex stored =
-        filling.fill({surface, hierarchy}, workers, may_add_vertices(options) ? &measured : nullptr);
-    if (may_add_vertices(options))
+    FirstFilling first =
+        first_filling(surface, hierarchy_options(mesh, intake, surface, options), rounds_may_follow, filling,
+                      Workers(*metric, options.threads, part_of_progress(filling_progress, 0, first_end)));
+    if (rounds_may_follow)
         Rounds(intake, flipped, options, filling_progress, filling, index)
-            .run({surface, hierarchy}, *metric, std::move(stored), std::move(measured));
-    Workers stating(*metric, options.threads, part_of_progress(progress, FILLING_END, 1));
-    const auto scale = distance_scale(index.description, intake.mesh, *filling.solved_fields().front());
-    std::optional<ErrorsByDistance> let_pass;
-    if (filling.near_distances()) {
-        let_pass =
-            hold_wrong_pairs(intake, scale, *filling.near_distances(), stating, index, WRONG_PAIRS_END);
-        filling.near_distances().reset();
-        if (follows_positions(index.description)) hold_steep_edges(intake, stating, index, STEEP_EDGES_END);
-    }
-    stating.begin_stage("accuracy", 1);
-    state_errors(intake, scale, filling.solved_fields(), let_pass, stating, index);
+            .run({surface, first.hierarchy}, *metric, std::move(first.stored), std::move(first.measured));
+    correct_and_state_errors(intake, filling,
+                             Workers(*metric, options.threads, part_of_progress(progress, FILLING_END, 1)),
+                             index);
     if (options.store_mesh) keep_mesh(pack_mesh(mesh).view(), index);
 }
 

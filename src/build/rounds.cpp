@@ -80,10 +80,8 @@ void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex 
     std::optional<FinerSurface> finer; // of the latest round, with its metric
     std::unique_ptr<const Metric> finer_metric;
     for (uint32_t i = 0; i < MOST_ROUNDS && error > options_.target_error; ++i) {
-        const SplitSurface latest = finer ? SplitSurface{finer->mesh, finer->hierarchy} : surface;
-        Workers choosing(finer ? *finer_metric : metric, options_.threads,
-                         part_of_progress(progress_, begin_of_round(i), end_of_choosing(i)));
-        auto next = finer_surface(latest, error, choosing);
+        auto next = finer ? finer_surface({finer->mesh, finer->hierarchy}, *finer_metric, i, error)
+                          : finer_surface(surface, metric, i, error);
         if (!next) break;
         finer = std::move(next);
         finer_metric = std::make_unique<ExactMetric>(finer->mesh, tolerance_of_tables(options_));
@@ -94,7 +92,7 @@ void Rounds::run(const SplitSurface& surface, const Metric& metric, StoredIndex 
         });
         const double error_now = again ? error_of_index(workers) : INFINITE;
         if (!again || error_now > std::max(options_.target_error, WORTHWHILE * error)) {
-            prepare(filled, index_);
+            workers.run(1, [&](FieldSolver&, size_t) { prepare(filled, index_); });
             break;
         }
         filled = std::move(*again);
@@ -126,8 +124,10 @@ double Rounds::error_of_index(Workers& workers) const {
 }
 
 // Nothing if there is no edge that would make paths more exact, or no room for more table entries.
-std::optional<FinerSurface> Rounds::finer_surface(const SplitSurface& surface, double error,
-                                                  Workers& workers) const {
+std::optional<FinerSurface> Rounds::finer_surface(const SplitSurface& surface, const Metric& metric,
+                                                  uint32_t round, double error) const {
+    Workers workers(metric, options_.threads,
+                    part_of_progress(progress_, begin_of_round(round), end_of_choosing(round)));
     workers.begin_stage("finer borders", 1);
     if (!can_be_cut(surface.mesh)) return std::nullopt;
     const auto sources = choosing_sources(options_.seed, intake_.mesh.vertex_count());

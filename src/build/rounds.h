@@ -32,8 +32,8 @@ public:
 private:
     double first_error(const Metric& metric);
     double error_of_index(Workers& workers) const;
-    std::optional<FinerSurface> finer_surface(const SplitSurface& surface, double error,
-                                              Workers& workers) const;
+    std::optional<FinerSurface> finer_surface(const SplitSurface& surface, const Metric& metric,
+                                              uint32_t round, double error) const;
     std::optional<FinerSurface> cut_what_fits(const SplitSurface& surface, std::span<const BorderEdge> edges,
                                               Workers& workers) const;
     bool fits(const FinerSurface& surface, Workers& workers) const;
