@@ -14,8 +14,6 @@ namespace geodesic {
 
 namespace {
 
-constexpr float LOOKED_AT = 1.1f; // times as far as near vertices: what is beyond is off by more than that
-
 // The largest one of all tables. An answer is the sum of two codes or more, each rounded by half a step.
 double largest_step(const Index& index) {
     const auto& overlay = std::get<OverlayIndex>(index.engine);
@@ -70,7 +68,8 @@ void NearComparison::correct_steep() {
     }
 }
 
-// With the answers of MSAD.
+// Fills the field with the metric's distances and with those of MSAD, which count as infinite where they are
+// longer than it looks.
 void NearComparison::fill_field() {
     const uint32_t id = id_of(source_);
     float farthest = 0;

@@ -14,9 +14,12 @@
 
 namespace geodesic {
 
+// How many times as far as near vertices a comparison looks.
+inline constexpr float LOOKED_AT = 1.1f;
+
 struct WrongPair {
     VertexPair pair; // by number
-    double error;    // of what is answered, relative to the distance
+    double error;    // of what is answered, relative to the distance; infinite where that is not LOOKED_AT
 };
 
 // One thread's answers compared with the metric near vertices, from one of them at a time.

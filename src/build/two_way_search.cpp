@@ -26,8 +26,7 @@ size_t task_count(size_t count, size_t of_task) { return (count + of_task - 1) /
 
 TwoWaySearch::TwoWaySearch(const Index& index, const Intake& intake, double average_edge, double too_short)
     : index_(index), intake_(intake), average_edge_(average_edge), too_short_(too_short),
-      near_(static_cast<float>(NEAR_EDGES * average_edge)),
-      middle_(static_cast<float>(MIDDLE_EDGES * average_edge)), errors_(average_edge) {}
+      errors_(average_edge) {}
 
 void TwoWaySearch::run(const TwoWayEffort& effort, uint64_t seed, Workers& workers) {
     Random random(seed);

@@ -41,7 +41,7 @@ private:
         float share = 0, distance = 0;
         uint32_t other = 0; // by its place among the vertices
     };
-    // Of which SSSD is compared.
+    // A pair of which SSSD is compared with MSAD.
     struct Pair {
         uint32_t place = 0;
         Difference difference;
@@ -79,14 +79,13 @@ private:
     void compare_pairs(const Source& source, const FieldSolver& exact, ErrorsByDistance& errors,
                        WorstPair& worst) const;
 
-    size_t class_of(float distance) const { return (distance > near_) + size_t{distance > middle_}; }
+    size_t class_of(float distance) const { return distance_class(distance / average_edge_); }
     uint32_t id_of(uint32_t place) const { return intake_.id_of_vertex[vertices_[place]]; }
     float answer(size_t from, size_t to) const { return answers_[from * vertices_.size() + to]; }
 
     const Index& index_;
     const Intake& intake_;
     const double average_edge_, too_short_;
-    const float near_, middle_;      // up to which distances are in these classes
     std::vector<uint32_t> vertices_; // that are compared now
     std::vector<float> answers_;     // of MSAD from each of them to each
     std::vector<WorstPair> worst_;   // of each source so far

@@ -1,6 +1,7 @@
 #include "src/build/wrong_pairs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -54,11 +55,11 @@ public:
 
     void run() {
         workers_.begin_stage("accuracy", FIRST_LOOK_END * end_fraction_);
-        while (!hold_all() && limit_ < 1) limit_ *= RAISE;
+        while (!hold_all() && limit_ < 1 && certainly_held() <= most()) limit_ *= RAISE;
         if (held_.size() > most()) {
-            keep_worst(most());
+            for (const WrongPair& left_out : keep_worst(most())) note_let_pass(left_out);
             hold();
-        } else if (is_by_positions()) {
+        } else if (follows_positions(index_.description)) {
             hold_steep();
         }
     }
@@ -67,7 +68,15 @@ public:
     const ErrorsByDistance& let_pass() const { return let_pass_; }
 
 private:
-    bool is_by_positions() const { return follows_positions(index_.description); }
+    // Pairs that are held whatever is let pass.
+    size_t certainly_held() const {
+        return static_cast<size_t>(
+            std::ranges::count_if(held_, [](const WrongPair& wrong) { return wrong.error >= 1; }));
+    }
+    void note_let_pass(const WrongPair& wrong) {
+        const double at_least = std::isinf(wrong.error) ? double{LOOKED_AT} - 1 : wrong.error;
+        let_pass_.of(wrong.pair.distance).add_to_max(at_least);
+    }
     size_t few_for_each() const { return MOST_PAIRS * near_.vertex_count(); }
     size_t most() const { return std::max(few_for_each(), FEW_IN_ALL); }
 
@@ -78,7 +87,7 @@ private:
         hold();
         for (uint32_t pass = 0; pass < MOST_PASSES; ++pass) {
             if (!find(pass == 0 ? all_vertices() : vertices_with_pairs())) return true;
-            if (pass == 0 && is_by_positions()) look_farther();
+            if (pass == 0 && follows_positions(index_.description)) look_farther();
             if (held_.size() > most()) return false;
             hold();
         }
@@ -216,12 +225,14 @@ private:
         take_pairs(pairs, index_.numbering().vertex_count(), measured());
     }
 
-    // Keeps all if they are no more than so many.
-    void keep_worst(size_t count) {
-        if (held_.size() <= count) return;
+    // Keeps all if they are no more than so many. Returns those that are not kept.
+    std::vector<WrongPair> keep_worst(size_t count) {
+        if (held_.size() <= count) return {};
         std::ranges::stable_sort(held_, std::ranges::greater{}, &WrongPair::error);
+        std::vector<WrongPair> left_out(held_.begin() + static_cast<ptrdiff_t>(count), held_.end());
         held_.resize(count);
         keep_different(held_); // in the order of pairs again
+        return left_out;
     }
 
     MeasuredPairs& measured() const { return std::get<OverlayIndex>(index_.engine).measured; }
