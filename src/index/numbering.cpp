@@ -23,6 +23,7 @@ namespace {
 void number_patches(const StoredIndex& stored, Numbering& numbering) {
     numbering.parent.assign(1, NONE);
     numbering.level_begin.assign({0, 1});
+    numbering.child_begin.clear();
     for (uint32_t l = 0; l < stored.level_count; ++l) {
         for (uint32_t p = numbering.level_begin[l]; p < numbering.level_begin[l + 1]; ++p) {
             numbering.child_begin.push_back(numbering.patch_count());
@@ -119,7 +120,7 @@ void derive_leaves(Numbering& numbering) {
     const uint32_t first = numbering.border_vertex_count(), count = numbering.vertex_count() - first;
     uint32_t leaf = numbering.first_leaf();
     numbering.leaf_of_block.clear();
-    for (uint32_t i = 0; i < count; i += Numbering::LEAF_BLOCK) {
+    for (uint64_t i = 0; i < count; i += Numbering::LEAF_BLOCK) {
         while (numbering.first_internal(leaf) + numbering.internal_size(leaf) <= first + i) ++leaf;
         numbering.leaf_of_block.push_back(leaf);
     }
