@@ -128,7 +128,9 @@ enum { GEOIDX_POSITION_FLOAT = 0, GEOIDX_POSITION_DOUBLE = 1 };
  * other only are unreachable from each other, too. Any number of components, open boundaries, any genus,
  * either orientation, vertices where several fans of triangles meet, and edges with three or more triangles
  * are fine: paths pass from each of them to every other. A NaN or infinite position, a double that is larger
- * than the largest float, and an id out of range are GEOIDX_ERROR_BAD_MESH. */
+ * than the largest float, an id out of range, no vertices, no triangles, none that is not degenerate, and a
+ * bounding box whose diagonal is no normal float are GEOIDX_ERROR_BAD_MESH. More vertices or triangles than
+ * below, and 2^31 edges or more, are GEOIDX_ERROR_LIMIT. */
 typedef struct geoidx_mesh {
     uint32_t struct_size;
     uint32_t position_type;    /* GEOIDX_POSITION_FLOAT (default) or GEOIDX_POSITION_DOUBLE */

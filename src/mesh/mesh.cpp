@@ -1,6 +1,9 @@
 #include "src/mesh/mesh.h"
 
 #include <algorithm>
+#include <string>
+
+#include "format/error.h"
 
 namespace geodesic {
 
@@ -50,6 +53,8 @@ void connect(Mesh& mesh) {
         mesh.face_edges[h.face][h.opposite_corner] = mesh.edge_count() - 1;
     }
     if (!mesh.edges.empty()) mesh.edge_faces.close_list();
+    if (mesh.edges.size() > MOST_EDGES)
+        throw Error(GEOIDX_ERROR_LIMIT, "the mesh has more than " + std::to_string(MOST_EDGES) + " edges");
 
     std::vector<uint32_t> corner_vertices;
     corner_vertices.reserve(mesh.faces.size() * 3);

@@ -43,7 +43,11 @@ struct Mesh {
     double edge_length(uint32_t e) const { return (positions[edges[e][0]] - positions[edges[e][1]]).norm(); }
 };
 
-// Derives edges and incidences from positions and faces.
+// So many edges a mesh may have: both ends of all of them are counted in 32 bits.
+inline constexpr size_t MOST_EDGES = UINT32_MAX / 2;
+
+// Derives edges and incidences from positions and faces, whose ids are in range. Edges are in ascending
+// order. Error LIMIT: there are more than MOST_EDGES.
 void connect(Mesh& mesh);
 
 // Per vertex the ends of edges there: 2 edge + 0 or 1, as in `edges`.

@@ -18,6 +18,7 @@ private:
     void run(const FieldRequest& request) override {
         set_targets(request.targets);
         for (uint32_t i = 0; i < request.sources.size(); ++i) {
+            end_if_cancelled();
             ask(request.sources[i]);
             for (size_t k = 0; k < targets_.size(); ++k) improve(targets_[k], answer_[k], i);
         }

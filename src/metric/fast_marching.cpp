@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/metric/intrinsic_mesh.h"
+#include "src/base/plane.h"
 #include "src/metric/vertex_front.h"
 
 namespace geodesic {
@@ -17,7 +17,7 @@ struct PointBeside {
 };
 
 PointBeside point_beside(double from_first, double from_second, double length) {
-    const double foot = (from_first - from_second) * (from_first + from_second) / (2 * length) + length / 2;
+    const double foot = foot_of(length, from_first, from_second);
     return {foot, std::sqrt(from_first * from_first - foot * foot)};
 }
 
@@ -30,7 +30,7 @@ double distance_across(double first, double second, double length, double to_fir
     const double heights = source.height + target.height;
     const double crossing = source.foot * target.height + target.foot * source.height;
     if (!(crossing > 0 && crossing < length * heights)) return UNREACHABLE;
-    return norm(source.foot - target.foot, heights);
+    return hypotenuse(source.foot - target.foot, heights);
 }
 
 class FastMarching final : public VertexFront {

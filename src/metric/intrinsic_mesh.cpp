@@ -7,6 +7,7 @@
 
 #include "format/error.h"
 #include "src/mesh/angle.h"
+#include "src/mesh/parts.h"
 
 namespace geodesic {
 
@@ -19,8 +20,7 @@ uint32_t corner_at(const Mesh& mesh, uint32_t face, uint32_t vertex) {
 
 uint32_t other_edge_at(const Mesh& mesh, uint32_t corner, uint32_t edge) {
     const auto& edges = mesh.face_edges[corner / 3];
-    const uint32_t first = edges[(corner + 1 - corner / 3 * 3) % 3];
-    const uint32_t second = edges[(corner + 2 - corner / 3 * 3) % 3];
+    const uint32_t first = edges[(corner + 1) % 3], second = edges[(corner + 2) % 3];
     return first == edge ? second : first;
 }
 
@@ -60,20 +60,31 @@ double slack(double a, double b, double c) {
     return a == longest ? b - (a - c) : b == longest ? a - (b - c) : a - (c - b);
 }
 
-// Paths through a face without area have no direction. Where there is such a face, every edge is made longer
-// by as much as gives it one a few 1e-8 of its length high (intrinsic mollification, Sharp and Crane 2020):
-// then lengths, and not positions, make the surface. None where all faces have an area.
-std::vector<double> mollified_lengths(const Mesh& mesh) {
+// By how much all edges of a face must be longer, if at all, for it to have an area.
+double missing_length(const Mesh& mesh, const std::array<uint32_t, 3>& edges) {
     constexpr double SMALLEST_SLACK = 2e-15;
-    double addition = 0;
+    const double a = mesh.edge_length(edges[0]), b = mesh.edge_length(edges[1]),
+                 c = mesh.edge_length(edges[2]);
+    return std::max(0.0, SMALLEST_SLACK * std::max({a, b, c}) - slack(a, b, c));
+}
+
+// Paths through a face without area have no direction. Where a component has such a face, all of its edges
+// are made longer by one length that gives each of these a height, of some 1e-8 of its longest edge
+// (intrinsic mollification, Sharp and Crane 2020): then lengths, and not positions, make the surface. Returns
+// an empty list where all faces have an area.
+std::vector<double> mollified_lengths(const Mesh& mesh) {
+    const auto has_area = [&](const auto& edges) { return missing_length(mesh, edges) == 0; };
+    if (std::ranges::all_of(mesh.face_edges, has_area)) return {};
+    const Parts parts = parts_of(mesh);
+    const auto part_of = [&](uint32_t edge) { return parts.of_vertex[mesh.edges[edge][0]]; };
+    std::vector<double> addition(parts.parts.size(), 0);
     for (const auto& edges : mesh.face_edges) {
-        const double a = mesh.edge_length(edges[0]), b = mesh.edge_length(edges[1]),
-                     c = mesh.edge_length(edges[2]);
-        addition = std::max(addition, SMALLEST_SLACK * std::max({a, b, c}) - slack(a, b, c));
+        double& most = addition[part_of(edges[0])];
+        most = std::max(most, missing_length(mesh, edges));
     }
     std::vector<double> lengths;
-    for (uint32_t e = 0; addition > 0 && e < mesh.edge_count(); ++e)
-        lengths.push_back(mesh.edge_length(e) + addition);
+    for (uint32_t e = 0; e < mesh.edge_count(); ++e)
+        lengths.push_back(mesh.edge_length(e) + addition[part_of(e)]);
     return lengths;
 }
 
@@ -244,8 +255,6 @@ bool can_bend(const IntrinsicMesh& mesh, uint32_t vertex) {
 }
 
 IntrinsicMesh::IntrinsicMesh(const Mesh& mesh, std::span<const double> own_lengths) {
-    if (mesh.edge_count() > UINT32_MAX / 2 || mesh.vertex_count() > UINT32_MAX / 2)
-        throw Error(GEOIDX_ERROR_LIMIT, "the mesh has more than 2^31 vertices or edges");
     const std::vector<double> mollified =
         own_lengths.empty() ? mollified_lengths(mesh) : std::vector<double>();
     if (own_lengths.empty() && mollified.empty()) positions = mesh.positions;

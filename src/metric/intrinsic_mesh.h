@@ -1,15 +1,11 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "src/mesh/mesh.h"
 
 namespace geodesic {
-
-// Faster than std::hypot, and enough for lengths that do not overflow.
-inline double norm(double x, double y) { return std::sqrt(x * x + y * y); }
 
 // An edge seen from a vertex.
 struct Spoke {

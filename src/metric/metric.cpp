@@ -11,7 +11,7 @@ FieldSolver::FieldSolver(uint32_t vertex_count)
     : distance_(vertex_count, UNREACHABLE), nearest_(vertex_count, NONE) {}
 
 void FieldSolver::solve(const FieldRequest& request) {
-    if (cancelled_ && *cancelled_) throw_cancelled();
+    end_if_cancelled();
     forget(request);
     run(request);
 }

@@ -38,7 +38,8 @@ public:
     explicit FieldSolver(uint32_t vertex_count);
     virtual ~FieldSolver() = default;
 
-    // Every solve from now on throws Error CANCELLED once the flag, which must outlive the solver, is set.
+    // Every solve from now on, also one that runs, throws Error CANCELLED once the flag, which must outlive
+    // the solver, is set. The solver can be used again.
     void cancel_when(const std::atomic<bool>& flag) { cancelled_ = &flag; }
 
     // Points only if the metric takes them.
@@ -66,6 +67,13 @@ protected:
     // Begins anew: no distance is known.
     void forget(const FieldRequest& request);
     void set_final_up_to(double distance) { final_up_to_ = distance; }
+    void end_if_cancelled() const {
+        if (cancelled_ && *cancelled_) throw_cancelled();
+    }
+    // To be called again and again while a solve runs; the flag is looked at now and then.
+    void check_cancelled() {
+        if ((++checks_ & 0x3FF) == 0) end_if_cancelled();
+    }
 
     // Lowers the distance of a vertex; false if it was that low already.
     bool improve(uint32_t vertex, double distance, uint32_t nearest) {
@@ -92,6 +100,7 @@ private:
     std::vector<double> point_distance_;
     double final_up_to_ = 0;
     const std::atomic<bool>* cancelled_ = nullptr;
+    uint32_t checks_ = 0; // calls of check_cancelled()
 };
 
 // Counts down the targets of one solve as their distances become final.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "format/error.h"
+#include "src/base/plane.h"
 #include "src/metric/event_queue.h"
 #include "src/metric/target_points.h"
 
@@ -72,6 +73,7 @@ void SteinerSearch::run(const FieldRequest& request) {
     uint32_t settled = 0;
     set_final_up_to(UNREACHABLE);
     while (!queue_.empty()) {
+        check_cancelled();
         const auto event = queue_.pop();
         if (event.distance > request.radius || (is_done && settled >= request.final_count)) {
             set_final_up_to(event.distance); // it was the least of those that may still be lowered
@@ -109,12 +111,12 @@ void SteinerSearch::start_at(const SurfacePoint& point, uint32_t nearest) {
         const uint32_t edge = mesh().edge_of_corner[corner];
         const PlanePoint p = place_on_side(mesh(), corner, point);
         for (uint32_t i = 0; i <= points_per_edge() + 1; ++i)
-            reach(node_at(edge, i), cost * norm(i * spacing(edge) - p.x, p.depth), nearest, NONE);
+            reach(node_at(edge, i), cost * hypotenuse(i * spacing(edge) - p.x, p.depth), nearest, NONE);
     }
     const PlanePoint from = place_on_side(mesh(), 3 * point.face, point);
     for (const TargetPoint& target : targets_.of_face(point.face)) {
         const PlanePoint& to = target.on_side[0];
-        reach_point(target.index, cost * norm(from.x - to.x, from.depth - to.depth));
+        reach_point(target.index, cost * hypotenuse(from.x - to.x, from.depth - to.depth));
     }
 }
 
@@ -144,12 +146,12 @@ void SteinerSearch::settle_vertex(uint32_t vertex) {
         const double cost = graph_->face_cost[side.face];
         for (uint32_t i = 1; i <= points_per_edge(); ++i)
             reach(node_at(edge, i),
-                  node.distance + cost * norm(i * spacing(edge) - side.apex_x, side.apex_depth), node.nearest,
-                  side.face);
+                  node.distance + cost * hypotenuse(i * spacing(edge) - side.apex_x, side.apex_depth),
+                  node.nearest, side.face);
         for (const TargetPoint& target : targets_.of_face(side.face)) {
             const PlanePoint& p = target.on_side[corner % 3];
             reach_point(target.index,
-                        node.distance + cost * norm(p.x - side.apex_x, p.depth - side.apex_depth));
+                        node.distance + cost * hypotenuse(p.x - side.apex_x, p.depth - side.apex_depth));
         }
     }
 }
@@ -167,14 +169,15 @@ void SteinerSearch::settle_edge_point(uint32_t edge, uint32_t position) {
 // From the point (t, 0) of an edge into a face.
 void SteinerSearch::cross(const Side& side, uint32_t edge, double t, const Node& node) {
     const double cost = graph_->face_cost[side.face], length = mesh().edge_length[edge];
-    reach(side.apex, node.distance + cost * norm(t - side.apex_x, side.apex_depth), node.nearest, side.face);
+    reach(side.apex, node.distance + cost * hypotenuse(t - side.apex_x, side.apex_depth), node.nearest,
+          side.face);
     reach_exit(side.tagged_edge[0], side.apex_x, side.apex_depth, t, cost, node, side.face);
     reach_exit(side.tagged_edge[1], side.apex_back, side.apex_depth, length - t, cost, node, side.face);
     if (targets_.empty()) return;
     const uint32_t corner = mesh().corner_of_side[static_cast<size_t>(&side - mesh().sides.items.data())];
     for (const TargetPoint& target : targets_.of_face(side.face)) {
         const PlanePoint& p = target.on_side[corner % 3];
-        reach_point(target.index, node.distance + cost * norm(t - p.x, p.depth));
+        reach_point(target.index, node.distance + cost * hypotenuse(t - p.x, p.depth));
     }
 }
 
@@ -186,7 +189,7 @@ void SteinerSearch::reach_exit(uint32_t tagged_edge, double apex_x, double apex_
     const double step_x = apex_x / (count + 1), step_y = apex_depth / (count + 1);
     for (uint32_t i = 1; i <= count; ++i)
         reach(node_at(exit, reversed ? count + 1 - i : i),
-              node.distance + cost * norm(t - i * step_x, i * step_y), node.nearest, face);
+              node.distance + cost * hypotenuse(t - i * step_x, i * step_y), node.nearest, face);
 }
 
 }

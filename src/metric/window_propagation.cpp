@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/base/plane.h"
 #include "src/metric/envelope.h"
 #include "src/metric/event_queue.h"
 #include "src/metric/target_bounds.h"
@@ -166,6 +167,7 @@ bool WindowPropagation::run_with(double tolerance, const FieldRequest& request) 
     set_final_up_to(UNREACHABLE);
     while (!queue_.empty()) {
         if (tolerance > 0 && carried_on_ > MOST_WINDOWS * (settled + in_any_case)) return false;
+        check_cancelled();
         const auto event = queue_.pop();
         const bool is_near_final = settled >= request.final_count;
         if (event.distance > request.radius || (is_done && is_near_final)) {
@@ -257,14 +259,14 @@ void WindowPropagation::start_at(const SurfacePoint& point, uint32_t nearest, st
         const Side& side = mesh_->sides.items[mesh_->side_of_corner[corner]];
         const uint32_t edge = mesh_->edge_of_corner[corner];
         const PlanePoint p = place_on_side(*mesh_, corner, point);
-        reach(side.apex, norm(p.x - side.apex_x, p.depth - side.apex_depth), nearest,
+        reach(side.apex, hypotenuse(p.x - side.apex_x, p.depth - side.apex_depth), nearest,
               {FROM_SOURCE, NO_ANGLE});
         lit.push_back({edge, source_window(edge, p, 0, side.face, nearest)});
     }
     for (const TargetPoint& target : targets_.of_face(point.face)) {
         const PlanePoint from = place_on_side(*mesh_, 3 * point.face, point);
         const PlanePoint& to = target.on_side[0];
-        reach_point(target.index, norm(from.x - to.x, from.depth - to.depth));
+        reach_point(target.index, hypotenuse(from.x - to.x, from.depth - to.depth));
     }
 }
 
@@ -301,7 +303,8 @@ void WindowPropagation::reach_points_around(uint32_t vertex) {
         const Side& side = mesh_->sides.items[mesh_->side_of_corner[corner]];
         for (const TargetPoint& target : targets_.of_face(side.face)) {
             const PlanePoint& p = target.on_side[corner % 3];
-            reach_point(target.index, distance(vertex) + norm(p.x - side.apex_x, p.depth - side.apex_depth));
+            reach_point(target.index,
+                        distance(vertex) + hypotenuse(p.x - side.apex_x, p.depth - side.apex_depth));
         }
     }
 }
@@ -311,7 +314,7 @@ void WindowPropagation::reach_points_behind(const Window& window, const Side& si
     for (const TargetPoint& target : targets_.of_face(side.face)) {
         const PlanePoint& p = target.on_side[corner % 3];
         const double crossing = window.crossing_to(p.x, p.depth);
-        reach_point(target.index, window.distance_at(crossing) + norm(crossing - p.x, p.depth));
+        reach_point(target.index, window.distance_at(crossing) + hypotenuse(crossing - p.x, p.depth));
     }
 }
 
@@ -403,7 +406,7 @@ void WindowPropagation::reach_apex(const Window& window, const Side& side, doubl
     const bool straight = split == crossing;
     const double height = straight ? window.y + side.apex_depth : side.apex_depth;
     const double across = (straight ? window.x : crossing) - side.apex_x;
-    const double d = (straight ? window.sigma : window.distance_at(crossing)) + norm(across, height);
+    const double d = (straight ? window.sigma : window.distance_at(crossing)) + hypotenuse(across, height);
     if (!(d < distance(side.apex))) return;
     Arrival arrival;
     if (straight && mesh_->can_bend[side.apex]) {
@@ -454,8 +457,8 @@ void WindowPropagation::pass(const Window& window, const Beam& beam, Exit& exit)
     if (!(far - near > TIE * exit.length)) return;
     const double x = beam.x * exit.along_x - beam.y * exit.along_y;
     const double y = std::max(0.0, exit.along_x * beam.y + exit.along_y * beam.x);
-    const double near_distance = window.sigma + norm(near - x, y);
-    const double far_distance = window.sigma + norm(far - x, y);
+    const double near_distance = window.sigma + hypotenuse(near - x, y);
+    const double far_distance = window.sigma + hypotenuse(far - x, y);
 
     // Of no use where a path through a vertex of the face is shorter all along.
     if (distance(exit.near_vertex) + far < far_distance * (1 - exit.tie)) return;

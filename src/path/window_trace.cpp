@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "src/base/plane.h"
 #include "src/metric/target_points.h"
 
 namespace geodesic {
@@ -52,14 +53,15 @@ void WindowTrace::try_source(const SurfacePoint& end, Piece& best) const {
     if (source == sources_.end()) return;
     const PlanePoint from = place_on_side(mesh_, 3 * end.face, *source),
                      to = place_on_side(mesh_, 3 * end.face, end);
-    const double length = norm(from.x - to.x, from.depth - to.depth);
+    const double length = hypotenuse(from.x - to.x, from.depth - to.depth);
     if (length < best.length) best = {length, end, NO_PORTAL, *source};
 }
 
 void WindowTrace::try_vertex(const SurfacePoint& end, uint32_t corner, Piece& best) const {
     const Side& side = mesh_.sides.items[mesh_.side_of_corner[corner]];
     const PlanePoint to = place_on_side(mesh_, corner, end);
-    const double length = solver_.distance(side.apex) + norm(to.x - side.apex_x, to.depth - side.apex_depth);
+    const double length =
+        solver_.distance(side.apex) + hypotenuse(to.x - side.apex_x, to.depth - side.apex_depth);
     if (length < best.length) best = {length, end, {side.apex, side.apex}, point_at(corner)};
 }
 
@@ -71,7 +73,7 @@ void WindowTrace::try_windows(const SurfacePoint& end, uint32_t corner, Piece& b
     for (const Window& window : solver_.windows(edge)) {
         if (window.from_face == end.face) continue;
         const double crossing = window.crossing_to(to.x, to.depth);
-        const double length = window.distance_at(crossing) + norm(crossing - to.x, to.depth);
+        const double length = window.distance_at(crossing) + hypotenuse(crossing - to.x, to.depth);
         if (length < best.length) best = {length, end, {first, second}, crossed(window, edge, crossing)};
     }
 }

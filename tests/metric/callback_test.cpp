@@ -1,11 +1,14 @@
 #include "src/metric/callback.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include <doctest/doctest.h>
 
+#include "format/error.h"
 #include "tests/support/oracles.h"
 
 using namespace geodesic;
@@ -41,6 +44,27 @@ std::vector<double> solve(FieldSolver& solver, std::span<const uint32_t> sources
     return result;
 }
 
+}
+
+TEST_CASE("callback metric: cancelled between two questions, a solver can be used again") {
+    struct Cancelling {
+        std::atomic<bool> flag{false};
+        uint32_t asked = 0;
+        static geoidx_status distances(void* user, uint32_t, const uint32_t*, uint32_t count, double* out) {
+            auto& self = *static_cast<Cancelling*>(user);
+            std::fill_n(out, count, 1.0);
+            if (++self.asked == 2) self.flag = true;
+            return GEOIDX_OK;
+        }
+    } callback;
+    const auto solver = CallbackMetric(Cancelling::distances, &callback, IDS).make_solver();
+    solver->cancel_when(callback.flag);
+    const std::vector<uint32_t> all{0, 1, 2, 3};
+    CHECK_THROWS_WITH_AS(solver->solve(all, {}), doctest::Contains("cancelled"), Error);
+    CHECK(callback.asked == 2);
+    callback.flag = false;
+    solver->solve(all, {});
+    CHECK(callback.asked == 6);
 }
 
 TEST_CASE("callback metric: asks by the caller's ids, takes the nearest of several sources") {
