@@ -18,19 +18,6 @@ void check_weights(const geoidx_surface_point& point, double sum, const std::str
         refuse_argument(name + " has weights of " + number_text(sum) + " in sum");
 }
 
-// Weights that are rounding put a point on an edge, or at a corner. Points that the library gave come back
-// with the same bits.
-std::array<double, 3> scaled_weights(const geoidx_surface_point& point) {
-    constexpr double ROUNDING = 1e-15;
-    std::array<double, 3> weights;
-    for (size_t k = 0; k < 3; ++k) weights[k] = point.weights[k] < NEGLIGIBLE_WEIGHT ? 0 : point.weights[k];
-    const double sum = weights[0] + weights[1] + weights[2];
-    const bool is_at_corner = std::ranges::count(weights, 0.0) == 2;
-    if (is_at_corner || std::abs(sum - 1) > ROUNDING)
-        for (double& weight : weights) weight /= sum;
-    return weights;
-}
-
 }
 
 SurfacePoint checked_point(const TriangleFaces& faces, const geoidx_surface_point& point,
@@ -46,7 +33,7 @@ SurfacePoint checked_point(const TriangleFaces& faces, const geoidx_surface_poin
     if (const auto found = faces.corners_of_duplicate.find(point.triangle);
         found != faces.corners_of_duplicate.end())
         corners = found->second;
-    const std::array<double, 3> weights = scaled_weights(point);
+    const auto weights = without_negligible(std::to_array(point.weights));
     SurfacePoint result{face, {}};
     for (size_t k = 0; k < 3; ++k) result.weights[corners[k]] = weights[k];
     return result;

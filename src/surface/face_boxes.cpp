@@ -48,7 +48,8 @@ SurfacePoint closest_on_face(const Surface& surface, uint32_t face, const Vector
         const Vector3d w = position - corners[0];
         const double second = w.cross(v).dot(normal) / area, third = u.cross(w).dot(normal) / area;
         const double first = 1 - second - third; // may be negative where the sum of both is rounded to 1
-        if (first >= 0 && second >= 0 && third >= 0) return {face, {first, second, third}};
+        if (first >= 0 && second >= 0 && third >= 0)
+            return {face, without_negligible({first, second, third})};
     }
     SurfacePoint best{face, {1, 0, 0}};
     double least = std::numeric_limits<double>::infinity();
@@ -62,6 +63,7 @@ SurfacePoint closest_on_face(const Surface& surface, uint32_t face, const Vector
         best.weights[k] = 1 - share;
         best.weights[next] = share;
     }
+    best.weights = without_negligible(best.weights);
     return best;
 }
 

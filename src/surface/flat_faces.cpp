@@ -92,7 +92,7 @@ FlatFaces::Corners FlatFaces::corners_of(std::span<const Vector3d> positions,
                                          const std::array<double, 3>& weights) {
     Corners point{corners, Vector3d::Zero(), std::ranges::max(weights) == 1};
     std::array<size_t, 3> order{0, 1, 2};
-    std::ranges::sort(order, std::greater(), [&](size_t k) { return weights[k]; });
+    std::ranges::stable_sort(order, std::greater(), [&](size_t k) { return weights[k]; });
     for (size_t k = 0; k < 3; ++k) {
         point.vertices[k] = corners[order[k]];
         point.position += weights[k] * positions[corners[k]];

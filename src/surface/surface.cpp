@@ -1,6 +1,7 @@
 #include "src/surface/surface.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace geodesic {
 
@@ -25,6 +26,17 @@ Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point) {
     const auto& [a, b, c] = surface.faces[point.face];
     return point.weights[0] * surface.positions[a] + point.weights[1] * surface.positions[b] +
            point.weights[2] * surface.positions[c];
+}
+
+std::array<double, 3> without_negligible(std::array<double, 3> weights) {
+    constexpr double ROUNDED_SUM = 1e-15; // by how much the sum of weights may be off 1
+    for (double& weight : weights)
+        if (weight < NEGLIGIBLE_WEIGHT) weight = 0;
+    const double sum = weights[0] + weights[1] + weights[2];
+    const bool is_at_corner = std::ranges::count(weights, 0.0) == 2;
+    if (is_at_corner || std::abs(sum - 1) > ROUNDED_SUM)
+        for (double& weight : weights) weight /= sum;
+    return weights;
 }
 
 uint32_t vertex_at(const Surface& surface, const SurfacePoint& point) {

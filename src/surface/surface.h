@@ -60,6 +60,9 @@ uint32_t vertex_at(const Surface& surface, const SurfacePoint& point);
 // and give back is the same point, on the same edges and vertices.
 inline constexpr double NEGLIGIBLE_WEIGHT = 1e-12;
 
+// These weights without those that are negligible. What it returns comes back with the same bits.
+std::array<double, 3> without_negligible(std::array<double, 3> weights);
+
 // The corner of a face that a vertex is, or NONE.
 inline uint32_t corner_of(const Surface& surface, uint32_t face, uint32_t vertex) {
     for (uint32_t k = 0; k < 3; ++k)
