@@ -19,7 +19,8 @@ struct SplitSurface {
     const Hierarchy& hierarchy;
 };
 
-// Makes the same index on one mesh or several of the same surface.
+// Fills an index from a hierarchy. May be called again with finer meshes of the same surface: what was solved
+// for the first is used again.
 class Filling {
 public:
     // The options are complete and checked. `about` has all but the errors, and what is filled becomes

@@ -43,7 +43,7 @@ public:
     float msad(uint32_t vertex) const { return field_[id_of(vertex)]; }
     float sssd(uint32_t vertex) { return query_.sssd(id_of(source_), id_of(vertex)); }
 
-    // Whether SSSD may be worse than MSAD. Of two inner vertices of one leaf, tables hold the distance
+    // Whether SSSD may be worse than MSAD. Of two internal vertices of one leaf, tables hold the distance
     // itself, and with the graph engine it is not worse anywhere.
     bool may_be_worse(uint32_t vertex) const {
         return index_.description.engine == GEOIDX_ENGINE_OVERLAY && is_across(vertex);

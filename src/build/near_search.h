@@ -21,8 +21,8 @@ struct NearEffort {
 
 // Looks for the largest errors of short distances, up to a little more than the near ones. From each source
 // it compares MSAD to all vertices that are so near, about a thousand at most, and, of the overlay engine,
-// SSSD to those in other patches. The errors are only added to maxima, since sources are chosen where errors
-// are large.
+// SSSD to those that are not internal vertices of the source's own leaf, as the source is. The errors are
+// only added to maxima, since sources are chosen where errors are large.
 //
 // To ask the metric takes longest, so sources are chosen by the index itself: MSAD and SSSD put their ways
 // together from different tables, and where one is wrong they mostly disagree.

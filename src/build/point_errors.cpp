@@ -79,7 +79,7 @@ PointErrors::PointErrors(const Intake& intake, const std::optional<FlippedEdges>
     });
 }
 
-// Leaves out those of which rounding hides where the index has them.
+// Leaves out points that rounding puts outside of every face of the index near them.
 void PointErrors::choose_points(const std::vector<double>& areas, uint64_t seed) {
     if (!(areas.back() > 0)) return;
     Random random(seed);

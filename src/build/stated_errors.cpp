@@ -123,7 +123,8 @@ std::vector<double> add_errors_of_fields(const Index& index, const Intake& intak
     return of_msad;
 }
 
-// What was measured of the tables alone, and now of the index, which may hold measured pairs, too.
+// The figures that measure_error() took of the tables alone, taken again of the index, which may hold
+// measured pairs by now. How exact paths over vertices are does not change by these.
 MeasuredError with_measured_pairs(const Description& about, std::vector<double> errors) {
     MeasuredError stated = summary(std::move(errors));
     stated.mean_at_vertices = crosses_between_vertices(about) ? about.error.mean_at_vertices : stated.mean;
@@ -137,7 +138,7 @@ ErrorSum error_of_several(const Index& index, const Intake& intake, const ExactF
     return errors_of_groups(index, intake, groups, too_short, workers);
 }
 
-// Those that are looked for.
+// Searches for large errors, near and at all distances, and adds them to the maxima.
 void add_largest_errors(const Index& index, const Intake& intake, double average_edge, double too_short,
                         const Effort& effort, Workers& workers, ErrorsByDistance& errors) {
     const uint64_t seed = index.description.seed;

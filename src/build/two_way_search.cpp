@@ -36,7 +36,7 @@ void TwoWaySearch::run(const TwoWayEffort& effort, uint64_t seed, Workers& worke
                      workers);
 }
 
-// Different ones.
+// Returns `count` different vertices, or all of them.
 std::vector<uint32_t> TwoWaySearch::random_vertices(uint32_t count, Random& random) const {
     std::vector<uint32_t> vertices(intake_.mesh.vertex_count());
     std::iota(vertices.begin(), vertices.end(), 0u);
@@ -148,7 +148,7 @@ void TwoWaySearch::measure(std::span<Pair> pairs, Workers& workers) const {
     });
 }
 
-// SSSD beside the nearer one of both directions of MSAD.
+// Compares SSSD with both directions of MSAD, and notes by how much it lies outside of these.
 void TwoWaySearch::measure(Query& query, Pair& pair) const {
     Difference& difference = pair.difference;
     const auto [less, more] =
@@ -159,7 +159,7 @@ void TwoWaySearch::measure(Query& query, Pair& pair) const {
     difference.share = std::max(answered / more, less / answered) - 1;
 }
 
-// So many of each class, each once.
+// Keeps the `of_class` worst pairs of each class of distances, each once.
 void TwoWaySearch::keep_worst(std::vector<Pair>& pairs, size_t of_class) const {
     std::ranges::sort(pairs, [](const Pair& a, const Pair& b) {
         return std::tuple(-a.difference.share, a.place, a.difference.other) <

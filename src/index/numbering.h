@@ -72,11 +72,11 @@ struct Numbering {
     uint32_t border_vertex_count() const { return internal_begin[0]; }
     bool is_border(uint32_t number) const { return number < border_vertex_count(); }
     uint32_t leaf_of(uint32_t internal) const {
-        const uint32_t* near = leaf_of_block.data() + (internal - border_vertex_count()) / LEAF_BLOCK;
-        if (near[0] == near[1]) return near[0];
+        const uint32_t* block = leaf_of_block.data() + (internal - border_vertex_count()) / LEAF_BLOCK;
+        if (block[0] == block[1]) return block[0];
         const uint32_t* begin = internal_begin.data();
         const uint32_t* next =
-            std::upper_bound(begin + near[0] - first_leaf(), begin + near[1] - first_leaf() + 1, internal);
+            std::upper_bound(begin + block[0] - first_leaf(), begin + block[1] - first_leaf() + 1, internal);
         return first_leaf() + static_cast<uint32_t>(next - begin) - 1;
     }
     bool is_within(uint32_t patch, uint32_t ancestor) const {
@@ -180,9 +180,9 @@ struct Numbering {
     }
 };
 
-// Fills a numbering from HIER, POSI and BORD. Throws Error CORRUPT where a vertex on the border of a patch is
-// not in the overlay of the patch's parent, and where a vertex in the overlay of a patch is on the border of
-// none of its children. Throws Error LIMIT where tables would be too large.
+// Fills a numbering from HIER, POSI and BORD, in place of what it held. Throws Error CORRUPT where a vertex
+// on the border of a patch is not in the overlay of the patch's parent, and where a vertex in the overlay of
+// a patch is on the border of none of its children. Throws Error LIMIT where tables would be too large.
 void number_vertices(const StoredIndex& stored, Numbering& numbering);
 
 // Does the opposite: fills HIER, POSI and BORD from a numbering.

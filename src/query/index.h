@@ -37,7 +37,8 @@ struct Index {
 };
 
 // Fills an index from what is stored, in place of what it held. Throws Error where what is stored cannot be
-// an index. Hop codes and the mesh of a mapped file stay where they are.
+// an index; the index is then neither the old nor the new one, and may only be prepared again or destroyed.
+// Hop codes and the mesh of a mapped file stay where they are.
 void prepare(const StoredIndex& stored, Index& index);
 
 // Copies a packed mesh into the index's memory.
@@ -51,7 +52,7 @@ void prepare_pairs(const Index& index);
 // Frees what prepare_pairs() made. No query may be running.
 void release_pairs(const Index& index);
 
-// Makes prepare_pairs() make no labels, from now on.
+// From now on no labels are made, neither by prepare_pairs() nor by pairs. To be called before any query.
 void leave_out_labels(Index& index);
 
 // What is stored of an index: the opposite of prepare().
@@ -62,8 +63,8 @@ StoredIndex restore(const Index& index);
 // takes longer than everything else that opening does.
 void require_hops_follow(const Index& index);
 
-// The largest error of tables, for pairs of a class of distances that are held beside them: answers that
-// measured pairs do not reach may be as wrong.
+// The largest error of tables, for pairs of a class of distances that are held beside them; at most 1, which
+// also stands for more. Answers that measured pairs do not reach may be as wrong.
 inline double error_of_measured_pairs(const Index& index, size_t of_class) {
     const auto* const overlay = std::get_if<OverlayIndex>(&index.engine);
     return overlay ? double{overlay->measured.largest_errors[of_class]} : 0;

@@ -90,7 +90,8 @@ public:
     void prepare_end(size_t end, const FacePoint& point);
     float end_distance(size_t end, uint32_t number);
 
-    // Threads of msad(), 0: one per processor; the graph engine uses one.
+    // How many threads a field from one or several sources uses from now on, of vertices or points, those of
+    // nearest_sources() and farthest_points() among them. 0: one per processor. The graph engine uses one.
     void set_threads(uint32_t count);
 
     // Fills the distances from each source by itself: distances[i * id_count + id].
@@ -144,8 +145,8 @@ private:
     std::span<const WithinSweep::Found> numbers_within(const PointSources& only, float radius);
     std::span<const WithinSweep::Found> found_in(std::span<const float> field, float radius);
     void keep_least();
-    void replace_numbers();
     void keep_least_if_many(size_t& different);
+    void replace_numbers();
     void rank_by_pairs(uint32_t source_id, std::span<const uint32_t> target_ids);
     void rank_by_sweeps(uint32_t source, std::span<const uint32_t> target_ids, size_t count);
     class TargetsAtNumbers;
