@@ -469,9 +469,11 @@ GEOIDX_API geoidx_status geoidx_build(const geoidx_mesh* mesh, const geoidx_buil
 GEOIDX_API geoidx_status geoidx_save(const geoidx* index, const char* utf8_path,
                                      const geoidx_save_options* options);
 
-/* The same bytes into the caller's buffer. *needed is always set to their number; when capacity is smaller,
- * nothing is written and GEOIDX_ERROR_INVALID_ARGUMENT is returned, unless buffer is NULL and capacity 0,
- * which asks for the size and succeeds. */
+/* The same bytes into the caller's buffer. *needed is set to their number, or to 0 where the call fails
+ * before it is known; when capacity is smaller, nothing is written and GEOIDX_ERROR_INVALID_ARGUMENT is
+ * returned, unless buffer is NULL and capacity 0, which asks for the size and succeeds. Each call makes the
+ * bytes anew, also one that only asks for their number: a buffer that is likely to be large enough saves half
+ * of the time. */
 GEOIDX_API geoidx_status geoidx_save_memory(const geoidx* index, const geoidx_save_options* options,
                                             void* buffer, uint64_t capacity, uint64_t* needed);
 
@@ -494,8 +496,8 @@ GEOIDX_API void geoidx_close(geoidx* index);
 GEOIDX_API geoidx_status geoidx_get_info(const geoidx* index, geoidx_info* info);
 
 /* The sections of the file that the index was opened from, in the order of the file; an index that was built
- * has none. *count is always set to their number; up to `capacity` of them are written to `sections`, which
- * may be NULL if capacity is 0. */
+ * has none. *count is set to their number, or to 0 where the call fails; up to `capacity` of them are written
+ * to `sections`, which may be NULL if capacity is 0. */
 GEOIDX_API geoidx_status geoidx_get_sections(const geoidx* index, geoidx_section* sections, uint32_t capacity,
                                              uint32_t* count);
 

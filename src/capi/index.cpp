@@ -169,6 +169,7 @@ geoidx_status geoidx_save(const geoidx* index, const char* utf8_path, const geoi
 
 geoidx_status geoidx_save_memory(const geoidx* index, const geoidx_save_options* options, void* buffer,
                                  uint64_t capacity, uint64_t* needed) {
+    if (needed) *needed = 0;
     return guarded([&] {
         require(index, "index is NULL");
         require(needed, "needed is NULL");
@@ -207,6 +208,7 @@ void geoidx_close(geoidx* index) {
 
 geoidx_status geoidx_get_sections(const geoidx* index, geoidx_section* sections, uint32_t capacity,
                                   uint32_t* count) {
+    if (count) *count = 0;
     return guarded([&] {
         require(index, "index is NULL");
         require(count, "count is NULL");

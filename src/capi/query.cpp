@@ -32,20 +32,25 @@ private:
     Query* query_;
 };
 
-void check_msad(const uint32_t* sources, const float* distances) {
-    require(sources, "sources is NULL");
+// That there is one at all is checked by who takes them.
+void check_sources(std::span<const uint32_t> sources) {
+    require(sources.empty() || sources.data(), "sources is NULL");
+}
+
+void check_msad(std::span<const uint32_t> sources, const float* distances) {
+    check_sources(sources);
     require(distances, "distances is NULL");
 }
 
 void fill_fields(Query& query, std::span<const uint32_t> sources, std::span<float> distances) {
-    require(sources.empty() || sources.data(), "sources is NULL");
+    check_sources(sources);
     require(distances.empty() || distances.data(), "distances is NULL");
     query.ssad_each(sources, distances);
 }
 
 void fill_matrix(Query& query, std::span<const uint32_t> sources, std::span<const uint32_t> targets,
                  std::span<float> distances) {
-    require(sources.empty() || sources.data(), "sources is NULL");
+    check_sources(sources);
     require(targets.empty() || targets.data(), "targets is NULL");
     require(distances.empty() || distances.data(), "distances is NULL");
     query.matrix(sources, targets, distances);
@@ -54,8 +59,8 @@ void fill_matrix(Query& query, std::span<const uint32_t> sources, std::span<cons
 // Sources with the offsets that they begin with, which may be NULL.
 std::vector<SurfacePoint>
 checked_sources(const Surface& surface, std::span<const geoidx_surface_point> sources, const float* offsets) {
-    require(sources.data(), "sources is NULL");
     require(!sources.empty(), "there is no source");
+    require(sources.data(), "sources is NULL");
     for (size_t i = 0; offsets && i < sources.size(); ++i)
         require(offsets[i] >= 0 && offsets[i] < INFINITE, "an offset is negative, infinite or NaN");
     return checked_points(surface, sources, "source");
@@ -93,7 +98,7 @@ geoidx_status geoidx_msad(const geoidx* index, const uint32_t* sources, uint32_t
                           float* distances, uint32_t distance_count) {
     return guarded([&] {
         require(index, "index is NULL");
-        check_msad(sources, distances);
+        check_msad({sources, source_count}, distances);
         BorrowedQuery(*index)->msad({sources, source_count}, INFINITE, {distances, distance_count});
     });
 }
@@ -143,7 +148,7 @@ geoidx_status geoidx_query_msad(geoidx_query* query, const uint32_t* sources, ui
                                 float* distances, uint32_t distance_count) {
     return guarded([&] {
         require(query, "query is NULL");
-        check_msad(sources, distances);
+        check_msad({sources, source_count}, distances);
         query->query.msad({sources, source_count}, INFINITE, {distances, distance_count});
     });
 }
@@ -152,7 +157,7 @@ geoidx_status geoidx_query_msad_within(geoidx_query* query, const uint32_t* sour
                                        float radius, float* distances, uint32_t distance_count) {
     return guarded([&] {
         require(query, "query is NULL");
-        check_msad(sources, distances);
+        check_msad({sources, source_count}, distances);
         query->query.msad({sources, source_count}, radius, {distances, distance_count});
     });
 }
@@ -172,7 +177,7 @@ geoidx_status geoidx_query_nearest_sources(geoidx_query* query, const uint32_t* 
                                            uint32_t vertex_count) {
     return guarded([&] {
         require(query, "query is NULL");
-        require(sources, "sources is NULL");
+        check_sources({sources, source_count});
         require(nearest, "nearest is NULL");
         query->query.nearest_sources({sources, source_count}, {nearest, vertex_count},
                                      {distances, distances ? vertex_count : 0});
@@ -185,7 +190,7 @@ geoidx_status geoidx_query_within(geoidx_query* query, const uint32_t* sources, 
     if (count) *count = 0;
     return guarded([&] {
         require(query, "query is NULL");
-        require(sources, "sources is NULL");
+        check_sources({sources, source_count});
         require(capacity == 0 || vertices, "vertices is NULL");
         require(count, "count is NULL");
         const auto found = query->query.within({sources, source_count}, radius);
@@ -215,7 +220,7 @@ geoidx_status geoidx_query_farthest_points(geoidx_query* query, const uint32_t* 
     if (count) *count = 0;
     return guarded([&] {
         require(query, "query is NULL");
-        require(sources, "sources is NULL");
+        check_sources({sources, source_count});
         require(point_count == 0 || points, "points is NULL");
         require(count, "count is NULL");
         *count = query->query.farthest_points({sources, source_count}, {points, point_count},

@@ -80,8 +80,8 @@ geoidx_status geoidx_solver_distances(geoidx_solver* solver, const uint32_t* sou
                                       const uint32_t* targets, uint32_t target_count, double* distances) {
     return guarded([&] {
         require(solver, "solver is NULL");
-        require(sources, "sources is NULL");
         require(source_count > 0, "there is no source");
+        require(sources, "sources is NULL");
         require(distances || target_count == 0, "distances is NULL");
         require(targets || target_count == solver->intake.vertex_of_id.size(),
                 "targets is NULL, but target_count is not the mesh's vertex_count");
@@ -95,8 +95,8 @@ geoidx_status geoidx_solver_point_distances(geoidx_solver* solver, const geoidx_
     return guarded([&] {
         require(solver, "solver is NULL");
         require(solver->metric->takes_points(), "the metric knows vertices only, no points of the surface");
-        require(sources, "sources is NULL");
         require(source_count > 0, "there is no source");
+        require(sources, "sources is NULL");
         require((targets && distances) || target_count == 0, "targets or distances is NULL");
         if (target_count == 0) return;
         const auto source_points = surface_points(solver->intake, {sources, source_count}, "source");

@@ -259,6 +259,17 @@ TEST_CASE("counts and ids out of range are refused and named") {
     const auto solver_handle = solver(mesh, build_options());
     check_refused(geoidx_solver_distances(solver_handle.get(), &source, 0, nullptr, 20, wide.data()),
                   GEOIDX_ERROR_INVALID_ARGUMENT, "no source");
+    uint32_t nearest[20], count = 0;
+    const auto without_source = [](geoidx_status status) {
+        check_refused(status, GEOIDX_ERROR_INVALID_ARGUMENT, "no source");
+    };
+    without_source(geoidx_msad(index.get(), nullptr, 0, distances.data(), 20));
+    without_source(geoidx_query_msad(query.get(), nullptr, 0, distances.data(), 20));
+    without_source(geoidx_query_msad_within(query.get(), nullptr, 0, 1, distances.data(), 20));
+    without_source(geoidx_query_nearest_sources(query.get(), nullptr, 0, nearest, nullptr, 20));
+    without_source(geoidx_query_within(query.get(), nullptr, 0, 1, nearest, nullptr, 20, &count));
+    without_source(geoidx_query_farthest_points(query.get(), nullptr, 0, 20, nearest, nullptr, &count));
+    without_source(geoidx_solver_distances(solver_handle.get(), nullptr, 0, nullptr, 20, wide.data()));
 }
 
 TEST_CASE("the last error is per thread and stays until the next one") {
@@ -311,17 +322,6 @@ TEST_CASE("an edge with three triangles is refused only where the options say so
     check_build_refused(mesh, options, GEOIDX_ERROR_BAD_MESH, "more than two");
     options.refuse_edges_of_many = 0;
     CHECK(build(mesh, options) != nullptr);
-}
-
-TEST_CASE("bad meshes are refused and the element is named") {
-    const auto refused = [](const TestMesh& mesh, const char* detail) {
-        check_build_refused(mesh, build_options(), GEOIDX_ERROR_BAD_MESH, detail);
-    };
-    TestMesh mesh = two_triangles();
-    mesh.positions[3 * 2 + 1] = NOT_A_NUMBER;
-    refused(mesh, "vertex 2");
-    mesh.positions[3 * 2 + 1] = -INFINITE;
-    refused(mesh, "vertex 2");
     options.refuse_edges_of_many = 2;
     check_build_refused(two_triangles(), options, GEOIDX_ERROR_INVALID_ARGUMENT, "not 0 or 1");
 }
@@ -334,6 +334,17 @@ TEST_CASE("patches of levels that are not asked for are refused") {
     CHECK(build(grid(9, 9), options) != nullptr);
     options.level_count = 0; // so many as are named
     CHECK(build(grid(9, 9), options) != nullptr);
+}
+
+TEST_CASE("bad meshes are refused and the element is named") {
+    const auto refused = [](const TestMesh& mesh, const char* detail) {
+        check_build_refused(mesh, build_options(), GEOIDX_ERROR_BAD_MESH, detail);
+    };
+    TestMesh mesh = two_triangles();
+    mesh.positions[3 * 2 + 1] = NOT_A_NUMBER;
+    refused(mesh, "vertex 2");
+    mesh.positions[3 * 2 + 1] = -INFINITE;
+    refused(mesh, "vertex 2");
     mesh = two_triangles();
     mesh.triangles[4] = 4;
     refused(mesh, "triangle 1");
@@ -404,6 +415,12 @@ TEST_CASE("save_memory tells the size and never writes a part") {
     for (size_t i = needed; i < buffer.size(); ++i) CHECK(buffer[i] == filler);
     buffer.resize(needed);
     CHECK(buffer == save(index.get()));
+    told = 7;
+    CHECK(geoidx_save_memory(nullptr, nullptr, nullptr, 0, &told) == GEOIDX_ERROR_INVALID_ARGUMENT);
+    CHECK(told == 0);
+    uint32_t sections = 7;
+    CHECK(geoidx_get_sections(nullptr, nullptr, 0, &sections) == GEOIDX_ERROR_INVALID_ARGUMENT);
+    CHECK(sections == 0);
 }
 
 TEST_CASE("the data of open_memory is not needed after the call") {
