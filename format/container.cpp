@@ -78,7 +78,6 @@ Container Container::parse(std::span<const std::byte> file, std::span<const std:
     Layout layout = examine(file, known_tags, throw_issue);
     Container container;
     container.file_ = file;
-    container.version_major_ = layout.header.version_major;
     container.version_minor_ = layout.header.version_minor;
     container.mesh_fingerprint_ = layout.header.mesh_fingerprint;
     container.sections_ = std::move(layout.sections);
@@ -169,6 +168,7 @@ void Container::read_matrices(std::uint32_t tag, std::span<const MatrixTarget> m
         });
         return;
     }
+    if (found.codec == Codec::ByteImages) fail_corrupt(tag, "it holds images of bytes, expected matrices");
     const std::vector<std::byte> raw = read_bytes(tag, found.raw_size);
     ByteReader reader(raw, "section " + tag_text(tag));
     for (const MatrixTarget& matrix : matrices) reader.f32_array(matrix.values);

@@ -139,7 +139,6 @@ public:
     // understands: any other is refused unless it is optional. Throws the first problem found.
     static Container parse(std::span<const std::byte> file, std::span<const std::uint32_t> known_tags);
 
-    std::uint16_t version_major() const { return version_major_; }
     std::uint16_t version_minor() const { return version_minor_; }
     std::uint64_t mesh_fingerprint() const { return mesh_fingerprint_; }
     // In the order of the file, those that the caller does not know included.
@@ -174,7 +173,6 @@ private:
     std::vector<std::byte> read_images(const Section& section, const ShareOut& share_out) const;
 
     std::span<const std::byte> file_;
-    std::uint16_t version_major_ = 0;
     std::uint16_t version_minor_ = 0;
     std::uint64_t mesh_fingerprint_ = 0;
     std::vector<Section> sections_;

@@ -384,7 +384,7 @@ typedef struct geoidx_info {
     double bounding_box_diagonal;
     double delta;
     uint64_t seed;
-    uint32_t format_major;
+    uint32_t format_major; /* of the file that it was opened from; of one that was built, what is saved */
     uint32_t format_minor;
     uint32_t level_count;
     uint32_t patch_count[8]; /* of levels 1 .. level_count */
@@ -492,7 +492,8 @@ GEOIDX_API geoidx_status geoidx_open_memory(const void* data, uint64_t size,
 
 GEOIDX_API void geoidx_close(geoidx* index);
 
-/* Fills *info up to its struct_size. */
+/* Fills *info, at most its struct_size, and sets struct_size to how many bytes were filled: this library does
+ * not know fields behind these. */
 GEOIDX_API geoidx_status geoidx_get_info(const geoidx* index, geoidx_info* info);
 
 /* The sections of the file that the index was opened from, in the order of the file; an index that was built

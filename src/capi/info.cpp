@@ -39,7 +39,7 @@ void fill_info(const Index& index, geoidx_info& info) {
     info.delta = about.delta;
     info.seed = about.seed;
     info.format_major = format::FORMAT_MAJOR;
-    info.format_minor = format::FORMAT_MINOR;
+    info.format_minor = about.format_minor;
     info.level_count = numbering.level_count();
     for (uint32_t l = 1; l <= numbering.level_count(); ++l)
         info.patch_count[l - 1] = numbering.level_begin[l + 1] - numbering.level_begin[l];
@@ -75,7 +75,7 @@ geoidx_status geoidx_get_info(const geoidx* index, geoidx_info* info) {
         require(info->struct_size >= sizeof(uint32_t), "struct_size is not set");
         geoidx_info whole_info{};
         fill_info(index->index, whole_info);
-        whole_info.struct_size = info->struct_size;
-        std::memcpy(info, &whole_info, std::min<size_t>(info->struct_size, sizeof whole_info));
+        whole_info.struct_size = std::min<uint32_t>(info->struct_size, sizeof whole_info);
+        std::memcpy(info, &whole_info, whole_info.struct_size);
     });
 }

@@ -74,6 +74,7 @@ void read_meta(const format::Container& container, Description& meta) {
     const auto bytes = container.read_bytes(TAG_META, META_BYTES);
     format::ByteReader reader(bytes, "section META");
     meta.mesh_fingerprint = container.mesh_fingerprint();
+    meta.format_minor = container.version_minor();
     meta.id_count = reader.u64();
     meta.triangle_count = reader.u64();
     meta.seed = reader.u64();

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "format/container.h"
+
 namespace geodesic {
 
 struct MeanAndMax {
@@ -32,8 +34,8 @@ struct MeasuredError {
 };
 
 // Describes the mesh and the options that an index was built with, and what was measured. A file
-// has the fingerprint in its header and the rest in the section META, but for file_flags, which follow from
-// its other sections.
+// has the fingerprint and the minor version in its header and the rest in the section META, but for
+// file_flags, which follow from its other sections.
 struct Description {
     uint64_t mesh_fingerprint = 0;
     uint64_t id_count = 0, triangle_count = 0, seed = 0;
@@ -42,11 +44,12 @@ struct Description {
     double delta = 0;      // in % of the diagonal
     double bounding_box_diagonal = 0;
     MeasuredError error;
-    uint64_t metric_fingerprint = 0; // of what decides the metric besides the mesh, or 0
-    uint32_t metric_flags = 0;       // GEOIDX_METRIC_UNFOLDABLE or 0
-    uint32_t engine = 0;             // GEOIDX_ENGINE_*
-    uint32_t codec = 0;              // GEOIDX_CODEC_*: the form of the tables in the file
-    uint32_t file_flags = 0;         // GEOIDX_SAVE_NO_POSITIONS if the file leaves them out
+    uint64_t metric_fingerprint = 0;              // of what decides the metric besides the mesh, or 0
+    uint32_t metric_flags = 0;                    // GEOIDX_METRIC_UNFOLDABLE or 0
+    uint32_t engine = 0;                          // GEOIDX_ENGINE_*
+    uint32_t codec = 0;                           // GEOIDX_CODEC_*: the form of the tables in the file
+    uint32_t file_flags = 0;                      // GEOIDX_SAVE_NO_POSITIONS if the file leaves them out
+    uint32_t format_minor = format::FORMAT_MINOR; // of the file that it was opened from
 
     bool operator==(const Description&) const = default;
 };

@@ -152,6 +152,7 @@ TEST_CASE("info is filled up to its struct_size and not beyond") {
     LongStruct<geoidx_info> longer{geoidx_info{}};
     require_success(geoidx_get_info(index.get(), &longer.known));
     CHECK(longer.known.vertex_count == 81);
+    CHECK(longer.known.struct_size == sizeof(geoidx_info)); // what is behind it was not filled
     for (unsigned char byte : longer.unknown) CHECK(byte == 0xAB);
 }
 

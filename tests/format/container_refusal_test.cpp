@@ -329,6 +329,22 @@ TEST_CASE("every rule has its number, and what breaks it its place") {
     check(changed, 19, GEOIDX_ERROR_CHECKSUM, place);
 }
 
+TEST_CASE("matrices are not stored as images of bytes") {
+    const auto values = random_floats(2048, 5);
+    ContainerWriter writer(42);
+    writer.add_images(TABL, std::as_bytes(std::span(values)));
+    const Bytes file = writer.finish();
+    std::vector<float> entries(values.size());
+    const MatrixTarget target{entries, 32, 64};
+    std::string message;
+    CHECK(status_of(
+              [&] {
+                  Container::parse(file, KNOWN).read_matrices(TABL, {&target, 1});
+              },
+              &message) == GEOIDX_ERROR_CORRUPT);
+    CHECK(message.find("images of bytes") != std::string::npos);
+}
+
 TEST_CASE("an error of decoding says whether the stored bytes or what they should hold is at fault") {
     const auto error_of = [](const Bytes& file, auto&& read) {
         try {

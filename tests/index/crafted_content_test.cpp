@@ -70,6 +70,16 @@ void check_corrupt(const std::string& what, const std::function<void(TakenApart&
 
 }
 
+TEST_CASE("a file of a later minor version opens, says so, and is saved as one of this version") {
+    const Bytes later = format::test::patched(original().file, format::test::MINOR, 7, 2);
+    const auto index = open(later);
+    CHECK(info_of(index.get()).format_minor == 7);
+    const Bytes saved = save(index.get());
+    CHECK(saved == original().file);
+    CHECK(info_of(open(saved).get()).format_minor == info_of(open(original().file).get()).format_minor);
+    CHECK(info_of(open(saved).get()).format_minor < 7);
+}
+
 TEST_CASE("the parts put together unchanged are the original file") {
     CHECK(with([](TakenApart&) {}) == original().file);
     REQUIRE(original().parts.leaf_count() >= 4);
