@@ -7,13 +7,16 @@
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 
+#include "format/error.h"
+
 namespace geodesic::format {
 
 inline std::wstring wide(const std::string& utf8) {
     const int size = static_cast<int>(utf8.size());
     const int needed = MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, utf8.data(), size, nullptr, 0);
+    if (needed <= 0 && size > 0) throw Error(GEOIDX_ERROR_INVALID_ARGUMENT, "utf8_path is not UTF-8");
     std::wstring result(static_cast<size_t>(needed), L'\0');
-    MultiByteToWideChar(CP_UTF8, 0, utf8.data(), size, result.data(), needed);
+    MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, utf8.data(), size, result.data(), needed);
     return result;
 }
 

@@ -209,6 +209,12 @@ fails_with 'gap\.off: .*they differ in weld_tolerance' sssd gap.geoidx 0 5 --exa
 succeeds sssd two_parts.stl.geoidx 0 1 0 3 --exact two_parts.stl
 grep -qE '^0 3 inf inf 0$' out.txt || fail "unreachable is not inf: $(cat out.txt)"
 
+succeeds build gap.off -o kept.geoidx --weld-tolerance 0.1 --store-mesh
+succeeds path kept.geoidx 0 5 -o way.CSV
+[ "$(head -n 1 way.CSV)" = "triangle,weight0,weight1,weight2,x,y,z" ] || fail "way.CSV: $(head -n 1 way.CSV)"
+fails_with 'weld-tolerance is of MESH' path kept.geoidx 0 5 --weld-tolerance 0.1
+fails_with 'patches are given for level 3' build grid.obj -o options.geoidx --levels 2 --patches 4,4,4
+
 succeeds msad sphere.obj.geoidx 0 100 -o far.f32 --mesh sphere.obj
 [ "$(stat -c %s far.f32)" -eq $((4 * 266)) ] || fail "far.f32 has the wrong size"
 near "$(float_at far.f32 100)" 0

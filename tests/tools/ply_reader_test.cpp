@@ -130,6 +130,8 @@ TEST_CASE("ply: malformed bodies") {
     CHECK(contains(ply_error(start + "0 1 b\n3 0 1 2\n"), "line 14: 'b' is not a number"));
     CHECK(contains(ply_error(start + "0 1 0\n3 0 1 3\n"), "line 15: vertex index 3 is out of range"));
     CHECK(contains(ply_error(start + "0 1 0\n3 0 1 -1\n"), "vertex index -1 is out of range"));
+    for (const char* index : {"1.5", "nan"})
+        CHECK(contains(ply_error(start + "0 1 0\n3 0 1 " + index + "\n"), "not a whole number"));
     CHECK(contains(ply_error(start + "0 1 0\n3 0 1 1.5\n"), "line 15"));
     CHECK(contains(ply_error(start + "0 1 0\n3 0 1 nan\n"), "line 15"));
     CHECK(contains(ply_error(start + "0 1 0\n2 0 1\n"), "needs three vertices"));

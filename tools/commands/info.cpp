@@ -1,5 +1,7 @@
 #include <array>
 #include <cstdio>
+#include <string>
+#include <string_view>
 
 #include "tools/commands/arguments.h"
 #include "tools/commands/commands.h"
@@ -20,13 +22,27 @@ const char* coding_of(const geoidx_section& section) {
     return section.coding < NAMES.size() ? NAMES[section.coding] : "unknown";
 }
 
+// A file may have sections of later versions: bytes of their tags that are not printable are told as \xNN.
+std::string tag_of(const geoidx_section& section) {
+    std::string text;
+    for (const char letter : std::string_view(section.tag))
+        if (letter >= ' ' && letter <= '~') {
+            text += letter;
+        } else {
+            char escaped[8];
+            std::snprintf(escaped, sizeof escaped, "\\x%02X", static_cast<unsigned char>(letter));
+            text += escaped;
+        }
+    return text;
+}
+
 void print_text(const std::vector<IndexRow>& rows, const std::vector<geoidx_section>& sections,
                 const geoidx_info& info) {
     for (const IndexRow& row : rows) std::printf("%-28s %s\n", row.label, row.value.c_str());
     const auto vertices = static_cast<double>(info.welded_vertex_count);
     std::printf("\n%-8s %-8s %12s %12s %14s\n", "section", "coding", "bytes", "decoded", "bytes a vertex");
     for (const geoidx_section& section : sections)
-        std::printf("%-8s %-8s %12llu %12llu %14.2f\n", section.tag, coding_of(section),
+        std::printf("%-8s %-8s %12llu %12llu %14.2f\n", tag_of(section).c_str(), coding_of(section),
                     static_cast<unsigned long long>(section.stored_size),
                     static_cast<unsigned long long>(section.raw_size),
                     vertices > 0 ? static_cast<double>(section.stored_size) / vertices : 0);
@@ -35,7 +51,7 @@ void print_text(const std::vector<IndexRow>& rows, const std::vector<geoidx_sect
 std::string json_of(const std::vector<geoidx_section>& sections) {
     std::string list;
     for (const geoidx_section& section : sections)
-        list += std::string(list.empty() ? "" : ", ") + "{\"tag\": " + json_text(section.tag) +
+        list += std::string(list.empty() ? "" : ", ") + "{\"tag\": " + json_text(tag_of(section)) +
                 ", \"coding\": " + json_text(coding_of(section)) +
                 ", \"offset\": " + std::to_string(section.offset) +
                 ", \"stored_size\": " + std::to_string(section.stored_size) +

@@ -23,7 +23,7 @@ struct PathArguments {
     std::string quality = "straight";
     std::string output;
     PictureOutput picture;
-    double weld_tolerance = 0;
+    std::optional<double> weld_tolerance;
     bool json = false;
 };
 
@@ -95,10 +95,10 @@ std::string csv_of(const Way& way) {
 using Writer = std::string (*)(const Way&);
 
 Writer writer_of(const std::string& output) {
-    constexpr std::pair<const char*, Writer> WRITERS[] = {
-        {".obj", obj_of}, {".ply", ply_of}, {".csv", csv_of}};
-    for (const auto& [ending, writer] : WRITERS)
-        if (output.ends_with(ending)) return writer;
+    constexpr std::pair<const char*, Writer> WRITERS[] = {{"obj", obj_of}, {"ply", ply_of}, {"csv", csv_of}};
+    const std::string extension = lower_case_extension(output);
+    for (const auto& [name, writer] : WRITERS)
+        if (extension == name) return writer;
     throw CLI::ValidationError("--output must end with .obj, .ply or .csv: " + output);
 }
 
@@ -140,6 +140,9 @@ void take_mesh(PathArguments& arguments) {
 // The path is on the mesh of the command line or, without one, on that of the file.
 void require_mesh(const geoidx& index, const PathArguments& arguments) {
     if (!arguments.mesh.empty()) return;
+    if (arguments.weld_tolerance)
+        throw CLI::ValidationError(
+            "--weld-tolerance is of MESH; the mesh in the file is welded as the index is");
     if (!info_of(index, arguments.index).has_mesh)
         throw CLI::ValidationError(arguments.index +
                                    " keeps no mesh, so that MESH is needed: geoidx path FILE MESH A B");
@@ -153,7 +156,7 @@ void path(const PathArguments& arguments) {
     if (!arguments.mesh.empty()) mesh = read_mesh(arguments.mesh);
     const Index index = open_index(arguments.index, mesh ? &*mesh : nullptr, "geoidx path FILE MESH A B");
     require_mesh(*index, arguments);
-    const Surface surface = mesh ? make_surface(*mesh, arguments.mesh, arguments.weld_tolerance)
+    const Surface surface = mesh ? make_surface(*mesh, arguments.mesh, arguments.weld_tolerance.value_or(0))
                                  : surface_of(*index, arguments.index);
     const Way way = way_between(*index, *surface, arguments, ids);
     if (writer) {
@@ -199,7 +202,8 @@ void add_path(CLI::App& app) {
                         "write the points to a file, .obj, .ply or .csv, and print the length only");
     add_picture_options(*command, arguments->picture)
         ->description("picture of the path to write, on the distances from A");
-    command->add_option("--weld-tolerance", arguments->weld_tolerance, "that the index was built with");
+    command->add_option("--weld-tolerance", arguments->weld_tolerance,
+                        "of MESH: that the index was built with");
     command->add_flag("--json", arguments->json, "print a JSON object");
     command->callback([arguments] {
         take_mesh(*arguments);

@@ -1,5 +1,6 @@
 #include <array>
 #include <bit>
+#include <cmath>
 
 #include "tools/mesh_io/mesh_io.h"
 #include "tools/mesh_io/ply_header.h"
@@ -157,8 +158,8 @@ void read_polygon(Values& values, const PlyProperty& property, uint64_t vertex_c
     polygon.clear();
     for (uint64_t corner = 0; corner < corners; ++corner) {
         const double index = values.next(property.type);
-        if (!(index >= 0 && index < static_cast<double>(vertex_count)) ||
-            index != static_cast<uint32_t>(index)) {
+        if (index != std::floor(index)) values.fail("a vertex index of a face is not a whole number");
+        if (!(index >= 0 && index < static_cast<double>(vertex_count))) {
             const auto whole = static_cast<int64_t>(index >= -1e15 && index <= 1e15 ? index : -1);
             values.fail(out_of_range(std::to_string(whole), vertex_count));
         }
