@@ -643,8 +643,9 @@ GEOIDX_API geoidx_status geoidx_closest_point(const geoidx_surface* surface, con
 
 /* Single source, single destination. Symmetric bit for bit; 0 for a vertex and itself. Two vertices of one
  * leaf, not both of them on its border, are as far apart as the metric says: to float precision by
- * GEOIDX_ENGINE_GRAPH, whose distances are never below the metric by more than that, and to 1/65532 of the
- * leaf's longest distance by GEOIDX_ENGINE_OVERLAY. */
+ * GEOIDX_ENGINE_GRAPH, whose distances are never below the metric by more than that; by GEOIDX_ENGINE_OVERLAY
+ * to half a step of the leaf's table, and no step is longer than geoidx_info.largest_step (see `rounding`).
+ */
 GEOIDX_API geoidx_status geoidx_sssd(const geoidx* index, uint32_t source, uint32_t target, float* distance);
 
 /* pair_count pairs: source_target_pairs[2 i] and [2 i + 1] give distances[i], the same bits as geoidx_sssd.
@@ -753,11 +754,12 @@ GEOIDX_API geoidx_status geoidx_query_farthest_points(geoidx_query* query, const
  * 0 means one per processor, at most 1024. GEOIDX_ENGINE_GRAPH uses one. */
 GEOIDX_API geoidx_status geoidx_query_set_threads(geoidx_query* query, uint32_t threads);
 
-/* Keeps what depends on the source, for geoidx_query_prepared, until the next call; one that fails for lack
- * of memory leaves no source prepared. GEOIDX_ENGINE_OVERLAY: 4 bytes of scratch a vertex, and some 15 more
- * where targets in all parts of the mesh are asked for. What is kept is made as targets need it, so that the
- * first target in a part of the mesh takes longer than others there; for targets in all parts that comes to
- * about half the time of MSAD. Near pairs of vertices may take as much scratch of the same kind. */
+/* Keeps what depends on the source, for geoidx_query_prepared, until the next call of this function for the
+ * query. One with an id out of range changes nothing, any other that fails leaves no source prepared.
+ * GEOIDX_ENGINE_OVERLAY: 4 bytes of scratch a vertex, and some 15 more where targets in all parts of the mesh
+ * are asked for. What is kept is made as targets need it, so that the first target in a part of the mesh
+ * takes longer than others there; for targets in all parts that comes to about half the time of MSAD. Near
+ * pairs of vertices may take as much scratch of the same kind. */
 GEOIDX_API geoidx_status geoidx_query_prepare(geoidx_query* query, uint32_t source);
 
 /* distances[i]: from the prepared source to targets[i]; GEOIDX_ERROR_INVALID_ARGUMENT without one. By
@@ -875,10 +877,11 @@ typedef struct geoidx_path_point {
     double position[3];
 } geoidx_path_point;
 
-/* Finds a path and keeps it in the query until the next call; *length is the sum of the lengths of its
- * pieces, as the metric has it. `quality` is a GEOIDX_PATH_*; paths over vertices are the same by both.
- * GEOIDX_ERROR_NO_PATH if no path joins the points, as in different components. Between a point and itself
- * there is a path of length 0. A path has its own scratch from the global heap. */
+/* Finds a path and keeps it in the query until the next call of this function, also one that fails; *length
+ * is the sum of the lengths of its pieces, as the metric has it. `quality` is a GEOIDX_PATH_*; paths over
+ * vertices are the same by both. GEOIDX_ERROR_NO_PATH if no path joins the points, as in different
+ * components. Between a point and itself there is a path of length 0. A path has its own scratch from the
+ * global heap. */
 GEOIDX_API geoidx_status geoidx_query_path(geoidx_query* query, const geoidx_surface* surface,
                                            const geoidx_surface_point* source,
                                            const geoidx_surface_point* target, uint32_t quality,
@@ -892,7 +895,8 @@ GEOIDX_API geoidx_status geoidx_query_path(geoidx_query* query, const geoidx_sur
 GEOIDX_API geoidx_status geoidx_query_path_points(const geoidx_query* query, geoidx_path_point* points,
                                                   uint64_t capacity, uint64_t* count);
 
-/* Keeps the target of geoidx_query_next_step until the next call. One that fails leaves none. */
+/* Keeps the target of geoidx_query_next_step until the next call of this function for the query. One that
+ * fails leaves none. */
 GEOIDX_API geoidx_status geoidx_query_prepare_target(geoidx_query* query, const geoidx_surface* surface,
                                                      const geoidx_surface_point* target);
 
@@ -915,8 +919,9 @@ GEOIDX_API geoidx_status geoidx_query_next_step(geoidx_query* query, const geoid
 /* ---- Distances without an index
  * ------------------------------------------------------------------------------ */
 
-/* A mesh and a metric, ready to compute. Of the options, metric and its parameters, weld_tolerance and
- * solver_tolerance count, with the same limits; options may be NULL. To be closed with geoidx_solver_close.
+/* A mesh and a metric, ready to compute. Of the options, metric and its parameters, weld_tolerance,
+ * refuse_edges_of_many, metric_flags and solver_tolerance count, with the same limits; options may be NULL.
+ * To be closed with geoidx_solver_close.
  */
 GEOIDX_API geoidx_status geoidx_solver_create(const geoidx_mesh* mesh, const geoidx_build_options* options,
                                               geoidx_solver** out);

@@ -12,7 +12,7 @@ namespace Geoidx.Tests
     public sealed class IndexTests : IDisposable
     {
         private const int Side = 12;
-        private const double LeafTolerance = 1e-3; // 1/65532 of a leaf's longest distance, for leaves of this size
+        private const double LeafTolerance = 1e-3; // far more than half a step of the tables of leaves of this size
 
         private readonly GeodesicIndex plane = GeodesicIndex.Build(Shapes.Plane(Side));
 

@@ -16,8 +16,9 @@ namespace Geoidx
         /// <summary>Makes a mesh and a metric ready to compute.</summary>
         /// <param name="mesh">The mesh; its arrays are not needed afterwards.</param>
         /// <param name="options">
-        /// The metric, what belongs to it, <see cref="BuildOptions.WeldTolerance"/> and
-        /// <see cref="BuildOptions.SolverTolerance"/>; the others are not read. Null: the defaults.
+        /// The metric, what belongs to it, <see cref="BuildOptions.WeldTolerance"/>,
+        /// <see cref="BuildOptions.RefuseEdgesOfMany"/> and <see cref="BuildOptions.SolverTolerance"/>; of the others
+        /// numbers that must not be negative are refused if they are, and no more is looked at. Null: the defaults.
         /// </param>
         /// <exception cref="GeodesicException">The status says what failed, the message where.</exception>
         public GeodesicSolver(GeodesicMesh mesh, BuildOptions? options = null)
