@@ -210,8 +210,7 @@ typedef struct geoidx_build_options {
     uint32_t level_count;
     /* patches[0] is n1, the number of patches of level 1; patches[i] how many each patch of level i is split
      * into (patches[1] is n2). A patch is connected, so there can be more. 0 (default): in proportion to the
-     * triangles. Numbers of levels beyond level_count, if that is not 0, are GEOIDX_ERROR_INVALID_ARGUMENT.
-     */
+     * triangles. Beyond level_count, if that is not 0, they are not looked at. */
     uint32_t patches[8];
     uint32_t lloyd_iterations; /* relaxations of the seeds (paper 3.1), 0 .. 1000; default 4 */
     /* Costs and lengths are GEOIDX_ERROR_INVALID_ARGUMENT with a metric that does not take them. They are

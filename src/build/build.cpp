@@ -40,11 +40,6 @@ void check_options(const geoidx_build_options& options) {
     if (options.level_count > GEOIDX_MAX_LEVELS)
         refuse_argument("level_count is " + std::to_string(options.level_count) + ", more than " +
                         std::to_string(GEOIDX_MAX_LEVELS));
-    if (options.level_count > 0)
-        for (uint32_t l = options.level_count; l < GEOIDX_MAX_LEVELS; ++l)
-            if (options.patches[l] > 0)
-                refuse_argument("patches are given for level " + std::to_string(l + 1) +
-                                ", but level_count is " + std::to_string(options.level_count));
     thread_count(options.threads);
     if (options.lloyd_iterations > 1000)
         refuse_argument("lloyd_iterations is " + std::to_string(options.lloyd_iterations) +

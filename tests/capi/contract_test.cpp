@@ -326,16 +326,6 @@ TEST_CASE("an edge with three triangles is refused only where the options say so
     check_build_refused(two_triangles(), options, GEOIDX_ERROR_INVALID_ARGUMENT, "not 0 or 1");
 }
 
-TEST_CASE("patches of levels that are not asked for are refused") {
-    auto options = build_options(GEOIDX_METRIC_EXACT, 2);
-    options.patches[2] = 4;
-    check_build_refused(grid(9, 9), options, GEOIDX_ERROR_INVALID_ARGUMENT, "level 3");
-    options.level_count = 3;
-    CHECK(build(grid(9, 9), options) != nullptr);
-    options.level_count = 0; // so many as are named
-    CHECK(build(grid(9, 9), options) != nullptr);
-}
-
 TEST_CASE("bad meshes are refused and the element is named") {
     const auto refused = [](const TestMesh& mesh, const char* detail) {
         check_build_refused(mesh, build_options(), GEOIDX_ERROR_BAD_MESH, detail);

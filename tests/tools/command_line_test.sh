@@ -212,8 +212,6 @@ grep -qE '^0 3 inf inf 0$' out.txt || fail "unreachable is not inf: $(cat out.tx
 succeeds build gap.off -o kept.geoidx --weld-tolerance 0.1 --store-mesh
 succeeds path kept.geoidx 0 5 -o way.CSV
 [ "$(head -n 1 way.CSV)" = "triangle,weight0,weight1,weight2,x,y,z" ] || fail "way.CSV: $(head -n 1 way.CSV)"
-fails_with 'weld-tolerance is of MESH' path kept.geoidx 0 5 --weld-tolerance 0.1
-fails_with 'patches are given for level 3' build grid.obj -o options.geoidx --levels 2 --patches 4,4,4
 
 succeeds msad sphere.obj.geoidx 0 100 -o far.f32 --mesh sphere.obj
 [ "$(stat -c %s far.f32)" -eq $((4 * 266)) ] || fail "far.f32 has the wrong size"
@@ -259,6 +257,8 @@ no_leftovers
 # ---- Wrong usage
 
 misuse
+misuse path kept.geoidx 0 5 --weld-tolerance 0.1
+grep -q 'weld-tolerance is of MESH' err.txt || fail "--weld-tolerance without MESH: $(cat err.txt)"
 misuse unknown
 grep -q "there is no command 'unknown'; there are build, " err.txt || fail "an unknown command: $(cat err.txt)"
 while read -r typed meant; do
