@@ -174,9 +174,9 @@ namespace Geoidx.Tests
             ("codec is not a GeodesicCodec", () => WithIndex(index => index.Save("never.geoidx", (GeodesicCodec)(-1)))),
             ("threads is 1025", () => WithQuery(query => query.SetThreads(1025))),
             ("distances.Length is 3", () => WithQuery(query => query.FromSources(new[] { 0 }, new float[3]))),
-            ("sources is empty", () => WithQuery(query => query.FromSources(default, new float[4]))),
-            ("sources is empty", () => WithQuery(query => query.NearestSources(default, new int[4]))),
-            ("sources is empty", () => WithQuery(query => query.Within(default, 1, new int[4]))),
+            ("there is no source", () => WithQuery(query => query.FromSources(default, new float[4]))),
+            ("there is no source", () => WithQuery(query => query.NearestSources(default, new int[4]))),
+            ("there is no source", () => WithQuery(query => query.Within(default, 1, new int[4]))),
             ("distances is empty", () => WithQuery(query => query.FromSources(new[] { 0 }, default))),
             ("distances.Length is 1", () => WithQuery(query => query.FromPrepared(new int[2], new float[1]))),
             ("distances.Length is 3", () => WithQuery(query => query.Matrix(new int[2], new int[2], new float[3]))),
@@ -188,7 +188,7 @@ namespace Geoidx.Tests
                 () => WithQuery(query => query.NearestTargets(0, new int[2], new int[2], new float[1]))),
             ("no target has been prepared", () => WithQuery(NextStep)),
             ("distances.Length is 3", () => WithSolver(solver => solver.FromSources(new[] { 0 }, new double[3]))),
-            ("sources is empty", () => WithSolver(solver => solver.FromSources(default, new double[4]))),
+            ("there is no source", () => WithSolver(solver => solver.FromSources(default, new double[4]))),
         };
 
         private static void Build(BuildOptions options) => GeodesicIndex.Build(Shapes.Square(), options).Dispose();

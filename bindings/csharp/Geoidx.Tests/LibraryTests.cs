@@ -34,6 +34,11 @@ namespace Geoidx.Tests
             var refused = Assert.Throws<GeodesicLibraryException>(() => GeodesicLibrary.CheckVersion(990102, "a file"));
             Assert.Contains("99.1.2", refused.Message);
             Assert.Contains(GeodesicLibrary.ExpectedVersion.ToString(), refused.Message);
+            Version expected = GeodesicLibrary.ExpectedVersion;
+            uint VersionOf(int minor) => (uint)(expected.Major * 10000 + minor * 100);
+            GeodesicLibrary.CheckVersion(VersionOf(expected.Minor + 1), "a file");
+            Assert.Throws<GeodesicLibraryException>(
+                () => GeodesicLibrary.CheckVersion(VersionOf(expected.Minor - 1), "a file"));
         }
 
         [Fact]

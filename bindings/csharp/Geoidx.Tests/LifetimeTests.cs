@@ -1,7 +1,9 @@
 using System;
+using System.Buffers;
 using System.IO;
 using System.Linq;
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 using System.Threading;
 using System.Threading.Tasks;
 using Xunit;
@@ -25,6 +27,63 @@ namespace Geoidx.Tests
             query.Dispose();
             query.Dispose();
             Assert.Equal(0, allocator.Bytes);
+        }
+
+        /// <summary>Memory that counts its pins, or that cannot be pinned.</summary>
+        private sealed class CountedMemory<T> : MemoryManager<T> where T : unmanaged
+        {
+            private readonly T[] array;
+            private readonly bool canBePinned;
+            private GCHandle handle;
+
+            internal CountedMemory(T[] array, bool canBePinned = true)
+            {
+                this.array = array;
+                this.canBePinned = canBePinned;
+            }
+
+            internal int Pins { get; private set; }
+
+            public override Span<T> GetSpan() => array;
+
+            public override unsafe MemoryHandle Pin(int elementIndex = 0)
+            {
+                if (!canBePinned) throw new ObjectDisposedException(nameof(CountedMemory<T>));
+                handle = GCHandle.Alloc(array, GCHandleType.Pinned);
+                Pins++;
+                return new MemoryHandle((void*)handle.AddrOfPinnedObject(), default, this);
+            }
+
+            public override void Unpin()
+            {
+                handle.Free();
+                Pins--;
+            }
+
+            protected override void Dispose(bool disposing)
+            {
+            }
+        }
+
+        [Fact]
+        public void APinThatFailsLeavesNoOtherBehind()
+        {
+            var positions = new CountedMemory<float>(new float[] { 0, 0, 0, 1, 0, 0, 0, 1, 0 });
+            var broken = new CountedMemory<int>(new[] { 0, 1, 2 }, canBePinned: false);
+            GeodesicMesh mesh = GeodesicMesh.From<float>(positions.Memory, broken.Memory);
+            Assert.Throws<ObjectDisposedException>(() => GeodesicIndex.Build(mesh));
+            Assert.Equal(0, positions.Pins);
+
+            var vertices = new CountedMemory<int>(new[] { 0, 1 });
+            var costs = new CountedMemory<double>(new double[] { 1 }, canBePinned: false);
+            var options = new BuildOptions
+            {
+                Metric = MetricKind.Edges,
+                EdgeCostVertices = vertices.Memory,
+                EdgeCosts = costs.Memory,
+            };
+            Assert.Throws<ObjectDisposedException>(() => GeodesicIndex.Build(Shapes.Square(), options));
+            Assert.Equal(0, vertices.Pins);
         }
 
         [Fact]

@@ -42,6 +42,8 @@ namespace Geoidx.Tests
             Assert.Equal(0.3, points[0].X, 9);
             Assert.Equal(7.9, points[points.Length - 1].Y, 9);
             Assert.Throws<GeodesicArgumentException>(() => query.PathPoints(new PathPoint[1]));
+            Assert.Throws<GeodesicArgumentException>(() => query.PathPoints(Array.Empty<PathPoint>()));
+            Assert.Throws<GeodesicArgumentException>(() => query.PathPoints(default));
         }
 
         [Fact]

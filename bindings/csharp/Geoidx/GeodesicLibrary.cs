@@ -78,12 +78,10 @@ namespace Geoidx
         internal static void CheckVersion(uint version, string file)
         {
             Version loaded = AsVersion(version), expected = ExpectedVersion;
-            bool fits = loaded.Major == expected.Major &&
-                        (expected.Major == 0 ? loaded.Minor == expected.Minor : loaded.Minor >= expected.Minor);
-            if (fits) return;
+            if (loaded.Major == expected.Major && loaded.Minor >= expected.Minor) return;
             throw new GeodesicLibraryException(
-                $"The native library has version {loaded}, this assembly needs version {expected}: " +
-                $"their binary interfaces differ. It was loaded from {file}.");
+                $"The native library has version {loaded}, this assembly needs version {expected} or a later one " +
+                $"of the same major version. It was loaded from {file}.");
         }
 
         private static void CheckAbi(uint abi, string file)

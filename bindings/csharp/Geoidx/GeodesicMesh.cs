@@ -56,7 +56,16 @@ namespace Geoidx
         internal PinnedMesh Pin()
         {
             NativeMesh native = layout.Describe(positionElements, corners);
-            return new PinnedMesh(pinPositions(), pinTriangles(), native);
+            MemoryHandle positions = pinPositions();
+            try
+            {
+                return new PinnedMesh(positions, pinTriangles(), native);
+            }
+            catch
+            {
+                positions.Dispose();
+                throw;
+            }
         }
     }
 }

@@ -90,7 +90,10 @@ namespace Geoidx
             using SingleUse.Scope scope = use.Begin();
             ulong count;
             fixed (PathPoint* first = &MemoryMarshal.GetReference(points))
-                NativeMethods.geoidx_query_path_points(handle, first, (ulong)points.Length, out count).ThrowIfError();
+                NativeMethods.geoidx_query_path_points(
+                    handle, points.IsEmpty ? null : first, (ulong)points.Length, out count).ThrowIfError();
+            if (points.IsEmpty && count > 0)
+                throw new GeodesicArgumentException($"The path has {count} points, but there is no room for any.");
             return (int)count;
         }
 

@@ -69,7 +69,7 @@ namespace Geoidx
         /// <summary>The nearest source to every vertex, and how far it is, in the mesh's unit.</summary>
         public static void NearestSources(
             this GeodesicQuery query, NativeArray<int> sources, NativeArray<int> nearest,
-            NativeArray<float> distances) =>
+            NativeArray<float> distances = default) =>
             query.NearestSources(Read(sources), Written(nearest), Written(distances));
 
         /// <summary>
@@ -79,7 +79,7 @@ namespace Geoidx
         /// <returns>How many vertices are within the radius, which may be more than there is room for.</returns>
         public static int Within(
             this GeodesicQuery query, NativeArray<int> sources, float radius, NativeArray<int> vertices,
-            NativeArray<float> distances) =>
+            NativeArray<float> distances = default) =>
             query.Within(Read(sources), radius, Written(vertices), Written(distances));
 
         /// <summary>
@@ -90,8 +90,18 @@ namespace Geoidx
         /// </returns>
         public static int NearestTargets(
             this GeodesicQuery query, int source, NativeArray<int> targets, NativeArray<int> positions,
-            NativeArray<float> distances) =>
+            NativeArray<float> distances = default) =>
             query.NearestTargets(source, Read(targets), Written(positions), Written(distances));
+
+        /// <summary>
+        /// Points that are far from each other, and how far each is from the sources and from the points before it, in
+        /// the mesh's unit.
+        /// </summary>
+        /// <returns>How many points there are: fewer than there is room for only on a small mesh.</returns>
+        public static int FarthestPoints(
+            this GeodesicQuery query, NativeArray<int> sources, NativeArray<int> points,
+            NativeArray<float> distances = default) =>
+            query.FarthestPoints(Read(sources), Written(points), Written(distances));
 
         /// <summary>The distances from the prepared source to targets, in the mesh's unit.</summary>
         public static void FromPrepared(
@@ -102,6 +112,6 @@ namespace Geoidx
             new ReadOnlySpan<T>(array.GetUnsafeReadOnlyPtr(), array.Length);
 
         private static unsafe Span<T> Written<T>(NativeArray<T> array) where T : unmanaged =>
-            new Span<T>(array.GetUnsafePtr(), array.Length);
+            array.IsCreated ? new Span<T>(array.GetUnsafePtr(), array.Length) : default;
     }
 }

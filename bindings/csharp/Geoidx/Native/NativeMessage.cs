@@ -6,12 +6,11 @@ namespace Geoidx
 {
     /// <summary>
     /// What the native library says about arguments, in the terms of these sources: its numbers of 32 bits have no
-    /// sign, its names are those of C, and so are NaN and infinity.
+    /// sign, its names are those of C, and so is infinity.
     /// </summary>
     internal static class NativeMessage
     {
         private static readonly Regex WholeNumber = new Regex(@"(?<![\w.-])\d{10}(?!\w|\.\d)");
-        private static readonly Regex NotANumber = new Regex(@"(?<!\w)-?nan\b");
         private static readonly Regex Infinity = new Regex(@"\binf\b");
         private static readonly Regex Constant = new Regex(@"\bGEOIDX_(METRIC|ENGINE|POSITION|CODEC)_(\*|[A-Z]+)");
         private static readonly Regex Name = new Regex(@"\b[a-z]+(_[a-z]+)+\b");
@@ -40,7 +39,7 @@ namespace Geoidx
         internal static string OfArguments(string detail)
         {
             string signed = WholeNumber.Replace(detail, number => Signed(number.Value));
-            string finite = Infinity.Replace(NotANumber.Replace(signed, "NaN"), "Infinity");
+            string finite = Infinity.Replace(signed, "Infinity");
             string missing = Missing.Replace(finite, WithoutNull);
             string named = Name.Replace(missing, name => ManagedName(name.Value));
             return Constant.Replace(named, ManagedConstant);

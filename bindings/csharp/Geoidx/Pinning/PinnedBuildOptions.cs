@@ -17,7 +17,7 @@ namespace Geoidx
             {
                 CopyNumbers(options, ref native);
                 CopyPatches(options.Patches.ToArray(), ref native);
-                PinArrays(options, ref native);
+                PinAll(options, ref native);
             }
             callbacks.Register(ref native);
             Native = native;
@@ -57,6 +57,20 @@ namespace Geoidx
                     $"Patches are given for {patches.Length} levels, at most {BuildOptions.MaxLevels} are possible.");
             for (int level = 0; level < patches.Length; level++)
                 native.patches[level] = NotNegative(patches[level], nameof(BuildOptions.Patches));
+        }
+
+        // Nobody disposes of an object whose constructor throws.
+        private void PinAll(BuildOptions options, ref NativeBuildOptions native)
+        {
+            try
+            {
+                PinArrays(options, ref native);
+            }
+            catch
+            {
+                Dispose();
+                throw;
+            }
         }
 
         private void PinArrays(BuildOptions options, ref NativeBuildOptions native)

@@ -174,7 +174,7 @@ class Query(NearPoints):
 
     def farthest_points(self, count: SupportsIndex, *, sources: ArrayLike = 0) -> Ids:
         """As `Index.farthest_points`."""
-        wanted = whole_number(count, "count")
+        wanted = min(whole_number(count, "count"), self._vertex_count)
         first = id_list(sources, "sources")
         points = np.empty(wanted, np.uint32)
         found = c_uint32()

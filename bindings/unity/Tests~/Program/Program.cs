@@ -278,6 +278,16 @@ internal static class Program
         Check(found.ToArray().Take(2).SequenceEqual(new[] { 0, 7 }), "sources are nearest to themselves");
         Written(9, written => Check(query.NearestTargets(6, sources, found, written) == 2, "both are reached"));
         Check(found.ToArray().Take(2).SequenceEqual(new[] { 1, 0 }), "the nearer target comes first");
+        Check(query.Within(sources, 1.1f, found) == 6, "distances can be left out");
+        Check(query.NearestTargets(6, sources, found) == 2, "distances can be left out");
+        query.NearestSources(sources, found);
+        Check(found.ToArray().SequenceEqual(nearest), "distances can be left out");
+        using var only = new NativeArray<int>(new[] { 0 }, Allocator.TempJob);
+        using var farthest = new NativeArray<int>(2, Allocator.TempJob);
+        Check(query.FarthestPoints(only, farthest) == 2, "two points are found");
+        var points = new int[2];
+        query.FarthestPoints(new[] { 0 }, points);
+        Check(farthest.ToArray().SequenceEqual(points), "they are those of the method that takes spans");
     }
 
     private static float[] Written(int length, Action<NativeArray<float>> query)

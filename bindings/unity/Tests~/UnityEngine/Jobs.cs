@@ -74,10 +74,15 @@ namespace Unity.Collections.LowLevel.Unsafe
     public static unsafe class NativeArrayUnsafeUtility
     {
         public static void* GetUnsafePtr<T>(this NativeArray<T> nativeArray) where T : struct =>
-            (void*)nativeArray.Memory;
+            MemoryOf(nativeArray);
 
         public static void* GetUnsafeReadOnlyPtr<T>(this NativeArray<T> nativeArray) where T : struct =>
-            (void*)nativeArray.Memory;
+            MemoryOf(nativeArray);
+
+        // As the safety checks of the editor do.
+        private static void* MemoryOf<T>(NativeArray<T> array) where T : struct => array.IsCreated
+            ? (void*)array.Memory
+            : throw new ObjectDisposedException(nameof(array));
     }
 }
 
