@@ -6,8 +6,9 @@
 
 using namespace geodesic::test;
 
-TEST_CASE("flat faces: a plate that is cut into slivers is answered nearly as exactly as any") {
-    const TestMesh plate = test_mesh_of(drilled_plate(smaller(4, 3), 20, 0.02));
+TEST_CASE("flat faces: a plate that is cut into slivers is answered nearly as exactly as any" *
+          doctest::skip(SANITIZED)) {
+    const TestMesh plate = test_mesh_of(drilled_plate(4, 20, 0.02));
     const auto index = shared_index(plate, default_options());
     const Errors errors = errors_of(index.get(), plate, default_options(), {.first_source = 1, .step = 37});
     INFO("mean ", errors.mean, ", max ", errors.max, ", of pairs ", errors.pair_max);

@@ -302,7 +302,8 @@ TEST_CASE("stated errors: a callback is asked for few more fields") {
     }
 }
 
-TEST_CASE("stated errors: the same whatever the threads, and others with another seed") {
+TEST_CASE("stated errors: the same whatever the threads, and others with another seed" *
+          doctest::skip(SANITIZED)) {
     const TestMesh mesh = hills(18, 17);
     for (const uint32_t engine : ENGINES)
         for (const uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES}) {

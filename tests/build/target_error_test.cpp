@@ -118,7 +118,8 @@ TEST_CASE("target error: what is exact enough stays as it is" * doctest::skip(SA
     CHECK(save(build(rough(), options_with(1)).get()) == save(build(rough(), options_with(0)).get()));
 }
 
-TEST_CASE("target error: is not used by other engines and metrics, nor with pruning or lengths") {
+TEST_CASE("target error: is not used by other engines and metrics, nor with pruning or lengths" *
+          doctest::skip(SANITIZED)) {
     const TestMesh mesh = rough();
     const std::vector<double> lengths = edge_lengths_of(mesh);
     std::vector<geoidx_build_options> others(4, options_with(0));
@@ -179,7 +180,7 @@ TEST_CASE("target error: every form of file has added vertices, and gives the sa
     }
 }
 
-TEST_CASE("target error: the same bytes whatever the threads") {
+TEST_CASE("target error: the same bytes whatever the threads" * doctest::skip(SANITIZED)) {
     Bytes first;
     for (const uint32_t threads : {1u, 2u, 5u}) {
         auto options = options_with(1e-6);

@@ -244,7 +244,7 @@ void check_mesh_corrupt(const Bytes& file) {
 
 }
 
-TEST_CASE("kept mesh: its surface answers as the caller's, in either precision") {
+TEST_CASE("kept mesh: its surface answers as the caller's, in either precision" * doctest::skip(SANITIZED)) {
     const TestMesh untidy = untidy_mesh();
     const FloatMesh floats(untidy);
     for (uint32_t engine : ENGINES) {
@@ -253,7 +253,7 @@ TEST_CASE("kept mesh: its surface answers as the caller's, in either precision")
     }
 }
 
-TEST_CASE("kept mesh: positions that are not packed tightly") {
+TEST_CASE("kept mesh: positions that are not packed tightly" * doctest::skip(SANITIZED)) {
     const TestMesh mesh = seam(11, 9);
     for (uint32_t engine : ENGINES) {
         check_kept(StridedMesh<float>(mesh).view(), engine);
@@ -265,7 +265,7 @@ TEST_CASE("kept mesh: positions that are not packed tightly") {
           save(build_of(mesh.view(), options).get()));
 }
 
-TEST_CASE("kept mesh: vertices that are welded over a distance") {
+TEST_CASE("kept mesh: vertices that are welded over a distance" * doctest::skip(SANITIZED)) {
     TestMesh mesh = seam(11, 9);
     for (size_t i = 0; i < mesh.positions.size(); i += 9) mesh.positions[i + 1] += 1e-4;
     append(mesh, hills(7, 6), 40);
@@ -276,12 +276,11 @@ TEST_CASE("kept mesh: vertices that are welded over a distance") {
     CHECK(info_of(index.get()).welded_vertex_count < mesh.vertex_count() - 3);
 }
 
-TEST_CASE("kept mesh: each small mesh, also where vertices are added") {
+TEST_CASE("kept mesh: each small mesh, also where vertices are added" * doctest::skip(SANITIZED)) {
     for (const NamedMesh& named : mesh_zoo()) {
         CAPTURE(named.name);
         const TestMesh& mesh = named.mesh;
         check_kept(mesh.view(), GEOIDX_ENGINE_OVERLAY);
-        if (SANITIZED && mesh.vertex_count() > 100) continue; // five rounds of added vertices take long
         auto options = keeping_options();
         options.target_error = 1e-9;
         const auto index = shared_index(mesh, options);

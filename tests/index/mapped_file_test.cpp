@@ -15,6 +15,7 @@
 #include "tests/capi/refusals.h"
 #include "tests/index/changed_section.h"
 #include "tests/index/told_issues.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -109,7 +110,7 @@ IndexHandle open_file(const std::string& path, const geoidx_open_options* option
 
 }
 
-TEST_CASE("mapped: opened from a file, from passing bytes and from kept ones") {
+TEST_CASE("mapped: opened from a file, from passing bytes and from kept ones" * doctest::skip(SANITIZED)) {
     const FileOnDisk file(mapped());
     check_answers(open_file(file.path()).get());
     {

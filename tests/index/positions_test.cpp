@@ -17,6 +17,7 @@
 #include "tests/index/forms.h"
 #include "tests/index/taken_apart.h"
 #include "tests/index/told_issues.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace geodesic;
@@ -116,7 +117,8 @@ std::vector<std::array<double, 3>> positions_in(const TakenApart& parts) {
 
 }
 
-TEST_CASE("no positions: an index is the same again, by both engines and in each form") {
+TEST_CASE("no positions: an index is the same again, by both engines and in each form" *
+          doctest::skip(SANITIZED)) {
     for (const NamedMesh& of : mesh_zoo())
         for (uint32_t engine : ENGINES) {
             CAPTURE(of.name);
@@ -125,7 +127,8 @@ TEST_CASE("no positions: an index is the same again, by both engines and in each
         }
 }
 
-TEST_CASE("no positions: an index whose tables are rounded, of two parts, is the same again") {
+TEST_CASE("no positions: an index whose tables are rounded, of two parts, is the same again" *
+          doctest::skip(SANITIZED)) {
     REQUIRE(info_of(rounded_index()).table_entries >= 65536);
     check_round_trip(rounded_index(), rounded_mesh());
 }
@@ -151,7 +154,7 @@ TEST_CASE("no positions: the section has 36 bytes and the added vertices, and th
         if (tag != "POSI") CHECK(sizes[NO_POSITIONS][tag] == size);
 }
 
-TEST_CASE("no positions: welded vertices are where the first of them is") {
+TEST_CASE("no positions: welded vertices are where the first of them is" * doctest::skip(SANITIZED)) {
     for (const double apart : {0.02, 0.05}) {
         TestMesh mesh = seam(15, 11);
         const uint32_t first_copy = mesh.vertex_count() - 11;
@@ -186,7 +189,8 @@ TEST_CASE("no positions: an unused vertex may have the lowest id of a vertex") {
     check_round_trip(build(mesh, options).get(), mesh);
 }
 
-TEST_CASE("no positions: those of the mesh must have the precision that the index was built with") {
+TEST_CASE("no positions: those of the mesh must have the precision that the index was built with" *
+          doctest::skip(SANITIZED)) {
     TestMesh mesh = grid(20, 20, 0.2);
     for (double& coordinate : mesh.positions) coordinate += 1e6 / 7; // floats are 1/64 apart, steps 1/128
     const FloatMesh floats(mesh);

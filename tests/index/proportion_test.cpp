@@ -5,6 +5,7 @@
 
 #include "src/overlay/sssd/label_rows.h"
 #include "tests/overlay/overlay_of.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -33,7 +34,8 @@ uint64_t codes_made(const OverlayIndex& index) {
 
 }
 
-TEST_CASE("proportion: as many codes are derived as are foreseen, and they are few") {
+TEST_CASE("proportion: as many codes are derived as are foreseen, and they are few" *
+          doctest::skip(SANITIZED)) {
     for (uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES})
         for (uint32_t levels : {1u, 2u, 3u}) {
             CAPTURE(metric);
@@ -45,7 +47,7 @@ TEST_CASE("proportion: as many codes are derived as are foreseen, and they are f
         }
 }
 
-TEST_CASE("proportion: bounds, tables of samples and labels are foreseen") {
+TEST_CASE("proportion: bounds, tables of samples and labels are foreseen" * doctest::skip(SANITIZED)) {
     const TestMesh mesh = pressed(grid(300, 7), 0.01);
     for (const auto patches : {std::initializer_list<uint32_t>{2}, {2, 3, 2}}) {
         CAPTURE(patches.size());

@@ -242,13 +242,13 @@ TEST_CASE("exact, plane with a reflex corner: paths go around it") {
     }
 }
 
-TEST_CASE("exact, cube: all pairs, against all unfoldings") {
-    for (const uint32_t cells : {1u, 2u, 3u, smaller(5, 4)}) {
+TEST_CASE("exact, cube: all pairs, against all unfoldings" * doctest::skip(SANITIZED)) {
+    for (const uint32_t cells : {1u, 2u, 3u, 5u}) {
         const Mesh mesh = mesh_of(cube(cells));
         const Formula formula = [&](uint32_t s, uint32_t t) {
             return CubeUnfolding(mesh.positions[s], mesh.positions[t]).shortest();
         };
-        CHECK(worst_error(mesh, some_sources(mesh, smaller(cells, 5 * cells)), formula) < 1e-9);
+        CHECK(worst_error(mesh, some_sources(mesh, cells), formula) < 1e-9);
     }
     // The oracle itself: opposite corners are sqrt(5) apart, centres of opposite faces 2.
     CHECK(CubeUnfolding({0, 0, 0}, {1, 1, 1}).shortest() == doctest::Approx(std::sqrt(5.0)).epsilon(1e-14));

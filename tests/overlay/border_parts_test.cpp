@@ -10,6 +10,7 @@
 #include "src/overlay/sssd/measured_path.h"
 #include "src/overlay/sssd/sssd.h"
 #include "tests/overlay/long_borders.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -181,7 +182,7 @@ TEST_CASE("border parts: along each chain, from the sample before those within a
     CHECK(in_more > 20);
 }
 
-TEST_CASE("border parts: each has all bridges of its border") {
+TEST_CASE("border parts: each has all bridges of its border" * doctest::skip(SANITIZED)) {
     static const TestMesh mesh = pages(4, 30, 40);
     const OverlayOf of(mesh, options_of_plane(mesh, {4, 3}));
     const OverlayIndex& overlay = of.overlay();

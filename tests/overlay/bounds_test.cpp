@@ -7,6 +7,7 @@
 
 #include "src/overlay/fields/ssad.h"
 #include "tests/overlay/overlay_of.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -36,7 +37,7 @@ uint64_t wrong_bounds(const OverlayIndex& index, uint32_t patch) {
 
 }
 
-TEST_CASE("bounds: the least code of each block, along long borders only") {
+TEST_CASE("bounds: the least code of each block, along long borders only" * doctest::skip(SANITIZED)) {
     const OverlayOf built(mesh_of_long_borders(), options_of_plane(mesh_of_long_borders(), {2, 2, 3}));
     const OverlayIndex& index = built.overlay();
     uint32_t bounded = 0, others = 0;
@@ -52,7 +53,8 @@ TEST_CASE("bounds: the least code of each block, along long borders only") {
     CHECK(others > 0);
 }
 
-TEST_CASE("bounds: a source alone has the answers that it has in a batch, which reads whole rows") {
+TEST_CASE("bounds: a source alone has the answers that it has in a batch, which reads whole rows" *
+          doctest::skip(SANITIZED)) {
     const OverlayOf built(mesh_of_long_borders(), options_of_plane(mesh_of_long_borders(), {2, 2, 3}));
     const OverlayIndex& index = built.overlay();
     const auto memory = std::pmr::get_default_resource();

@@ -10,6 +10,7 @@
 #include "src/query/index.h"
 #include "tests/overlay/overlay_of.h"
 #include "tests/overlay/plain_hop.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -352,17 +353,17 @@ std::pair<uint32_t, uint32_t> count_chains(const Built& built) {
 
 }
 
-TEST_CASE("hop: as the text has it on a closed, curved surface") {
+TEST_CASE("hop: as the text has it on a closed, curved surface" * doctest::skip(SANITIZED)) {
     check_rules_applied(check_hops(on_closed()));
     CHECK(count_chains(on_closed()).first > 0);
 }
 
-TEST_CASE("hop: as the text has it on a surface with holes") {
+TEST_CASE("hop: as the text has it on a surface with holes" * doctest::skip(SANITIZED)) {
     check_rules_applied(check_hops(with_open_chains()));
     CHECK(count_chains(with_open_chains()).second > with_open_chains().numbering().patch_count());
 }
 
-TEST_CASE("hop: as the text has it where borders branch") {
+TEST_CASE("hop: as the text has it where borders branch" * doctest::skip(SANITIZED)) {
     CHECK(restore(with_bridges().built.index).segments.bridges.size() > 4);
     check_rules_applied(check_hops(with_bridges()));
 }
@@ -376,27 +377,27 @@ TestMesh rough(uint32_t columns, uint32_t rows) {
     return mesh;
 }
 
-TEST_CASE("hop: as the text has it over large overlays") {
+TEST_CASE("hop: as the text has it over large overlays" * doctest::skip(SANITIZED)) {
     const Built built(mesh_of_long_borders(), options_of_plane(mesh_of_long_borders(), {2, 2, 3}));
     const auto& is_large = built.overlay().is_large;
     CHECK(std::ranges::count(is_large, 1) > 1);
     check_answers(hop_up(built));
 }
 
-TEST_CASE("hop: as the text has it where middles are raised") {
+TEST_CASE("hop: as the text has it where middles are raised" * doctest::skip(SANITIZED)) {
     const Built built(rough(24, 22), options_of(GEOIDX_METRIC_EXACT, {3, 3}));
     CHECK(count_raised(built) > 20);
     check_hops(built);
 }
 
-TEST_CASE("hop: as the text has it where leaves are too large for that") {
+TEST_CASE("hop: as the text has it where leaves are too large for that" * doctest::skip(SANITIZED)) {
     const Built built(rough(40, 30), options_of(GEOIDX_METRIC_EXACT, {2}));
     CHECK(built.numbering().internal_size(built.numbering().first_leaf()) > 256);
     check_answers(hop_down(built));
     check_answers(hop_down_at_once(built));
 }
 
-TEST_CASE("hop: as the text has it where the surface is in parts") {
+TEST_CASE("hop: as the text has it where the surface is in parts" * doctest::skip(SANITIZED)) {
     const Tallies tallies = check_hops(in_parts());
     check_rules_applied(tallies);
     CHECK(tallies.at_once.unreached > 1000); // some of the sources are in other parts
@@ -418,7 +419,7 @@ TEST_CASE("hop: as the text has it where tables lack paths") {
 }
 
 // A file may state any length. Squares of these are no floats, so that no way is straightened.
-TEST_CASE("hop: over segments of any length, every distance is written") {
+TEST_CASE("hop: over segments of any length, every distance is written" * doctest::skip(SANITIZED)) {
     const Built whole(with_holes(hills(26, 24)), options_of(GEOIDX_METRIC_EXACT, {3, 3}));
     for (const float length : {1e-30f, 2e37f, 5e37f, 3e38f}) {
         CAPTURE(length);

@@ -9,6 +9,7 @@
 
 #include "src/query/query.h"
 #include "tests/overlay/overlay_of.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -137,7 +138,8 @@ TEST_CASE("labels: along edges they are those of MSAD from the border vertex, wi
     }
 }
 
-TEST_CASE("labels: to the two outermost borders that are neither empty nor have more than 400 places") {
+TEST_CASE("labels: to the two outermost borders that are neither empty nor have more than 400 places" *
+          doctest::skip(SANITIZED)) {
     uint32_t by_level[4] = {}, left_out = 0;
     static const TestMesh square = grid(40, 40, 0.2);
     std::list<Labelled> deep;

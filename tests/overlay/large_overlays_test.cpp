@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/overlay/overlay_of.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -33,12 +34,12 @@ uint64_t whole_owned_table(const OverlayIndex& index, uint32_t patch) {
 
 }
 
-TEST_CASE("large overlays: none where tables are small") {
+TEST_CASE("large overlays: none where tables are small" * doctest::skip(SANITIZED)) {
     const OverlayOf built(hills(40, 30), build_options(GEOIDX_METRIC_EXACT, 2));
     CHECK(std::ranges::count(built.overlay().is_large, 0) == built.overlay().numbering.first_leaf());
 }
 
-TEST_CASE("large overlays: the largest ones, as few as are needed") {
+TEST_CASE("large overlays: the largest ones, as few as are needed" * doctest::skip(SANITIZED)) {
     const OverlayIndex& index = with_large_overlays().overlay();
     const uint64_t most = MOST_HOP_BYTES_EACH * index.numbering.vertex_count();
     uint32_t smallest = NONE;

@@ -150,7 +150,8 @@ TEST_CASE("samples: no farther apart where edges are longer than elsewhere on a 
     CHECK(compared > 100);
 }
 
-TEST_CASE("samples: both ends of each segment that is longer than samples are apart") {
+TEST_CASE("samples: both ends of each segment that is longer than samples are apart" *
+          doctest::skip(SANITIZED)) {
     // Rows of short edges, joined by edges that are a hundred times as long.
     const OverlayOf of(strip(), options_of_plane(strip(), {2, 3}));
     const OverlayIndex& overlay = of.overlay();
@@ -173,7 +174,7 @@ TEST_CASE("samples: both ends of each segment that is longer than samples are ap
     CHECK(count > 2);
 }
 
-TEST_CASE("samples: all vertices, where none are joined by segments") {
+TEST_CASE("samples: all vertices, where none are joined by segments" * doctest::skip(SANITIZED)) {
     const OverlayOf of(hills(60, 50), build_options(GEOIDX_METRIC_EDGES, 1));
     const OverlayIndex& overlay = of.overlay();
     for (uint32_t p = 1; p < overlay.numbering.patch_count(); ++p)
@@ -181,7 +182,8 @@ TEST_CASE("samples: all vertices, where none are joined by segments") {
 }
 
 // A way up along the border that it begins at is longer by half of what samples are apart.
-TEST_CASE("samples: their tables are entries of the overlay tables, but between vertices of one border") {
+TEST_CASE("samples: their tables are entries of the overlay tables, but between vertices of one border" *
+          doctest::skip(SANITIZED)) {
     uint64_t up = 0, across = 0, wrong = 0;
     for (const OverlayOf& of : built()) {
         const OverlayIndex& overlay = of.overlay();

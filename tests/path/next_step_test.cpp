@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/path/walks.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 
@@ -40,7 +41,8 @@ void check_walks(const PathCase& on, size_t count) {
 
 }
 
-TEST_CASE("next step: walks end at the target, and are little longer than the shortest") {
+TEST_CASE("next step: walks end at the target, and are little longer than the shortest" *
+          doctest::skip(SANITIZED)) {
     size_t number = 0;
     for (const Soup& soup : path_soups()) {
         ++number;
@@ -57,7 +59,8 @@ TEST_CASE("next step: walks on stress meshes end at the target") {
     for_each_stress_case([](const PathCase& on) { check_walks(on, 12); });
 }
 
-TEST_CASE("next step: the distance is that of the index, and other questions do not disturb it") {
+TEST_CASE("next step: the distance is that of the index, and other questions do not disturb it" *
+          doctest::skip(SANITIZED)) {
     const PathCase on(bumpy_sphere(3, 5));
     std::mt19937_64 random(6);
     for (size_t i = 0; i < 30; ++i) {

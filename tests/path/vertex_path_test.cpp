@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tests/path/walks.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 
@@ -197,7 +198,7 @@ TEST_CASE("vertex path: the cheapest by costs of edges") {
     }
 }
 
-TEST_CASE("vertex path: by costs of edges, on stress meshes") {
+TEST_CASE("vertex path: by costs of edges, on stress meshes" * doctest::skip(SANITIZED)) {
     std::mt19937_64 random(12);
     for (const auto& families : {stress_families(), unorientable_families()})
         for (const StressFamily& family : families) {

@@ -5,13 +5,15 @@
 #include "src/points/face_points.h"
 #include "src/surface/indexed_faces.h"
 #include "tests/path/path_cases.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
 
 // Of faces that lie in the leaves they are said to lie in, two are in one leaf unless the edge between them
 // is on the borders of both. Faces with a corner inside of a leaf lie in that one.
-TEST_CASE("leaf of face: faces of two leaves meet at the borders of both, and nowhere else") {
+TEST_CASE("leaf of face: faces of two leaves meet at the borders of both, and nowhere else" *
+          doctest::skip(SANITIZED)) {
     size_t ambiguous = 0, at_borders = 0;
     for (const Soup& soup : {closed_cylinder(128, 5), closed_cylinder(250, 0.02), bumpy_sphere(3, 3),
                              cube(10), joined(torus(24, 12, 1, 0.4), moebius(40, 3))}) {

@@ -3,6 +3,7 @@
 #include "src/capi/handles.h"
 #include "tests/query/brute_force.h"
 #include "tests/query/query_cases.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic;
 using namespace geodesic::test;
@@ -23,7 +24,8 @@ std::vector<uint32_t> some_ids(const TestMesh& mesh, uint32_t count) {
 
 }
 
-TEST_CASE("SSSD is the shortest path over the overlays of both vertices' ancestors") {
+TEST_CASE("SSSD is the shortest path over the overlays of both vertices' ancestors" *
+          doctest::skip(SANITIZED)) {
     for (const QueryCase& test : query_cases()) {
         CAPTURE(test.name);
         const geoidx* handle = index_of(test);

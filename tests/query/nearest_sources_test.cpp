@@ -4,6 +4,7 @@
 
 #include "tests/capi/refusals.h"
 #include "tests/query/query_cases.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 
@@ -52,7 +53,7 @@ void check_nearest(const geoidx* index, const Ids& sources, double tolerance) {
 
 }
 
-TEST_CASE("nearest sources: no other source is nearer") {
+TEST_CASE("nearest sources: no other source is nearer" * doctest::skip(SANITIZED)) {
     for (const QueryCase& test : exact_cases({1, 2})) {
         CAPTURE(test.name);
         const geoidx* index = index_of(test);
@@ -66,7 +67,7 @@ TEST_CASE("nearest sources: no other source is nearer") {
     }
 }
 
-TEST_CASE("nearest sources: default options, and a bumpy mesh of some size") {
+TEST_CASE("nearest sources: default options, and a bumpy mesh of some size" * doctest::skip(SANITIZED)) {
     const QueryCase test = case_of_some_size(default_options());
     Ids sources;
     for (uint32_t i = 0; i < 64; ++i) sources.push_back((i * 7919) % test.mesh.vertex_count());

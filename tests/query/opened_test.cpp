@@ -7,19 +7,19 @@
 
 using namespace geodesic::test;
 
-TEST_CASE("opened: every answer is that of the index as built, bit for bit") {
+TEST_CASE("opened: every answer is that of the index as built, bit for bit" * doctest::skip(SANITIZED)) {
     for (const QueryCase& test : overlays_of_some_size()) {
         CAPTURE(test.name);
         const geoidx* built = index_of(test);
         const auto opened = open(save(built));
         const uint32_t count = test.mesh.vertex_count();
         uint64_t different = 0;
-        for (uint32_t source = 0; source < count; source += sparse(7)) {
+        for (uint32_t source = 0; source < count; source += 7) {
             const auto a = msad(built, source, count), b = msad(opened.get(), source, count);
             different += std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) != 0;
         }
         std::mt19937 random(3);
-        for (uint32_t pair = 0; pair < 30000; pair += sparse(1)) {
+        for (uint32_t pair = 0; pair < 30000; ++pair) {
             const uint32_t a = static_cast<uint32_t>(random() % count),
                            b = static_cast<uint32_t>(random() % count);
             different += sssd(built, a, b) != sssd(opened.get(), a, b);

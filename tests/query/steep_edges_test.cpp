@@ -4,6 +4,7 @@
 #include "tests/capi/refusals.h"
 #include "tests/index/told_issues.h"
 #include "tests/query/planted_pairs.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 using geodesic::TAG_MEASURED_PAIRS;
@@ -107,7 +108,7 @@ std::vector<uint32_t> some_sources() {
 
 }
 
-TEST_CASE("steep edges: fields are lowered along them, from every form of file") {
+TEST_CASE("steep edges: fields are lowered along them, from every form of file" * doctest::skip(SANITIZED)) {
     const auto plain = open(file_without_edges());
     const uint32_t count = two_sheets().vertex_count();
     std::vector<std::vector<float>> expected;

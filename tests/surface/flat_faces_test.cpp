@@ -136,11 +136,12 @@ TEST_CASE("flat faces: none where there are no planes") {
     CHECK(!FlatFaces(flip_flat_edges(mesh)).find(mesh, {5, {0.5, 0.25, 0.25}}));
 }
 
-TEST_CASE("flat faces: points of slivers are answered by the vertices around them") {
+TEST_CASE("flat faces: points of slivers are answered by the vertices around them" *
+          doctest::skip(SANITIZED)) {
     const PathCase on(drilled_plate(4, 20, 0.02));
     std::mt19937_64 random(1);
     double sum = 0;
-    const size_t count = 50000 / sparse(10);
+    const size_t count = 5000;
     for (size_t i = 0; i < count; ++i) {
         const auto a = random_point(on.soup, random, 0), b = random_point(on.soup, random, 0);
         sum += std::abs(on.sssd(a, b) / on.exact(a, b) - 1);
