@@ -18,9 +18,11 @@ private:
     void run(const FieldRequest& request) override {
         set_targets(request.targets);
         for (uint32_t i = 0; i < request.sources.size(); ++i) {
-            end_if_cancelled();
+            check_cancelled();
             ask(request.sources[i]);
-            for (size_t k = 0; k < targets_.size(); ++k) improve(targets_[k], answer_[k], i);
+            // A source is 0 from itself, whatever the callback answers of that.
+            for (size_t k = 0; k < targets_.size(); ++k)
+                improve(targets_[k], targets_[k] == request.sources[i] ? 0 : answer_[k], i);
         }
     }
 

@@ -18,17 +18,18 @@ uint64_t seed_of_patch(uint64_t seed, uint32_t patch) {
     return Random(seed ^ (uint64_t{patch} << 20)).next();
 }
 
-// Of a patch of so many faces.
+// Returns into how many others a patch of `faces` faces is split.
 uint32_t child_count(const HierarchyOptions& options, uint32_t level, size_t faces, size_t faces_of_mesh) {
     const uint32_t count = options.split[level];
     if (options.in_proportion.empty() || !options.in_proportion[level]) return count;
     double average = static_cast<double>(faces_of_mesh);
     for (uint32_t l = 0; l < level; ++l) average /= options.split[l];
-    const auto most = static_cast<double>(faces);
-    return static_cast<uint32_t>(std::clamp(std::floor(count * (most / average) + 0.5), 1.0, most));
+    const auto own = static_cast<double>(faces);
+    return static_cast<uint32_t>(std::clamp(std::floor(count * (own / average) + 0.5), 1.0, own));
 }
 
-// How many levels split this many leaves off the root, each patch into no more than `largest_split` others.
+// Returns the least number of levels that gives this many leaves if a patch is split into `largest_split`
+// others, more than one, at most.
 uint32_t fewest_levels(double leaves, double largest_split) {
     uint32_t count = 1;
     for (double most = largest_split; most < leaves; most *= largest_split) ++count;

@@ -1,7 +1,8 @@
 #include "src/partition/poisson_disk.h"
 
 #include <algorithm>
-#include <unordered_set>
+
+#include "src/mesh/parts.h"
 
 namespace geodesic {
 
@@ -15,30 +16,25 @@ void add_sample(FieldSolver& solver, std::span<const uint32_t> candidates, uint3
         nearest[i] = std::min(nearest[i], solver.distance(candidates[i]));
 }
 
-// Returns the first candidate of each component. If there is only one, the solver has its field.
-std::vector<uint32_t> first_of_components(FieldSolver& solver, std::span<const uint32_t> candidates) {
-    std::vector<uint32_t> firsts;
-    std::unordered_set<uint32_t> reached;
-    for (const uint32_t candidate : candidates) {
-        if (reached.contains(candidate)) continue;
-        firsts.push_back(candidate);
-        solver.solve({&candidate, 1}, firsts.size() == 1 ? candidates : std::span<const uint32_t>());
-        reached.insert(solver.reached().begin(), solver.reached().end());
+// Returns, for each candidate, a bound on how far apart any two of its component are: twice the distance of
+// the farthest one from some vertex of the component.
+std::vector<double> widths(FieldSolver& solver, const Mesh& mesh, std::span<const uint32_t> candidates) {
+    const Parts parts = parts_of(mesh);
+    std::vector<uint32_t> part_of;
+    for (const uint32_t candidate : candidates) part_of.push_back(parts.of_vertex[candidate]);
+    const auto members = group_by(part_of, static_cast<uint32_t>(parts.parts.size()));
+    std::vector<double> result(candidates.size(), 0);
+    std::vector<uint32_t> vertices;
+    for (size_t part = 0; part < members.size(); ++part) {
+        vertices.clear();
+        for (const uint32_t i : members[part]) vertices.push_back(candidates[i]);
+        if (vertices.empty()) continue;
+        solver.solve(std::span(vertices).first(1), vertices);
+        double farthest = 0;
+        for (const uint32_t vertex : vertices)
+            if (solver.distance(vertex) < UNREACHABLE) farthest = std::max(farthest, solver.distance(vertex));
+        for (const uint32_t i : members[part]) result[i] = 2 * farthest;
     }
-    return firsts;
-}
-
-// Returns, for each candidate, how far it can be from any other one of its component.
-std::vector<double> farthest_possible(FieldSolver& solver, std::span<const uint32_t> candidates) {
-    const auto firsts = first_of_components(solver, candidates);
-    if (firsts.size() > 1) solver.solve(firsts, candidates);
-    std::vector<double> of_component(firsts.size(), 0);
-    for (const uint32_t candidate : candidates) {
-        double& farthest = of_component[solver.nearest(candidate)];
-        farthest = std::max(farthest, 2 * solver.distance(candidate));
-    }
-    std::vector<double> result;
-    for (const uint32_t candidate : candidates) result.push_back(of_component[solver.nearest(candidate)]);
     return result;
 }
 
@@ -46,20 +42,27 @@ std::vector<double> farthest_possible(FieldSolver& solver, std::span<const uint3
 
 // Takes candidates in a random order, each as a sample if it lies outside the disks of all samples before it.
 // Whenever no candidate lies outside all disks, the radius of the disks shrinks, until there are enough
-// samples. Distances that were found for a larger radius stay valid for a smaller one. Until a component has
-// a sample, all of it counts as so far from the nearest one as that could be if it had: loose triangles
-// beside a large body get no samples before the disks on the body are as small as they are.
-std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, std::span<const uint32_t> candidates,
-                                           uint32_t count, Random& random) {
+// samples. Distances that were found for a larger radius stay valid for a smaller one.
+//
+// A component that has no sample yet counts as its width away from the nearest one, not as infinitely far. So
+// loose triangles beside a large body get a sample only once the disks on the body are no larger than they
+// are.
+std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, const Mesh& mesh,
+                                           std::span<const uint32_t> candidates, uint32_t count,
+                                           Random& random) {
     constexpr double SHRINK = 0.8;
     std::vector<uint32_t> shuffled(candidates.begin(), candidates.end());
     random.shuffle(std::span(shuffled));
     if (count >= shuffled.size()) return shuffled;
 
-    std::vector<double> nearest = farthest_possible(solver, shuffled);
-    const auto first = static_cast<size_t>(std::ranges::max_element(nearest) - nearest.begin());
-    std::vector<uint32_t> samples{shuffled[first]};
-    add_sample(solver, shuffled, shuffled[first], UNREACHABLE, nearest);
+    std::vector<double> nearest(shuffled.size(), UNREACHABLE);
+    std::vector<uint32_t> samples{shuffled[0]};
+    add_sample(solver, shuffled, samples[0], UNREACHABLE, nearest);
+    if (std::ranges::max(nearest) == UNREACHABLE) {
+        nearest = widths(solver, mesh, shuffled);
+        samples[0] = shuffled[static_cast<size_t>(std::ranges::max_element(nearest) - nearest.begin())];
+        add_sample(solver, shuffled, samples[0], UNREACHABLE, nearest);
+    }
     double radius = std::ranges::max(nearest);
     while (samples.size() < count) {
         for (size_t i = 0; i < shuffled.size() && samples.size() < count; ++i) {

@@ -4,16 +4,19 @@
 #include <span>
 #include <vector>
 
+#include "src/mesh/mesh.h"
 #include "src/metric/metric.h"
 #include "src/partition/random.h"
 
 namespace geodesic {
 
-// Chooses `count` of the candidate vertices, at least one of each, as Poisson-disk samples under the metric
+// Chooses `count` of the candidate vertices, both at least one, as Poisson-disk samples under the metric
 // (Corsini, Cignoni, Scopigno 2012; the paper's section 3.1): no two of them are closer to each other than
-// some radius, and all other candidates lie within about that radius of one of them, or in a component
-// without samples that extends no farther. It chooses fewer only if no other candidate is apart from those.
-std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, std::span<const uint32_t> candidates,
-                                           uint32_t count, Random& random);
+// some radius, and every other candidate lies within about that radius of one of them, or in a component that
+// has no sample and is not wider than that. Fewer are chosen only if all other candidates are at distance 0
+// from a sample. The candidates are vertices of the mesh.
+std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, const Mesh& mesh,
+                                           std::span<const uint32_t> candidates, uint32_t count,
+                                           Random& random);
 
 }

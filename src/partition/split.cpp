@@ -21,7 +21,7 @@ std::vector<uint32_t> relaxed_cells(const Mesh& mesh, std::span<const uint32_t> 
                                     uint32_t lloyd_iterations, FieldSolver& solver, Random& random) {
     if (count == 1) return std::vector<uint32_t>(faces.size(), 0);
     const auto vertices = vertices_of(mesh, faces);
-    auto seeds = poisson_disk_samples(solver, vertices, count, random);
+    auto seeds = poisson_disk_samples(solver, mesh, vertices, count, random);
     auto cell = voronoi_cells(solver, mesh, faces, seeds);
     for (uint32_t i = 0; i < lloyd_iterations; ++i) {
         relax_seeds(solver, mesh, faces, cell, seeds);

@@ -19,7 +19,7 @@ uint32_t cell_of_face(const FieldSolver& solver, const std::array<uint32_t, 3>& 
 }
 
 // Returns the cell that all faces of the patch around a vertex belong to, or NONE if the vertex lies on a
-// border of a cell or of the patch.
+// border of a cell or of the patch. Vertices of no face with a cell are not among them.
 std::unordered_map<uint32_t, uint32_t> only_cells(const Mesh& mesh, std::span<const uint32_t> faces,
                                                   std::span<const uint32_t> cell) {
     struct Around {
@@ -27,12 +27,14 @@ std::unordered_map<uint32_t, uint32_t> only_cells(const Mesh& mesh, std::span<co
         uint32_t faces;
     };
     std::unordered_map<uint32_t, Around> around;
-    for (size_t i = 0; i < faces.size(); ++i)
+    for (size_t i = 0; i < faces.size(); ++i) {
+        if (cell[i] == NONE) continue; // in a component without a seed
         for (uint32_t v : mesh.faces[faces[i]]) {
             Around& at = around.try_emplace(v, Around{cell[i], 0}).first->second;
             if (at.cell != cell[i]) at.cell = NONE;
             ++at.faces;
         }
+    }
     std::unordered_map<uint32_t, uint32_t> only;
     for (const auto& [v, at] : around) only[v] = at.faces == mesh.vertex_faces[v].size() ? at.cell : NONE;
     return only;
@@ -56,12 +58,14 @@ void relax_seeds(FieldSolver& solver, const Mesh& mesh, std::span<const uint32_t
     const auto vertices = vertices_of(mesh, faces);
     std::vector<uint32_t> border;
     for (uint32_t v : vertices)
-        if (only.at(v) == NONE) border.push_back(v);
+        if (const auto found = only.find(v); found != only.end() && found->second == NONE)
+            border.push_back(v);
     if (border.empty()) return;
     solver.solve(border, vertices);
     std::vector<double> farthest(seeds.size(), 0);
     for (uint32_t v : vertices) {
-        const uint32_t c = only.at(v);
+        const auto found = only.find(v);
+        const uint32_t c = found == only.end() ? NONE : found->second;
         if (c == NONE || !(solver.distance(v) > farthest[c]) || solver.distance(v) == UNREACHABLE) continue;
         farthest[c] = solver.distance(v);
         seeds[c] = v;

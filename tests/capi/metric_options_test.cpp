@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "tests/capi/refusals.h"
 
@@ -58,6 +59,30 @@ double point_distance(geoidx_solver* solver, const geoidx_surface_point& a, cons
     return d;
 }
 
+}
+
+TEST_CASE("a callback need not know that a vertex is 0 from itself") {
+    struct Metric {
+        static geoidx_status distances(void*, uint32_t source, const uint32_t* targets, uint32_t count,
+                                       double* out) {
+            for (uint32_t i = 0; i < count; ++i)
+                out[i] = targets[i] == source
+                             ? std::numeric_limits<double>::infinity()
+                             : std::abs(static_cast<double>(targets[i]) - static_cast<double>(source));
+            return GEOIDX_OK;
+        }
+    };
+    TestMesh mesh = grid(12, 11);
+    append(mesh, grid(3, 3), 20);
+    for (const uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
+        auto options = build_options(GEOIDX_METRIC_CALLBACK, 2);
+        options.engine = engine;
+        options.metric_callback = Metric::distances;
+        const auto index = build(mesh, options);
+        CHECK(sssd(index.get(), 7, 7) == 0);
+        CHECK(sssd(index.get(), 7, 8) >= 0.99f);
+        CHECK(sssd(index.get(), 7, 8) < 140);
+    }
 }
 
 TEST_CASE("face costs count, in the index and without one") {
