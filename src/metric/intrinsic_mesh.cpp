@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "format/error.h"
 #include "src/mesh/angle.h"
 #include "src/mesh/parts.h"
 

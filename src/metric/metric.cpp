@@ -11,7 +11,7 @@ FieldSolver::FieldSolver(uint32_t vertex_count)
     : distance_(vertex_count, UNREACHABLE), nearest_(vertex_count, NONE) {}
 
 void FieldSolver::solve(const FieldRequest& request) {
-    end_if_cancelled();
+    check_cancelled();
     forget(request);
     run(request);
 }

@@ -67,12 +67,12 @@ protected:
     // Begins anew: no distance is known.
     void forget(const FieldRequest& request);
     void set_final_up_to(double distance) { final_up_to_ = distance; }
-    void end_if_cancelled() const {
+    void check_cancelled() const {
         if (cancelled_ && *cancelled_) throw_cancelled();
     }
-    // To be called again and again while a solve runs; the flag is looked at now and then.
-    void check_cancelled() {
-        if ((++checks_ & 0x3FF) == 0) end_if_cancelled();
+    // To be called again and again while a solve runs: every 1,024th call looks at the flag.
+    void check_cancelled_sometimes() {
+        if ((++checks_ & 0x3FF) == 0) check_cancelled();
     }
 
     // Lowers the distance of a vertex; false if it was that low already.
@@ -100,7 +100,7 @@ private:
     std::vector<double> point_distance_;
     double final_up_to_ = 0;
     const std::atomic<bool>* cancelled_ = nullptr;
-    uint32_t checks_ = 0; // calls of check_cancelled()
+    uint32_t checks_ = 0; // calls of check_cancelled_sometimes()
 };
 
 // Counts down the targets of one solve as their distances become final.

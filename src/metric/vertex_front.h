@@ -24,7 +24,7 @@ private:
         pending_.begin(request);
         for (uint32_t i = 0; i < request.sources.size(); ++i) reach(request.sources[i], 0, i);
         while (!queue_.empty()) {
-            check_cancelled();
+            check_cancelled_sometimes();
             const auto event = queue_.pop();
             if (event.distance > request.radius) break;
             if (event.distance != distance(event.item)) continue;

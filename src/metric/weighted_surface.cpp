@@ -73,7 +73,7 @@ void SteinerSearch::run(const FieldRequest& request) {
     uint32_t settled = 0;
     set_final_up_to(UNREACHABLE);
     while (!queue_.empty()) {
-        check_cancelled();
+        check_cancelled_sometimes();
         const auto event = queue_.pop();
         if (event.distance > request.radius || (is_done && settled >= request.final_count)) {
             set_final_up_to(event.distance); // it was the least of those that may still be lowered

@@ -92,6 +92,11 @@ private:
 
     void run(const FieldRequest& request) override;
     bool run_with(double tolerance, const FieldRequest& request);
+    bool windows_multiply(const FieldRequest& request) const;
+    bool ends_at(const EventQueue::Event& event, const FieldRequest& request);
+    void begin_bounds(const FieldRequest& request);
+    void pass_vertex(const EventQueue::Event& event);
+    void pass_edge(const EventQueue::Event& event);
     void start(const FieldRequest& request);
     double tolerance_on(uint32_t edge) const;
     bool edge_may_help(uint32_t edge, double distance);
@@ -118,6 +123,9 @@ private:
     void sweep();
 
     uint32_t edge_count() const { return static_cast<uint32_t>(mesh_->edge_length.size()); }
+    // Items of the queue: vertices by number, then edges, then target points.
+    uint32_t edge_item(uint32_t edge) const { return vertex_count() + edge; }
+    uint32_t point_item(uint32_t index) const { return vertex_count() + edge_count() + index; }
 
     std::shared_ptr<const IntrinsicMesh> mesh_;
     const double asked_tolerance_;
@@ -126,15 +134,18 @@ private:
     uint64_t carried_on_ = 0; // windows, into faces, since the run began
     Envelope envelope_;
     WindowLists lists_;
-    EventQueue queue_;                    // vertices by number, then edges, then target points
+    EventQueue queue_;                    // of vertices, edges and target points
     std::vector<double> queued_distance_; // of the edge's live event
     std::vector<uint32_t> queued_edges_;
     std::vector<Arrival> arrival_;
     PendingTargets pending_;
     TargetPoints targets_;
-    TargetBounds bounds_;         // once `is_bounded` in run()
+    TargetBounds bounds_;         // once `is_bounded_`
     std::vector<Window> runs_[2]; // room for the windows on their way to the two exits of a face
     double front_ = 0;            // distance of the latest event
+    uint32_t settled_ = 0;        // vertices, in this run
+    bool is_done_ = false;        // with the targets
+    bool is_bounded_ = false;     // all that is asked for, besides targets, is final
 };
 
 void WindowPropagation::clear() {
@@ -142,6 +153,10 @@ void WindowPropagation::clear() {
     queue_.clear();
     for (uint32_t edge : queued_edges_) queued_distance_[edge] = UNREACHABLE;
     queued_edges_.clear();
+    carried_on_ = 0;
+    front_ = 0;
+    settled_ = 0;
+    is_done_ = is_bounded_ = false;
 }
 
 // Where edges are tiny or triangles are needles, joined windows can multiply without end.
@@ -155,49 +170,60 @@ void WindowPropagation::run(const FieldRequest& request) {
 bool WindowPropagation::run_with(double tolerance, const FieldRequest& request) {
     clear();
     tolerance_ = tolerance;
-    carried_on_ = 0;
-    front_ = 0;
     start(request);
-    const uint32_t first_edge = vertex_count(), first_point = first_edge + edge_count();
     const bool has_bounds = TargetBounds::are_known(*mesh_, request);
-    bool is_done = false;    // with the targets
-    bool is_bounded = false; // all that is asked for, besides targets, is final
-    uint32_t settled = 0;
-    const uint64_t in_any_case = FIRST_VERTICES + request.sources.size() + request.source_points.size();
     set_final_up_to(UNREACHABLE);
     while (!queue_.empty()) {
-        if (tolerance > 0 && carried_on_ > MOST_WINDOWS * (settled + in_any_case)) return false;
-        check_cancelled();
-        const auto event = queue_.pop();
-        const bool is_near_final = settled >= request.final_count;
-        if (event.distance > request.radius || (is_done && is_near_final)) {
-            if (!is_bounded) set_final_up_to(front_);
-            break;
-        }
-        if (has_bounds && is_near_final && !is_bounded) {
-            bounds_.begin(*mesh_, request, *this, front_);
-            set_final_up_to(front_);
-            is_bounded = true;
-        }
+        check_cancelled_sometimes();
+        if (tolerance > 0 && windows_multiply(request)) return false;
+        const EventQueue::Event event = queue_.pop();
+        if (ends_at(event, request)) break;
+        if (has_bounds && settled_ >= request.final_count && !is_bounded_) begin_bounds(request);
         front_ = event.distance;
         if (!queue_.empty()) prefetch(queue_.top().item);
-        if (event.item < first_edge) {
-            if (event.distance != distance(event.item)) continue;
-            if (!is_bounded || bounds_.may_help(mesh_->positions[event.item], 0, event.distance))
-                settle(event.item);
-            ++settled;
-            is_done |= pending_.settle(event.item);
-        } else if (event.item < first_point) {
-            const uint32_t edge = event.item - first_edge;
-            if (event.distance == queued_distance_[edge] &&
-                (!is_bounded || edge_may_help(edge, event.distance)))
-                propagate_edge(edge);
-            if (passed_ == PassedWindows::GIVEN_BACK && lists_.crowded()) sweep();
-        } else {
-            is_done |= pending_.settle_point(event.item - first_point);
-        }
+        if (event.item < edge_item(0))
+            pass_vertex(event);
+        else if (event.item < point_item(0))
+            pass_edge(event);
+        else
+            is_done_ |= pending_.settle_point(event.item - point_item(0));
     }
     return true;
+}
+
+bool WindowPropagation::windows_multiply(const FieldRequest& request) const {
+    const uint64_t in_any_case = FIRST_VERTICES + request.sources.size() + request.source_points.size();
+    return carried_on_ > MOST_WINDOWS * (settled_ + in_any_case);
+}
+
+// Whether all that is asked for is final before this event.
+bool WindowPropagation::ends_at(const EventQueue::Event& event, const FieldRequest& request) {
+    const bool is_all = is_done_ && settled_ >= request.final_count;
+    if (event.distance <= request.radius && !is_all) return false;
+    if (!is_bounded_) set_final_up_to(front_);
+    return true;
+}
+
+// From now on, what leads to no target is left out.
+void WindowPropagation::begin_bounds(const FieldRequest& request) {
+    bounds_.begin(*mesh_, request, *this, front_);
+    set_final_up_to(front_);
+    is_bounded_ = true;
+}
+
+void WindowPropagation::pass_vertex(const EventQueue::Event& event) {
+    const uint32_t vertex = event.item;
+    if (event.distance != distance(vertex)) return;
+    if (!is_bounded_ || bounds_.may_help(mesh_->positions[vertex], 0, event.distance)) settle(vertex);
+    ++settled_;
+    is_done_ |= pending_.settle(vertex);
+}
+
+void WindowPropagation::pass_edge(const EventQueue::Event& event) {
+    const uint32_t edge = event.item - edge_item(0);
+    if (event.distance == queued_distance_[edge] && (!is_bounded_ || edge_may_help(edge, event.distance)))
+        propagate_edge(edge);
+    if (passed_ == PassedWindows::GIVEN_BACK && lists_.crowded()) sweep();
 }
 
 // The tolerance with which windows are put down on an edge that the front has come to.
@@ -217,8 +243,8 @@ bool WindowPropagation::edge_may_help(uint32_t edge, double distance) {
 void WindowPropagation::prefetch(uint32_t item) const {
     if (item < vertex_count()) {
         __builtin_prefetch(mesh_->spokes[item].data());
-    } else if (item - vertex_count() < edge_count()) {
-        const uint32_t edge = item - vertex_count();
+    } else if (item < point_item(0)) {
+        const uint32_t edge = item - edge_item(0);
         lists_.prefetch_windows(edge);
         __builtin_prefetch(mesh_->sides[edge].data());
         __builtin_prefetch(&mesh_->edge_length[edge]);
@@ -281,7 +307,7 @@ Window WindowPropagation::source_window(uint32_t edge, const PlanePoint& source,
 }
 
 void WindowPropagation::reach_point(uint32_t index, double distance) {
-    if (improve_point(index, distance)) queue_.push(distance, vertex_count() + edge_count() + index);
+    if (improve_point(index, distance)) queue_.push(distance, point_item(index));
 }
 
 void WindowPropagation::reach(uint32_t vertex, double distance, uint32_t nearest, Arrival arrival) {
@@ -481,7 +507,7 @@ void WindowPropagation::deliver(uint32_t edge, std::span<Window> run) {
     if (!(envelope_.lowest() < queued_distance_[edge])) return;
     if (queued_distance_[edge] == UNREACHABLE) queued_edges_.push_back(edge);
     queued_distance_[edge] = envelope_.lowest();
-    queue_.push(envelope_.lowest(), vertex_count() + edge);
+    queue_.push(envelope_.lowest(), edge_item(edge));
 }
 
 }
