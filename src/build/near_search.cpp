@@ -138,9 +138,10 @@ private:
     ErrorsByDistance errors_;
 };
 
-NearSearch::NearSearch(const Index& index, const Intake& intake, double average_edge, double too_short)
-    : index_(index), intake_(intake), average_edge_(average_edge), too_short_(too_short),
-      is_source_(intake.mesh.vertex_count(), false), errors_(average_edge) {}
+NearSearch::NearSearch(const Compared& compared)
+    : index_(compared.index), intake_(compared.intake), average_edge_(compared.scale.average_edge),
+      too_short_(compared.scale.too_short), is_source_(intake_.mesh.vertex_count(), false),
+      errors_(average_edge_) {}
 
 void NearSearch::run(const NearEffort& effort, uint64_t seed, Workers& workers) {
     Random random(seed);

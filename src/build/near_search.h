@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "src/build/errors_by_distance.h"
+#include "src/build/relative_errors.h"
 #include "src/mesh/intake.h"
 #include "src/metric/workers.h"
 #include "src/partition/random.h"
@@ -21,15 +22,14 @@ struct NearEffort {
 
 // Looks for the largest errors of short distances, up to a little more than the near ones. From each source
 // it compares MSAD to all vertices that are so near, about a thousand at most, and, of the overlay engine,
-// SSSD to those that are not internal vertices of the source's own leaf, as the source is. The errors are
+// SSSD, but for pairs of internal vertices of one leaf, whose distance a table holds. The errors are
 // only added to maxima, since sources are chosen where errors are large.
 //
 // To ask the metric takes longest, so sources are chosen by the index itself: MSAD and SSSD put their ways
 // together from different tables, and where one is wrong they mostly disagree.
 class NearSearch {
 public:
-    // Distances up to `too_short` are not compared.
-    NearSearch(const Index& index, const Intake& intake, double average_edge, double too_short);
+    explicit NearSearch(const Compared& compared);
 
     void run(const NearEffort& effort, uint64_t seed, Workers& workers);
 

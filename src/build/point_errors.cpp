@@ -102,7 +102,7 @@ MeasuredError PointErrors::measure(const Index& index, Workers& workers) const {
     std::vector<double> errors;
     errors.reserve(points_.size() * surface_.vertex_count());
     for (const auto& of_one : of_point) errors.insert(errors.end(), of_one.begin(), of_one.end());
-    return summary(std::move(errors));
+    return summary(std::move(errors), points_.size());
 }
 
 }

@@ -67,13 +67,13 @@ DistanceScale distance_scale(const Description& about, const Mesh& mesh, const E
 std::vector<double> relative_errors(const Index& index, Crossing crossing,
                                     std::span<const uint32_t> vertex_of_number, const ExactFields& exact,
                                     Workers& workers) {
-    std::vector<uint32_t> number_of_vertex(vertex_of_number.size());
-    for (uint32_t n = 0; n < vertex_of_number.size(); ++n) number_of_vertex[vertex_of_number[n]] = n;
+    std::vector<uint32_t> number_of(vertex_of_number.size());
+    for (uint32_t n = 0; n < vertex_of_number.size(); ++n) number_of[vertex_of_number[n]] = n;
     const double too_short = too_short_to_count(index.description, exact);
-    std::vector<std::vector<double>> errors(SOURCES);
-    workers.run(SOURCES, [&](FieldSolver&, size_t i) {
+    std::vector<std::vector<double>> errors(exact.sources.size());
+    workers.run(errors.size(), [&](FieldSolver&, size_t i) {
         std::vector<float> answered(vertex_of_number.size());
-        answer(index, crossing, number_of_vertex[exact.sources[i]], answered);
+        answer(index, crossing, number_of[exact.sources[i]], answered);
         for (size_t number = 0; number < answered.size(); ++number) {
             const uint32_t vertex = vertex_of_number[number];
             if (vertex >= exact.distances[i].size()) continue; // an added vertex
@@ -87,9 +87,9 @@ std::vector<double> relative_errors(const Index& index, Crossing crossing,
     return all;
 }
 
-MeasuredError summary(std::vector<double> errors) {
+MeasuredError summary(std::vector<double> errors, size_t sources) {
     MeasuredError result;
-    result.sources = SOURCES;
+    result.sources = static_cast<uint32_t>(sources);
     if (errors.empty()) return result;
     const auto count = static_cast<double>(errors.size());
     for (double& error : errors) {

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "src/mesh/intake.h"
 #include "src/mesh/mesh.h"
 #include "src/metric/workers.h"
 #include "src/overlay/fields/ssad.h"
@@ -31,6 +32,13 @@ struct DistanceScale {
 };
 DistanceScale distance_scale(const Description& about, const Mesh& mesh, const ExactFields& exact);
 
+// An index and the mesh that it was built from, which the metric is asked on.
+struct Compared {
+    const Index& index;
+    const Intake& intake;
+    DistanceScale scale;
+};
+
 // The errors of MSAD from each of these sources alone, relative to the metric. vertex_of_number gives the
 // mesh vertex of each number; those that the fields do not have, added vertices, do not count,
 // nor do distances that have no relative error.
@@ -38,7 +46,9 @@ std::vector<double> relative_errors(const Index& index, Crossing crossing,
                                     std::span<const uint32_t> vertex_of_number, const ExactFields& exact,
                                     Workers& workers);
 
-MeasuredError summary(std::vector<double> errors);
+// The figures of signed relative errors, in any order, of so many sources. Those at vertices, by distance and
+// of several sources stay 0, and all do where there are no errors.
+MeasuredError summary(std::vector<double> errors, size_t sources);
 
 // Whether the answers of MSAD depend on where paths cross borders.
 bool crosses_between_vertices(const Description& about);

@@ -32,18 +32,19 @@ SourceGroup around_one(const Mesh& mesh, uint32_t size, Random& random) {
 
 // Of each group, solve(solver, i) is called first; distance(solver, i, vertex) then gives its exact
 // distances.
-ErrorSum compare(const Index& index, const Intake& intake, std::span<const SourceGroup> groups,
-                 double too_short, Workers& workers, const std::function<void(FieldSolver&, size_t)>& solve,
+ErrorSum compare(const Compared& compared, std::span<const SourceGroup> groups, Workers& workers,
+                 const std::function<void(FieldSolver&, size_t)>& solve,
                  const std::function<double(const FieldSolver&, size_t, uint32_t)>& distance) {
     std::vector<ErrorSum> errors(groups.size());
+    const auto& ids_of = compared.intake.id_of_vertex;
     workers.run(groups.size(), [&](FieldSolver& solver, size_t i) {
         solve(solver, i);
         std::vector<uint32_t> ids;
-        for (const uint32_t source : groups[i]) ids.push_back(intake.id_of_vertex[source]);
-        std::vector<float> answers(index.description.id_count);
-        Query(index, global_heap()).msad(ids, INFINITE, answers);
+        for (const uint32_t source : groups[i]) ids.push_back(ids_of[source]);
+        std::vector<float> answers(compared.index.description.id_count);
+        Query(compared.index, global_heap()).msad(ids, INFINITE, answers);
         for_each_comparison(
-            answers, intake.id_of_vertex, too_short, [&](uint32_t v) { return distance(solver, i, v); },
+            answers, ids_of, compared.scale.too_short, [&](uint32_t v) { return distance(solver, i, v); },
             [&](double exact, double answer) { errors[i].add(relative_error(exact, answer)); });
     });
     ErrorSum all;
@@ -69,22 +70,19 @@ std::vector<SourceGroup> source_groups(const Index& index, const Intake& intake,
     return groups;
 }
 
-ErrorSum errors_of_groups(const Index& index, const Intake& intake, std::span<const SourceGroup> groups,
-                          double too_short, Workers& workers) {
+ErrorSum errors_of_groups(const Compared& compared, std::span<const SourceGroup> groups, Workers& workers) {
     return compare(
-        index, intake, groups, too_short, workers,
-        [&](FieldSolver& solver, size_t i) { solver.solve(groups[i], {}); },
+        compared, groups, workers, [&](FieldSolver& solver, size_t i) { solver.solve(groups[i], {}); },
         [](const FieldSolver& solver, size_t, uint32_t vertex) { return solver.distance(vertex); });
 }
 
-ErrorSum errors_of_known_groups(const Index& index, const Intake& intake, const ExactFields& exact,
-                                double too_short, Workers& workers) {
+ErrorSum errors_of_known_groups(const Compared& compared, const ExactFields& exact, Workers& workers) {
     std::vector<SourceGroup> groups;
     for (const uint32_t size : GROUP_SIZES)
         if (size <= exact.sources.size())
             groups.emplace_back(exact.sources.begin(), exact.sources.begin() + size);
     return compare(
-        index, intake, groups, too_short, workers, [](FieldSolver&, size_t) {},
+        compared, groups, workers, [](FieldSolver&, size_t) {},
         [&](const FieldSolver&, size_t i, uint32_t vertex) {
             double least = UNREACHABLE;
             for (size_t k = 0; k < groups[i].size(); ++k) least = std::min(least, exact.distances[k][vertex]);

@@ -20,11 +20,9 @@ std::vector<SourceGroup> source_groups(const Index& index, const Intake& intake,
                                        uint64_t seed);
 
 // The errors of MSAD from each group, compared with the metric, at all distances that are not too short.
-ErrorSum errors_of_groups(const Index& index, const Intake& intake, std::span<const SourceGroup> groups,
-                          double too_short, Workers& workers);
+ErrorSum errors_of_groups(const Compared& compared, std::span<const SourceGroup> groups, Workers& workers);
 
 // The errors of MSAD from 2 and more of the sources of these fields, for which the metric need not be asked.
-ErrorSum errors_of_known_groups(const Index& index, const Intake& intake, const ExactFields& exact,
-                                double too_short, Workers& workers);
+ErrorSum errors_of_known_groups(const Compared& compared, const ExactFields& exact, Workers& workers);
 
 }

@@ -78,42 +78,45 @@ struct FieldErrors {
     std::vector<double> of_msad; // with signs
 };
 
-// The errors of MSAD and of some SSSD from the i-th source.
-FieldErrors errors_of_field(const Index& index, const Intake& intake, const ExactFields& exact, size_t i,
-                            double too_short, bool counts_in_means, uint32_t pairs,
-                            const ErrorsByDistance& none) {
-    FieldErrors errors{none, {}};
-    Query query(index, global_heap());
+// The errors of MSAD and of `pairs` SSSD from the i-th source.
+FieldErrors errors_of_field(const Compared& compared, const ExactFields& exact, size_t i,
+                            bool counts_in_means, uint32_t pairs) {
+    const auto& ids = compared.intake.id_of_vertex;
+    const double too_short = compared.scale.too_short;
+    FieldErrors errors{ErrorsByDistance(compared.scale.average_edge), {}};
+    Query query(compared.index, global_heap());
     const auto& distances = exact.distances[i];
-    const uint32_t source = intake.id_of_vertex[exact.sources[i]];
-    std::vector<float> answers(index.description.id_count);
+    const uint32_t source = ids[exact.sources[i]];
+    std::vector<float> answers(compared.index.description.id_count);
     query.msad({&source, 1}, INFINITE, answers);
     for_each_comparison(
-        answers, intake.id_of_vertex, too_short, [&](uint32_t v) { return distances[v]; },
+        answers, ids, too_short, [&](uint32_t v) { return distances[v]; },
         [&](double distance, double answer) {
             const double error = relative_error(distance, answer);
-            counts_in_means ? errors.by_distance.add_of_fields(distance, error)
-                            : errors.by_distance.add_to_max_of_fields(distance, error);
+            if (counts_in_means)
+                errors.by_distance.add_of_fields(distance, error);
+            else
+                errors.by_distance.add_to_max_of_fields(distance, error);
             errors.of_msad.push_back((answer - distance) / distance);
         });
-    Random random(index.description.seed ^ PAIR_SEED ^ i);
+    Random random(compared.index.description.seed ^ PAIR_SEED ^ i);
     for (uint32_t k = 0; k < pairs; ++k) {
         const uint32_t v = random.below(static_cast<uint32_t>(distances.size()));
         if (!has_relative_error(distances[v], too_short)) continue;
-        const double answer = query.sssd(source, intake.id_of_vertex[v]);
+        const double answer = query.sssd(source, ids[v]);
         errors.by_distance.of(distances[v]).add_to_max(relative_error(distances[v], answer));
     }
     return errors;
 }
 
 // Adds the errors by distance, and returns those of MSAD.
-std::vector<double> add_errors_of_fields(const Index& index, const Intake& intake, const ExactFields& exact,
-                                         double too_short, bool counts_in_means, uint32_t pairs,
-                                         const ErrorsByDistance& none, Workers& workers,
+std::vector<double> add_errors_of_fields(const Compared& compared, const ExactFields& exact,
+                                         bool counts_in_means, uint32_t pairs, Workers& workers,
                                          ErrorsByDistance& errors) {
-    std::vector<FieldErrors> of_source(exact.sources.size(), {none, {}});
+    std::vector<FieldErrors> of_source(exact.sources.size(),
+                                       {ErrorsByDistance(compared.scale.average_edge), {}});
     workers.run(of_source.size(), [&](FieldSolver&, size_t i) {
-        of_source[i] = errors_of_field(index, intake, exact, i, too_short, counts_in_means, pairs, none);
+        of_source[i] = errors_of_field(compared, exact, i, counts_in_means, pairs);
     });
     std::vector<double> of_msad;
     for (const FieldErrors& of_one : of_source) {
@@ -126,27 +129,28 @@ std::vector<double> add_errors_of_fields(const Index& index, const Intake& intak
 // The figures that measure_error() took of the tables alone, taken again of the index, which may hold
 // measured pairs by now. How exact paths over vertices are does not change by these.
 MeasuredError with_measured_pairs(const Description& about, std::vector<double> errors) {
-    MeasuredError stated = summary(std::move(errors));
+    MeasuredError stated = summary(std::move(errors), about.error.sources);
     stated.mean_at_vertices = crosses_between_vertices(about) ? about.error.mean_at_vertices : stated.mean;
     return stated;
 }
 
-ErrorSum error_of_several(const Index& index, const Intake& intake, const ExactFields& exact,
-                          double too_short, uint32_t rounds, Workers& workers) {
-    if (rounds == 0) return errors_of_known_groups(index, intake, exact, too_short, workers);
-    const auto groups = source_groups(index, intake, rounds, index.description.seed ^ GROUP_SEED);
-    return errors_of_groups(index, intake, groups, too_short, workers);
+ErrorSum error_of_several(const Compared& compared, const ExactFields& exact, uint32_t rounds,
+                          Workers& workers) {
+    if (rounds == 0) return errors_of_known_groups(compared, exact, workers);
+    const uint64_t seed = compared.index.description.seed ^ GROUP_SEED;
+    const auto groups = source_groups(compared.index, compared.intake, rounds, seed);
+    return errors_of_groups(compared, groups, workers);
 }
 
 // Searches for large errors, near and at all distances, and adds them to the maxima.
-void add_largest_errors(const Index& index, const Intake& intake, double average_edge, double too_short,
-                        const Effort& effort, Workers& workers, ErrorsByDistance& errors) {
-    const uint64_t seed = index.description.seed;
-    NearSearch near(index, intake, average_edge, too_short);
+void add_largest_errors(const Compared& compared, const Effort& effort, Workers& workers,
+                        ErrorsByDistance& errors) {
+    const uint64_t seed = compared.index.description.seed;
+    NearSearch near(compared);
     near.run(effort.near, seed ^ NEAR_SEED, workers);
     errors.add(near.errors());
     if (effort.two_way.sources == 0) return;
-    TwoWaySearch two_way(index, intake, average_edge, too_short);
+    TwoWaySearch two_way(compared);
     two_way.run(effort.two_way, seed ^ TWO_WAY_SEED, workers);
     errors.add(two_way.errors());
 }
@@ -172,22 +176,19 @@ void state_errors(const Intake& intake, const DistanceScale& scale,
                   Workers& workers, Index& index) {
     const Description& about = index.description;
     const ExactFields& measuring = *fields.front();
-    const auto [too_short, edge] = scale;
-    const uint32_t vertex_count = intake.mesh.vertex_count();
-    const Effort effort = effort_for(about, known.has_value(), vertex_count);
-    const ErrorsByDistance none(edge);
-    ErrorsByDistance errors = known.value_or(none);
+    const Compared compared{index, intake, scale};
+    const Effort effort = effort_for(about, known.has_value(), intake.mesh.vertex_count());
+    ErrorsByDistance errors = known.value_or(ErrorsByDistance(scale.average_edge));
     MeasuredError stated = about.error;
     for (const ExactFields* exact : fields) {
         const bool is_measuring = exact == &measuring;
-        auto of_msad = add_errors_of_fields(index, intake, *exact, too_short, is_measuring, effort.pairs,
-                                            none, workers, errors);
+        auto of_msad = add_errors_of_fields(compared, *exact, is_measuring, effort.pairs, workers, errors);
         if (is_measuring && (known || crosses_between_vertices(about)))
             stated = with_measured_pairs(about, std::move(of_msad));
     }
-    add_largest_errors(index, intake, edge, too_short, effort, workers, errors);
-    state_largest(errors, error_of_several(index, intake, measuring, too_short, effort.rounds, workers),
-                  effort.is_complete, stated);
+    add_largest_errors(compared, effort, workers, errors);
+    const ErrorSum several = error_of_several(compared, measuring, effort.rounds, workers);
+    state_largest(errors, several, effort.is_complete, stated);
     index.description.error = stated;
     release_pairs(index);
 }

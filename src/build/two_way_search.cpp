@@ -24,9 +24,9 @@ size_t task_count(size_t count, size_t of_task) { return (count + of_task - 1) /
 
 }
 
-TwoWaySearch::TwoWaySearch(const Index& index, const Intake& intake, double average_edge, double too_short)
-    : index_(index), intake_(intake), average_edge_(average_edge), too_short_(too_short),
-      errors_(average_edge) {}
+TwoWaySearch::TwoWaySearch(const Compared& compared)
+    : index_(compared.index), intake_(compared.intake), average_edge_(compared.scale.average_edge),
+      too_short_(compared.scale.too_short), errors_(average_edge_) {}
 
 void TwoWaySearch::run(const TwoWayEffort& effort, uint64_t seed, Workers& workers) {
     Random random(seed);

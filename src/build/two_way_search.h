@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/build/errors_by_distance.h"
+#include "src/build/relative_errors.h"
 #include "src/mesh/intake.h"
 #include "src/metric/workers.h"
 #include "src/partition/random.h"
@@ -28,8 +29,7 @@ struct TwoWayEffort {
 // takes, which is asked only where answers differ most. The errors are only added to maxima.
 class TwoWaySearch {
 public:
-    // Distances up to `too_short` are not compared.
-    TwoWaySearch(const Index& index, const Intake& intake, double average_edge, double too_short);
+    explicit TwoWaySearch(const Compared& compared);
 
     void run(const TwoWayEffort& effort, uint64_t seed, Workers& workers);
 
