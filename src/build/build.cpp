@@ -119,7 +119,8 @@ struct FirstFilling {
     std::optional<MeasuredTables> measured; // only if rounds may follow
 };
 
-// The workers end with it: later ones have solvers of their own, which take some 150 bytes a vertex each.
+// Each step is given workers of its own, which end with the call: they have solvers of some 150 bytes a
+// vertex.
 FirstFilling first_filling(const Mesh& surface, const HierarchyOptions& hierarchy_options,
                            bool rounds_may_follow, Filling& filling, Workers&& workers) {
     workers.begin_stage("patches", 0.05);

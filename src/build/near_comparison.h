@@ -14,12 +14,14 @@
 
 namespace geodesic {
 
-// How many times as far as near vertices a comparison looks.
+// How many times as far as the farthest near vertex MSAD is asked.
 inline constexpr float LOOKED_AT = 1.1f;
 
 struct WrongPair {
     VertexPair pair; // by number
-    double error;    // of what is answered, relative to the distance; infinite where that is not LOOKED_AT
+    // Of what is answered, relative to the distance; infinite where MSAD answers more than LOOKED_AT times
+    // the distance of the farthest near vertex, so that no answer is known.
+    double error;
 };
 
 // One thread's answers compared with the metric near vertices, from one of them at a time.

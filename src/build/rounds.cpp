@@ -68,8 +68,11 @@ auto unless_over_limit(const Body& body) -> std::optional<decltype(body())> {
     }
 }
 
-// Whether the corners of all faces can still be counted in 32 bits when each is cut into four.
-bool can_be_cut(const Mesh& mesh) { return mesh.face_count() < NONE / 12; }
+// Whether corners and edges can still be counted when each face is cut into four.
+bool can_be_cut(const Mesh& mesh) {
+    return mesh.face_count() < NONE / 12 &&
+           2 * size_t{mesh.edge_count()} + 3 * size_t{mesh.face_count()} <= MOST_EDGES;
+}
 
 }
 

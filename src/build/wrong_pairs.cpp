@@ -64,18 +64,20 @@ public:
         }
     }
 
-    // The largest errors of pairs that were compared and are not held.
+    // The largest errors of pairs that were compared and are not held. From some vertices none were compared
+    // where there are more wrong pairs than may be held.
     const ErrorsByDistance& let_pass() const { return let_pass_; }
 
 private:
-    // Pairs that are held whatever is let pass.
+    // Pairs that are off by their whole length or more, most of them infinitely: raising the limit does not
+    // make these fewer.
     size_t certainly_held() const {
         return static_cast<size_t>(
             std::ranges::count_if(held_, [](const WrongPair& wrong) { return wrong.error >= 1; }));
     }
     void note_let_pass(const WrongPair& wrong) {
         const double at_least = std::isinf(wrong.error) ? double{LOOKED_AT} - 1 : wrong.error;
-        let_pass_.of(wrong.pair.distance).add_to_max(at_least);
+        let_pass_.add_to_max_of_fields(wrong.pair.distance, at_least);
     }
     size_t few_for_each() const { return MOST_PAIRS * near_.vertex_count(); }
     size_t most() const { return std::max(few_for_each(), FEW_IN_ALL); }
