@@ -1,6 +1,6 @@
 #include "src/capi/points.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "format/error.h"

@@ -61,7 +61,7 @@ std::span<const Query::Found> Query::within(std::span<const uint32_t> source_ids
     for (const uint32_t source : sources_) {
         for (const auto& [number, distance] : numbers_within(source, radius))
             ranked_.push_back({distance, number});
-        keep_least_if_many(different);
+        if (sources_.size() > 1) keep_least_if_many(different);
     }
     if (sources_.size() > 1) keep_least();
     replace_numbers();
@@ -83,9 +83,9 @@ std::span<const Query::Found> Query::point_within(const PointSources& sources, f
         for (const auto& [number, distance] : numbers_within(sources.only(i), swept))
             if (const float whole = offset + distance; whole <= radius && whole < INFINITE)
                 ranked_.push_back({whole, number});
-        keep_least_if_many(different);
+        if (sources.points.size() > 1) keep_least_if_many(different);
     }
-    keep_least();
+    if (sources.points.size() > 1) keep_least();
     replace_numbers();
     std::ranges::sort(ranked_);
     return ranked_;
@@ -113,8 +113,9 @@ void Query::keep_least() {
     ranked_.erase(std::unique(ranked_.begin(), ranked_.end(), is_same), ranked_.end());
 }
 
-// What many sources find takes no more than twice the memory of the vertices that they find. `different` is
-// how many vertices there were when this was last done.
+// Keeps `ranked_` in proportion to the vertices that are found, however many sources find each: where it has
+// more than twice as many entries as different vertices, and some thousand, only the nearest of each vertex
+// stays. `different` is how many there were when this was last done; it begins with 0.
 void Query::keep_least_if_many(size_t& different) {
     constexpr size_t FEW = 1 << 12;
     if (ranked_.size() < 2 * different + FEW) return;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -92,7 +91,7 @@ FlatFaces::Corners FlatFaces::corners_of(std::span<const Vector3d> positions,
                                          const std::array<double, 3>& weights) {
     Corners point{corners, Vector3d::Zero(), std::ranges::max(weights) == 1};
     std::array<size_t, 3> order{0, 1, 2};
-    std::ranges::stable_sort(order, std::greater(), [&](size_t k) { return weights[k]; });
+    std::ranges::sort(order, {}, [&](size_t k) { return std::pair(-weights[k], k); });
     for (size_t k = 0; k < 3; ++k) {
         point.vertices[k] = corners[order[k]];
         point.position += weights[k] * positions[corners[k]];

@@ -28,14 +28,23 @@ Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point) {
            point.weights[2] * surface.positions[c];
 }
 
+namespace {
+
+// To a sum of 1, but for rounding; a corner has the weight 1.
+void scale(std::array<double, 3>& weights) {
+    constexpr double ROUNDED = 1e-15; // by how much a sum may be off
+    const double sum = weights[0] + weights[1] + weights[2];
+    if (std::ranges::count(weights, 0.0) == 2 || std::abs(sum - 1) > ROUNDED)
+        for (double& weight : weights) weight /= sum;
+}
+
+}
+
 std::array<double, 3> without_negligible(std::array<double, 3> weights) {
-    constexpr double ROUNDED_SUM = 1e-15; // by how much the sum of weights may be off 1
+    scale(weights);
     for (double& weight : weights)
         if (weight < NEGLIGIBLE_WEIGHT) weight = 0;
-    const double sum = weights[0] + weights[1] + weights[2];
-    const bool is_at_corner = std::ranges::count(weights, 0.0) == 2;
-    if (is_at_corner || std::abs(sum - 1) > ROUNDED_SUM)
-        for (double& weight : weights) weight /= sum;
+    scale(weights);
     return weights;
 }
 

@@ -60,7 +60,8 @@ uint32_t vertex_at(const Surface& surface, const SurfacePoint& point);
 // and give back is the same point, on the same edges and vertices.
 inline constexpr double NEGLIGIBLE_WEIGHT = 1e-12;
 
-// These weights without those that are negligible. What it returns comes back with the same bits.
+// Weights that are not negative, scaled to 1 in sum, without those under NEGLIGIBLE_WEIGHT. Applied to what
+// it returned, it changes no bit, so that a point that is given out and comes back is the same one.
 std::array<double, 3> without_negligible(std::array<double, 3> weights);
 
 // The corner of a face that a vertex is, or NONE.
