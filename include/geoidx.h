@@ -127,10 +127,11 @@ enum { GEOIDX_POSITION_FLOAT = 0, GEOIDX_POSITION_DOUBLE = 1 };
  * at the place of a used one is reached as that one is, whereas unused vertices that are welded to each
  * other only are unreachable from each other, too. Any number of components, open boundaries, any genus,
  * either orientation, vertices where several fans of triangles meet, and edges with three or more triangles
- * are fine: paths pass from each of them to every other. A NaN or infinite position, a double that is larger
- * than the largest float, an id out of range, no vertices, no triangles, none that is not degenerate, and a
- * bounding box whose diagonal is no normal float are GEOIDX_ERROR_BAD_MESH. More vertices or triangles than
- * below, and 2^31 edges or more, are GEOIDX_ERROR_LIMIT. */
+ * are fine: paths pass from each of them to every other. GEOIDX_ERROR_BAD_MESH:
+ * a position that is NaN or infinite, a double larger than the largest float, an id out of range, a mesh
+ * without vertices, without triangles or with degenerate ones only, and one whose bounding box has a diagonal
+ * that is no normal float (0, smaller than FLT_MIN, or infinite). More vertices or triangles than below, and
+ * 2^31 edges or more, are GEOIDX_ERROR_LIMIT. */
 typedef struct geoidx_mesh {
     uint32_t struct_size;
     uint32_t position_type;    /* GEOIDX_POSITION_FLOAT (default) or GEOIDX_POSITION_DOUBLE */
@@ -210,7 +211,7 @@ typedef struct geoidx_build_options {
     uint32_t level_count;
     /* patches[0] is n1, the number of patches of level 1; patches[i] how many each patch of level i is split
      * into (patches[1] is n2). A patch is connected, so there can be more. 0 (default): in proportion to the
-     * triangles. Beyond level_count, if that is not 0, they are not looked at. */
+     * triangles. Numbers beyond level_count are not read, unless that is 0. */
     uint32_t patches[8];
     uint32_t lloyd_iterations; /* relaxations of the seeds (paper 3.1), 0 .. 1000; default 4 */
     /* Costs and lengths are GEOIDX_ERROR_INVALID_ARGUMENT with a metric that does not take them. They are
@@ -226,7 +227,8 @@ typedef struct geoidx_build_options {
     void* progress_user;
     geoidx_allocator allocator;
     uint32_t refuse_edges_of_many; /* 1: an edge with more than two triangles is GEOIDX_ERROR_BAD_MESH; 0
-                                      (default): paths pass from each to every other */
+                                      (default): paths pass from each to every other; other values are
+                                      GEOIDX_ERROR_INVALID_ARGUMENT */
     uint32_t metric_flags; /* what GEOIDX_METRIC_CALLBACK declares itself to be: GEOIDX_METRIC_UNFOLDABLE or 0
                               (default: symmetric only); not used by other metrics. Unknown flags are
                               GEOIDX_ERROR_INVALID_ARGUMENT, whatever the metric */
@@ -491,8 +493,9 @@ GEOIDX_API geoidx_status geoidx_open_memory(const void* data, uint64_t size,
 
 GEOIDX_API void geoidx_close(geoidx* index);
 
-/* Fills *info, at most its struct_size, and sets struct_size to how many bytes were filled: this library does
- * not know fields behind these. */
+/* Fills *info, as many bytes of it as its struct_size says and this library knows, and sets struct_size to
+ * their number. Fields behind these stay as they are: a struct of a later header has some that this library
+ * does not know. */
 GEOIDX_API geoidx_status geoidx_get_info(const geoidx* index, geoidx_info* info);
 
 /* The sections of the file that the index was opened from, in the order of the file; an index that was built
@@ -643,8 +646,9 @@ GEOIDX_API geoidx_status geoidx_closest_point(const geoidx_surface* surface, con
 /* Single source, single destination. Symmetric bit for bit; 0 for a vertex and itself. Two vertices of one
  * leaf, not both of them on its border, are as far apart as the metric says: to float precision by
  * GEOIDX_ENGINE_GRAPH, whose distances are never below the metric by more than that; by GEOIDX_ENGINE_OVERLAY
- * to half a step of the leaf's table, and no step is longer than geoidx_info.largest_step (see `rounding`).
- */
+ * to half a step of the leaf's table, or to one step where they are nearer than that, and with
+ * GEOIDX_METRIC_EXACT to the tolerance that tables are measured with (see `rounding`). No step is longer than
+ * geoidx_info.largest_step. */
 GEOIDX_API geoidx_status geoidx_sssd(const geoidx* index, uint32_t source, uint32_t target, float* distance);
 
 /* pair_count pairs: source_target_pairs[2 i] and [2 i + 1] give distances[i], the same bits as geoidx_sssd.
@@ -717,7 +721,7 @@ GEOIDX_API geoidx_status geoidx_query_nearest_sources(geoidx_query* query, const
  * with the measured pairs of each.
  * GEOIDX_ENGINE_OVERLAY looks only into patches within the radius of each source, and takes time in
  * proportion to that; its scratch is 4 bytes a vertex, 4 to 8 more for the ids, and some 20 for each vertex
- * that is found. */
+ * that is found, up to 60 from several sources. */
 GEOIDX_API geoidx_status geoidx_query_within(geoidx_query* query, const uint32_t* sources,
                                              uint32_t source_count, float radius, uint32_t* vertices,
                                              float* distances, uint32_t capacity, uint32_t* count);
@@ -886,11 +890,12 @@ GEOIDX_API geoidx_status geoidx_query_path(geoidx_query* query, const geoidx_sur
                                            const geoidx_surface_point* target, uint32_t quality,
                                            double* length);
 
-/* The points of the latest path, from source to target: at least two. *count is always set to their number,
- * 0 if there is no path; when capacity is smaller, nothing is written and GEOIDX_ERROR_INVALID_ARGUMENT is
- * returned, unless points is NULL and capacity 0, which asks for the number and succeeds. The piece
- * from each point to the next one is the straight line, on the triangle of the first of them. Two points in a
- * row may be at one position, where the path passes a triangle without area: they are on both sides of it. */
+/* The points of the latest path, from source to target: at least two. *count is set to their number,
+ * 0 if there is no path or the call fails; when capacity is smaller, nothing is written and
+ * GEOIDX_ERROR_INVALID_ARGUMENT is returned, unless points is NULL and capacity 0, which asks for the number
+ * and succeeds. The piece from each point to the next one is the straight line, on the triangle of the first
+ * of them. Two points in a row may be at one position, where the path passes a triangle without area: they
+ * are on both sides of it. */
 GEOIDX_API geoidx_status geoidx_query_path_points(const geoidx_query* query, geoidx_path_point* points,
                                                   uint64_t capacity, uint64_t* count);
 

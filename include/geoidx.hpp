@@ -149,17 +149,11 @@ public:
     }
 
     std::vector<std::byte> bytes(const geoidx_save_options* options = nullptr) const {
-        // More than most files have: asking for their number would make them twice.
-        const geoidx_info about = info();
-        const std::uint64_t likely = 8 * about.table_entries + 64 * about.vertex_count + (1 << 16);
-        std::uint64_t size = likely;
-        for (;;) {
-            const std::uint64_t capacity = size;
-            const std::unique_ptr<std::byte[]> file(new std::byte[static_cast<std::size_t>(capacity)]);
-            const geoidx_status status = geoidx_save_memory(get(), options, file.get(), capacity, &size);
-            if (size <= capacity) check(status);
-            if (size <= capacity) return std::vector<std::byte>(file.get(), file.get() + size);
-        }
+        std::uint64_t size = 0;
+        check(geoidx_save_memory(get(), options, nullptr, 0, &size));
+        std::vector<std::byte> file(size);
+        check(geoidx_save_memory(get(), options, file.data(), file.size(), &size));
+        return file;
     }
 
     // Of the file that the index was opened from.

@@ -32,7 +32,7 @@ private:
     Query* query_;
 };
 
-// That there is one at all is checked by who takes them.
+// An empty list passes: Query::take_sources() says that there is no source.
 void check_sources(std::span<const uint32_t> sources) {
     require(sources.empty() || sources.data(), "sources is NULL");
 }
@@ -369,6 +369,7 @@ geoidx_status geoidx_query_path(geoidx_query* query, const geoidx_surface* surfa
 
 geoidx_status geoidx_query_path_points(const geoidx_query* query, geoidx_path_point* points,
                                        uint64_t capacity, uint64_t* count) {
+    if (count) *count = 0;
     return guarded([&] {
         require(query, "query is NULL");
         require(count, "count is NULL");

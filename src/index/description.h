@@ -49,7 +49,8 @@ struct Description {
     uint32_t engine = 0;                          // GEOIDX_ENGINE_*
     uint32_t codec = 0;                           // GEOIDX_CODEC_*: the form of the tables in the file
     uint32_t file_flags = 0;                      // GEOIDX_SAVE_NO_POSITIONS if the file leaves them out
-    uint32_t format_minor = format::FORMAT_MINOR; // of the file that it was opened from
+    uint32_t format_minor = format::FORMAT_MINOR; // of the file that it was opened from or, of one that was
+                                                  // built, will be saved as
 
     bool operator==(const Description&) const = default;
 };

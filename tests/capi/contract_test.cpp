@@ -411,6 +411,9 @@ TEST_CASE("save_memory tells the size and never writes a part") {
     uint32_t sections = 7;
     CHECK(geoidx_get_sections(nullptr, nullptr, 0, &sections) == GEOIDX_ERROR_INVALID_ARGUMENT);
     CHECK(sections == 0);
+    told = 7;
+    CHECK(geoidx_query_path_points(nullptr, nullptr, 0, &told) == GEOIDX_ERROR_INVALID_ARGUMENT);
+    CHECK(told == 0);
 }
 
 TEST_CASE("the data of open_memory is not needed after the call") {

@@ -95,9 +95,9 @@ namespace Geoidx
         /// <summary>
         /// <see cref="GeodesicEngine.Overlay"/>: distances are rounded to multiples of this share of the way from a
         /// vertex to the next, 0 to 1, but never to more than 1/8192 of the longest way on the surface around it, and
-        /// only to 16 bits in an index of fewer than 65,536 table entries. Default: 1/64, which changes an entry by at most
-        /// 0.8 % of the way to the next vertex. 0: to 16 bits only. Twice the share saves one bit of each table entry
-        /// in a file that is <see cref="GeodesicCodec.Packed"/>.
+        /// only to 16 bits in an index of fewer than 65,536 table entries. Default: 1/64, which changes an entry by at
+        /// most 0.8 % of the way to the next vertex. 0: to 16 bits only. Twice the share saves one bit of each table
+        /// entry in a file that is <see cref="GeodesicCodec.Packed"/>.
         /// </summary>
         public double Rounding { get; set; }
 

@@ -17,8 +17,8 @@ namespace Geoidx
         /// <param name="mesh">The mesh; its arrays are not needed afterwards.</param>
         /// <param name="options">
         /// The metric, what belongs to it, <see cref="BuildOptions.WeldTolerance"/>,
-        /// <see cref="BuildOptions.RefuseEdgesOfMany"/> and <see cref="BuildOptions.SolverTolerance"/>; of the others
-        /// numbers that must not be negative are refused if they are, and no more is looked at. Null: the defaults.
+        /// <see cref="BuildOptions.RefuseEdgesOfMany"/> and <see cref="BuildOptions.SolverTolerance"/>; the others
+        /// are not used; a negative number among those that must not be negative is still refused. Null: the defaults.
         /// </param>
         /// <exception cref="GeodesicException">The status says what failed, the message where.</exception>
         public GeodesicSolver(GeodesicMesh mesh, BuildOptions? options = null)
