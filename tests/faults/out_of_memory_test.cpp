@@ -472,7 +472,7 @@ TEST_CASE("out of memory while building") {
         for (uint32_t threads = 1; threads <= 4; threads += NEXT_THREADS)
             for (Source source : SOURCES) {
                 CAPTURE(threads);
-                const uint64_t stride = source == Source::caller ? 13 : 2999;
+                const uint64_t stride = (source == Source::caller ? 13 : 2999) * (SANITIZED ? 3 : 1);
                 const uint64_t failed = try_with_faults(source, stride, [&](Fault& fault) {
                     auto options = options_of(engine, threads);
                     options.allocator = fault.allocator();
@@ -495,7 +495,7 @@ TEST_CASE("out of memory while building a small index") {
         auto options = options_of(engine, 2);
         options.level_count = 1;
         options.metric = GEOIDX_METRIC_EDGES;
-        try_with_faults(Source::process, SANITIZED ? 17 : 5, [&](Fault& fault) {
+        try_with_faults(Source::process, SANITIZED ? 47 : 5, [&](Fault& fault) {
             geoidx* index = nullptr;
             const geoidx_status status = fault.disturb([&] { return geoidx_build(&view, &options, &index); });
             CHECK((status == GEOIDX_OK) == (index != nullptr));

@@ -377,7 +377,7 @@ TestMesh rough(uint32_t columns, uint32_t rows) {
     return mesh;
 }
 
-TEST_CASE("hop: as the text has it over large overlays" * doctest::skip(SANITIZED)) {
+TEST_CASE("hop: as the text has it over large overlays") {
     const Built built(mesh_of_long_borders(), options_of_plane(mesh_of_long_borders(), {2, 2, 3}));
     const auto& is_large = built.overlay().is_large;
     CHECK(std::ranges::count(is_large, 1) > 1);
@@ -419,7 +419,7 @@ TEST_CASE("hop: as the text has it where tables lack paths") {
 }
 
 // A file may state any length. Squares of these are no floats, so that no way is straightened.
-TEST_CASE("hop: over segments of any length, every distance is written" * doctest::skip(SANITIZED)) {
+TEST_CASE("hop: over segments of any length, every distance is written") {
     const Built whole(with_holes(hills(26, 24)), options_of(GEOIDX_METRIC_EXACT, {3, 3}));
     for (const float length : {1e-30f, 2e37f, 5e37f, 3e38f}) {
         CAPTURE(length);

@@ -8,6 +8,7 @@
 
 #include "tests/query/query_cases.h"
 #include "tests/support/edge_lengths.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 

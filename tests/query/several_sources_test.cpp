@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tests/query/query_cases.h"
+#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 

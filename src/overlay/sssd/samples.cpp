@@ -1,11 +1,12 @@
 #include "src/overlay/sssd/samples.h"
-#include "src/base/array.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
+
+#include "src/base/array.h"
 
 namespace geodesic {
 
