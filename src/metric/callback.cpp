@@ -20,7 +20,7 @@ private:
         for (uint32_t i = 0; i < request.sources.size(); ++i) {
             check_cancelled();
             ask(request.sources[i]);
-            // A source is 0 from itself, whatever the callback answers of that.
+            // A source is 0 from itself, also where the callback answers more.
             for (size_t k = 0; k < targets_.size(); ++k)
                 improve(targets_[k], targets_[k] == request.sources[i] ? 0 : answer_[k], i);
         }

@@ -28,8 +28,8 @@ uint32_t child_count(const HierarchyOptions& options, uint32_t level, size_t fac
     return static_cast<uint32_t>(std::clamp(std::floor(count * (own / average) + 0.5), 1.0, own));
 }
 
-// Returns the least number of levels that gives this many leaves if a patch is split into `largest_split`
-// others, more than one, at most.
+// Returns the least number of levels that gives this many leaves if a patch is split into at most
+// `largest_split` others, which must be more than 1.
 uint32_t fewest_levels(double leaves, double largest_split) {
     uint32_t count = 1;
     for (double most = largest_split; most < leaves; most *= largest_split) ++count;

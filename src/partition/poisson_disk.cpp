@@ -16,24 +16,34 @@ void add_sample(FieldSolver& solver, std::span<const uint32_t> candidates, uint3
         nearest[i] = std::min(nearest[i], solver.distance(candidates[i]));
 }
 
-// Returns, for each candidate, a bound on how far apart any two of its component are: twice the distance of
-// the farthest one from some vertex of the component.
+// Returns, for each candidate, a bound on how far apart any two are that the metric joins to it: twice the
+// distance of the farthest one from some vertex among these. A metric need not join all that edges join,
+// since a caller's may have walls: candidates of a part that some solves do not reach count as 0, and get no
+// sample.
 std::vector<double> widths(FieldSolver& solver, const Mesh& mesh, std::span<const uint32_t> candidates) {
+    constexpr int MOST_SOLVES = 8; // of a part
     const Parts parts = parts_of(mesh);
     std::vector<uint32_t> part_of;
     for (const uint32_t candidate : candidates) part_of.push_back(parts.of_vertex[candidate]);
     const auto members = group_by(part_of, static_cast<uint32_t>(parts.parts.size()));
     std::vector<double> result(candidates.size(), 0);
-    std::vector<uint32_t> vertices;
+    std::vector<uint32_t> left, vertices; // of one part: those that no solve has reached
     for (size_t part = 0; part < members.size(); ++part) {
-        vertices.clear();
-        for (const uint32_t i : members[part]) vertices.push_back(candidates[i]);
-        if (vertices.empty()) continue;
-        solver.solve(std::span(vertices).first(1), vertices);
-        double farthest = 0;
-        for (const uint32_t vertex : vertices)
-            if (solver.distance(vertex) < UNREACHABLE) farthest = std::max(farthest, solver.distance(vertex));
-        for (const uint32_t i : members[part]) result[i] = 2 * farthest;
+        left.assign(members[part].begin(), members[part].end());
+        for (int solve = 0; solve < MOST_SOLVES && !left.empty(); ++solve) {
+            vertices.clear();
+            for (const uint32_t i : left) vertices.push_back(candidates[i]);
+            solver.solve(std::span(vertices).first(1), vertices);
+            double farthest = 0;
+            for (const uint32_t vertex : vertices)
+                if (solver.distance(vertex) < UNREACHABLE)
+                    farthest = std::max(farthest, solver.distance(vertex));
+            std::erase_if(left, [&](uint32_t i) {
+                if (solver.distance(candidates[i]) == UNREACHABLE) return false;
+                result[i] = 2 * farthest;
+                return true;
+            });
+        }
     }
     return result;
 }
@@ -44,7 +54,7 @@ std::vector<double> widths(FieldSolver& solver, const Mesh& mesh, std::span<cons
 // Whenever no candidate lies outside all disks, the radius of the disks shrinks, until there are enough
 // samples. Distances that were found for a larger radius stay valid for a smaller one.
 //
-// A component that has no sample yet counts as its width away from the nearest one, not as infinitely far. So
+// A component that has no sample yet counts as its width (see widths()) away from the nearest sample. So
 // loose triangles beside a large body get a sample only once the disks on the body are no larger than they
 // are.
 std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, const Mesh& mesh,

@@ -19,7 +19,7 @@ uint32_t cell_of_face(const FieldSolver& solver, const std::array<uint32_t, 3>& 
 }
 
 // Returns the cell that all faces of the patch around a vertex belong to, or NONE if the vertex lies on a
-// border of a cell or of the patch. Vertices of no face with a cell are not among them.
+// border of a cell or of the patch. Vertices in components without a seed are left out.
 std::unordered_map<uint32_t, uint32_t> only_cells(const Mesh& mesh, std::span<const uint32_t> faces,
                                                   std::span<const uint32_t> cell) {
     struct Around {

@@ -85,6 +85,29 @@ TEST_CASE("a callback need not know that a vertex is 0 from itself") {
     }
 }
 
+// Vertices that nothing joins, as walls, are parts of the mesh all the same.
+TEST_CASE("a mesh is split although a callback joins some vertices to no other") {
+    const auto distances = [](void* user, uint32_t source, const uint32_t* targets, uint32_t count,
+                              double* out) {
+        const auto& mesh = *static_cast<const TestMesh*>(user);
+        const auto is_wall = [](uint32_t v) { return v % 10 == 3; };
+        for (uint32_t i = 0; i < count; ++i)
+            out[i] = is_wall(source) || is_wall(targets[i]) ? std::numeric_limits<double>::infinity()
+                                                            : mesh.straight(source, targets[i]);
+        return geoidx_status{GEOIDX_OK};
+    };
+    TestMesh mesh = grid(30, 30);
+    for (uint64_t seed = 1; seed <= 10; ++seed) {
+        auto options = build_options(GEOIDX_METRIC_CALLBACK, 1);
+        options.patches[0] = 6;
+        options.seed = seed;
+        options.metric_callback = distances;
+        options.metric_user = &mesh;
+        const auto index = build(mesh, options);
+        CHECK(info_of(index.get()).patch_count[0] >= 4);
+    }
+}
+
 TEST_CASE("face costs count, in the index and without one") {
     const TestMesh mesh = hills(9, 9);
     const std::vector<double> ones(mesh.triangles.size() / 3, 1), threes(ones.size(), 3);
