@@ -162,7 +162,8 @@ enum { GEOIDX_METRIC_UNFOLDABLE = 1 };
 /* The caller's own metric: writes the distance from `source` to each of `targets` (ids of the caller's mesh)
  * into `distances` and returns GEOIDX_OK; any other value stops the build with GEOIDX_ERROR_CALLBACK.
  * Distances are symmetric, not negative, obey the triangle inequality, and are +INFINITY where there is no
- * path. Called from several threads at once unless `threads` is 1. */
+ * path. What is written for `source` itself is taken as 0. Called from several threads at once unless
+ * `threads` is 1. */
 typedef geoidx_status (*geoidx_metric_fn)(void* user, uint32_t source, const uint32_t* targets,
                                           uint32_t target_count, double* distances);
 
@@ -646,7 +647,7 @@ GEOIDX_API geoidx_status geoidx_closest_point(const geoidx_surface* surface, con
 /* Single source, single destination. Symmetric bit for bit; 0 for a vertex and itself. Two vertices of one
  * leaf, not both of them on its border, are as far apart as the metric says: to float precision by
  * GEOIDX_ENGINE_GRAPH, whose distances are never below the metric by more than that; by GEOIDX_ENGINE_OVERLAY
- * to half a step of the leaf's table, or to one step where they are nearer than that, and with
+ * to half a step of the leaf's table, or to one step where they are nearer than a step, and with
  * GEOIDX_METRIC_EXACT to the tolerance that tables are measured with (see `rounding`). No step is longer than
  * geoidx_info.largest_step. */
 GEOIDX_API geoidx_status geoidx_sssd(const geoidx* index, uint32_t source, uint32_t target, float* distance);
@@ -891,11 +892,11 @@ GEOIDX_API geoidx_status geoidx_query_path(geoidx_query* query, const geoidx_sur
                                            double* length);
 
 /* The points of the latest path, from source to target: at least two. *count is set to their number,
- * 0 if there is no path or the call fails; when capacity is smaller, nothing is written and
- * GEOIDX_ERROR_INVALID_ARGUMENT is returned, unless points is NULL and capacity 0, which asks for the number
- * and succeeds. The piece from each point to the next one is the straight line, on the triangle of the first
- * of them. Two points in a row may be at one position, where the path passes a triangle without area: they
- * are on both sides of it. */
+ * also where capacity is too small, and to 0 if there is no path or query is NULL; when capacity is smaller,
+ * nothing is written and GEOIDX_ERROR_INVALID_ARGUMENT is returned, unless points is NULL and capacity 0,
+ * which asks for the number and succeeds. The piece from each point to the next one is the straight line, on
+ * the triangle of the first of them. Two points in a row may be at one position, where the path passes a
+ * triangle without area: they are on both sides of it. */
 GEOIDX_API geoidx_status geoidx_query_path_points(const geoidx_query* query, geoidx_path_point* points,
                                                   uint64_t capacity, uint64_t* count);
 

@@ -32,7 +32,8 @@ struct DistanceScale {
 };
 DistanceScale distance_scale(const Description& about, const Mesh& mesh, const ExactFields& exact);
 
-// An index and the mesh that it was built from, which the metric is asked on.
+// What is compared: answers of an index with the metric, between the vertices of the mesh that it was built
+// from, at distances that `scale` counts.
 struct Compared {
     const Index& index;
     const Intake& intake;
@@ -46,8 +47,8 @@ std::vector<double> relative_errors(const Index& index, Crossing crossing,
                                     std::span<const uint32_t> vertex_of_number, const ExactFields& exact,
                                     Workers& workers);
 
-// The figures of signed relative errors, in any order, of so many sources. Those at vertices, by distance and
-// of several sources stay 0, and all do where there are no errors.
+// The mean, the quantiles and the maximum of signed relative errors, in any order, and the number of sources
+// that they are of. The other figures stay 0; without errors, all but that number do.
 MeasuredError summary(std::vector<double> errors, size_t sources);
 
 // Whether the answers of MSAD depend on where paths cross borders.

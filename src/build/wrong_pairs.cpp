@@ -69,8 +69,8 @@ public:
     const ErrorsByDistance& let_pass() const { return let_pass_; }
 
 private:
-    // Pairs that are off by their whole length or more, most of them infinitely: raising the limit does not
-    // make these fewer.
+    // Pairs that are off by their whole length or more, most of them infinitely: raising the limit to about 1
+    // does not make these fewer.
     size_t certainly_held() const {
         return static_cast<size_t>(
             std::ranges::count_if(held_, [](const WrongPair& wrong) { return wrong.error >= 1; }));

@@ -44,13 +44,13 @@ struct Description {
     double delta = 0;      // in % of the diagonal
     double bounding_box_diagonal = 0;
     MeasuredError error;
-    uint64_t metric_fingerprint = 0;              // of what decides the metric besides the mesh, or 0
-    uint32_t metric_flags = 0;                    // GEOIDX_METRIC_UNFOLDABLE or 0
-    uint32_t engine = 0;                          // GEOIDX_ENGINE_*
-    uint32_t codec = 0;                           // GEOIDX_CODEC_*: the form of the tables in the file
-    uint32_t file_flags = 0;                      // GEOIDX_SAVE_NO_POSITIONS if the file leaves them out
-    uint32_t format_minor = format::FORMAT_MINOR; // of the file that it was opened from or, of one that was
-                                                  // built, will be saved as
+    uint64_t metric_fingerprint = 0; // of what decides the metric besides the mesh, or 0
+    uint32_t metric_flags = 0;       // GEOIDX_METRIC_UNFOLDABLE or 0
+    uint32_t engine = 0;             // GEOIDX_ENGINE_*
+    uint32_t codec = 0;              // GEOIDX_CODEC_*: the form of the tables in the file
+    uint32_t file_flags = 0;         // GEOIDX_SAVE_NO_POSITIONS if the file leaves them out
+    // Of the file that it was opened from, or that it would be saved as.
+    uint32_t format_minor = format::FORMAT_MINOR;
 
     bool operator==(const Description&) const = default;
 };

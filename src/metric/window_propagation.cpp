@@ -196,7 +196,8 @@ bool WindowPropagation::windows_multiply(const FieldRequest& request) const {
     return carried_on_ > MOST_WINDOWS * (settled_ + in_any_case);
 }
 
-// Whether all that is asked for is final before this event.
+// Whether the solve ends before this event: it is beyond the radius, or all that is asked for is final. If
+// so, distances are final up to the event before, unless bounds have left something out since.
 bool WindowPropagation::ends_at(const EventQueue::Event& event, const FieldRequest& request) {
     const bool is_all = is_done_ && settled_ >= request.final_count;
     if (event.distance <= request.radius && !is_all) return false;

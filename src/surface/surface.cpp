@@ -30,7 +30,8 @@ Eigen::Vector3d position_of(const Surface& surface, const SurfacePoint& point) {
 
 namespace {
 
-// To a sum of 1, but for rounding; a corner has the weight 1.
+// Divides weights by their sum, unless it is 1 but for rounding. Of a point at a corner, the weight is
+// exactly 1 then.
 void scale(std::array<double, 3>& weights) {
     constexpr double ROUNDED = 1e-15; // by how much a sum may be off
     const double sum = weights[0] + weights[1] + weights[2];

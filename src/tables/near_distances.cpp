@@ -20,8 +20,8 @@ void NearDistances::take(uint32_t vertex, const FieldSolver& solver) {
                                  [](const Near& n) { return std::pair(n.distance, n.vertex); });
         around.reach = double{last->distance};
         near.resize(around.count);
-        std::ranges::sort(near, {},
-                          &Near::vertex); // nth_element leaves them in another order by each library
+        // By vertex, since each library's nth_element leaves them in another order.
+        std::ranges::sort(near, {}, &Near::vertex);
     }
     around.near.assign(near.begin(), near.end());
 }

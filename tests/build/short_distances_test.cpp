@@ -34,7 +34,7 @@ TEST_CASE("short distances: a pole of twins decides nothing and is not stated" *
     const auto index = shared_index(mesh, default_options());
     const geoidx_info info = info_of(index.get()), welded = info_of(build(mesh, welding).get());
     REQUIRE(info.welded_vertex_count == welded.welded_vertex_count + AROUND - 1);
-    const Errors errors = errors_of(index.get(), mesh, build_options(), {.step = 1, .shortest = 1e-6});
+    const Errors errors = errors_of(index.get(), mesh, build_options(), {.shortest = 1e-6});
     CHECK(errors.max < 0.011);
     CHECK(info.error_mean == doctest::Approx(errors.mean).epsilon(0.3));
     CHECK(info.error_max < 2 * std::max(errors.max, errors.pair_max));
@@ -79,7 +79,7 @@ TEST_CASE("short distances: those of edges 1e-4 times as long as others are comp
     const double edge = average_edge(lumpy(SINE_OF_PI)), radius = 1e-4 * edge;
     const TestMesh mesh = lumpy(radius);
     const auto index = shared_index(mesh, default_options());
-    const Asked short_ones{.step = 1, .shortest = 1e-7, .longest = 0.1 * edge};
+    const Asked short_ones{.shortest = 1e-7, .longest = 0.1 * edge};
     const Errors errors = errors_of(index.get(), mesh, build_options(), short_ones);
     CHECK(errors.max < 0.01 + MEASURED_ROUNDING);
     CHECK(errors.pair_max < 0.01 + MEASURED_ROUNDING);

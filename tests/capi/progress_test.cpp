@@ -113,7 +113,7 @@ TEST_CASE("cancelling at any call stops the build, which asks no more and leaks 
             CHECK(log.stages.back() == stage);
             CHECK(std::ranges::count(log.stages, stage) == 1);
         }
-        for (uint64_t k = 0; k < whole.fractions.size(); k += smaller(1, 3)) {
+        for (uint64_t k = 0; k < whole.fractions.size(); k += SANITIZED ? 3 : 1) {
             CAPTURE(k);
             Log log;
             log.cancel_at = k;

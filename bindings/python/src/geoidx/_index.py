@@ -107,8 +107,8 @@ class Index(Closable):
         exact_vertices: overlay tables of patches of up to so many vertices hold the metric's own distances.
         rounding: overlay tables hold distances in multiples of this share, 0 .. 1, of the way from a vertex to the
             next, for each patch by itself, but never of more than 1/8192 of the longest way on the surface around it,
-            and only to 16 bits in an index of fewer than 65,536 table entries. 0: to 16 bits only. Twice the share saves
-            one bit of each entry in a packed file.
+            and only to 16 bits in an index of fewer than 65,536 table entries. 0: to 16 bits only. Twice the share
+            saves one bit of each entry in a packed file.
         target_error: of the overlay engine with the exact metric and delta 0, the mean error, 0 .. 1, that the index
             is to have at most, where triangles are large also of fields from points within them, whose p99.9 is to be
             at most twenty times as much; the index does not state these. Where it is larger,
