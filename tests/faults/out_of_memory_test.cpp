@@ -3,7 +3,6 @@
 // some, by strides that are primes, so that they meet each kind; with GEOIDX_EVERY_FAULT in the environment
 // nothing is skipped, which takes about half an hour.
 
-#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -23,9 +22,6 @@ constexpr uint32_t ENGINES[] = {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY};
 
 // Of the allocations of a query, each of which is followed by every question.
 constexpr uint64_t ASKING_STRIDE = SANITIZED ? 17 : 3;
-// By whose allocations fail: the caller's, which are few, or the process's.
-constexpr std::array<uint64_t, 2> STRIDES_OF_BUILD =
-    SANITIZED ? std::array<uint64_t, 2>{41, 9001} : std::array<uint64_t, 2>{13, 2999};
 
 // One, and more: with a sanitizer not each number of them.
 constexpr uint32_t NEXT_THREADS = SANITIZED ? 3 : 1;
@@ -476,7 +472,7 @@ TEST_CASE("out of memory while building") {
         for (uint32_t threads = 1; threads <= 4; threads += NEXT_THREADS)
             for (Source source : SOURCES) {
                 CAPTURE(threads);
-                const uint64_t stride = STRIDES_OF_BUILD[source == Source::caller ? 0 : 1];
+                const uint64_t stride = source == Source::caller ? 13 : 2999;
                 const uint64_t failed = try_with_faults(source, stride, [&](Fault& fault) {
                     auto options = options_of(engine, threads);
                     options.allocator = fault.allocator();
