@@ -7,6 +7,7 @@
 
 #include "geoidx.h"
 
+#include "src/mesh/parts.h"
 #include "src/metric/edge_graph.h"
 #include "src/partition/split.h"
 
@@ -121,6 +122,8 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
     hierarchy.level_begin = {0, 1};
     const std::vector<double> lengths =
         options.edge_lengths.empty() ? edge_lengths(mesh) : options.edge_lengths;
+    const Parts parts = parts_of(mesh);
+    const Splitting splitting{mesh, lengths, parts.of_vertex, options.lloyd_iterations};
     std::vector<std::vector<uint32_t>> patches(1); // faces of the patches of the latest level
     for (uint32_t f = 0; f < mesh.face_count(); ++f) patches[0].push_back(f);
     OtherSolvers rough(options.rough_metric.get(), workers);
@@ -133,7 +136,7 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
             const uint32_t count = child_count(options, level, patches[i].size(), mesh.face_count());
             const auto split = [&](FieldSolver& by) {
                 Random random(seed_of_patch(options.seed, first + static_cast<uint32_t>(i)));
-                return split_patch(mesh, lengths, patches[i], count, options.lloyd_iterations, by, random);
+                return split_patch(splitting, patches[i], count, by, random);
             };
             const bool is_large = patches[i].size() > HierarchyOptions::LARGE_PATCH;
             Split best = options.rough_metric && is_large ? rough.use(split) : split(solver);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "src/mesh/parts.h"
+#include "src/mesh/mesh.h"
 
 namespace geodesic {
 
@@ -20,12 +20,12 @@ void add_sample(FieldSolver& solver, std::span<const uint32_t> candidates, uint3
 // distance of the farthest one from some vertex among these. A metric need not join all that edges join,
 // since a caller's may have walls: candidates of a part that some solves do not reach count as 0, and get no
 // sample.
-std::vector<double> widths(FieldSolver& solver, const Mesh& mesh, std::span<const uint32_t> candidates) {
+std::vector<double> widths(FieldSolver& solver, std::span<const uint32_t> part_of_vertex,
+                           std::span<const uint32_t> candidates) {
     constexpr int MOST_SOLVES = 8; // of a part
-    const Parts parts = parts_of(mesh);
     std::vector<uint32_t> part_of;
-    for (const uint32_t candidate : candidates) part_of.push_back(parts.of_vertex[candidate]);
-    const auto members = group_by(part_of, static_cast<uint32_t>(parts.parts.size()));
+    for (const uint32_t candidate : candidates) part_of.push_back(part_of_vertex[candidate]);
+    const auto members = group_by(part_of, std::ranges::max(part_of) + 1);
     std::vector<double> result(candidates.size(), 0);
     std::vector<uint32_t> left, vertices; // of one part: those that no solve has reached
     for (size_t part = 0; part < members.size(); ++part) {
@@ -57,7 +57,7 @@ std::vector<double> widths(FieldSolver& solver, const Mesh& mesh, std::span<cons
 // A component that has no sample yet counts as its width (see widths()) away from the nearest sample. So
 // loose triangles beside a large body get a sample only once the disks on the body are no larger than they
 // are.
-std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, const Mesh& mesh,
+std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, std::span<const uint32_t> part_of_vertex,
                                            std::span<const uint32_t> candidates, uint32_t count,
                                            Random& random) {
     constexpr double SHRINK = 0.8;
@@ -69,7 +69,7 @@ std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, const Mesh& mesh
     std::vector<uint32_t> samples{shuffled[0]};
     add_sample(solver, shuffled, samples[0], UNREACHABLE, nearest);
     if (std::ranges::max(nearest) == UNREACHABLE) {
-        nearest = widths(solver, mesh, shuffled);
+        nearest = widths(solver, part_of_vertex, shuffled);
         samples[0] = shuffled[static_cast<size_t>(std::ranges::max_element(nearest) - nearest.begin())];
         add_sample(solver, shuffled, samples[0], UNREACHABLE, nearest);
     }

@@ -17,13 +17,14 @@ namespace {
 using Faces = std::vector<uint32_t>;
 
 // Voronoi cells, one for each face.
-std::vector<uint32_t> relaxed_cells(const Mesh& mesh, std::span<const uint32_t> faces, uint32_t count,
-                                    uint32_t lloyd_iterations, FieldSolver& solver, Random& random) {
+std::vector<uint32_t> relaxed_cells(const Splitting& splitting, std::span<const uint32_t> faces,
+                                    uint32_t count, FieldSolver& solver, Random& random) {
     if (count == 1) return std::vector<uint32_t>(faces.size(), 0);
+    const Mesh& mesh = splitting.mesh;
     const auto vertices = vertices_of(mesh, faces);
-    auto seeds = poisson_disk_samples(solver, mesh, vertices, count, random);
+    auto seeds = poisson_disk_samples(solver, splitting.part_of_vertex, vertices, count, random);
     auto cell = voronoi_cells(solver, mesh, faces, seeds);
-    for (uint32_t i = 0; i < lloyd_iterations; ++i) {
+    for (uint32_t i = 0; i < splitting.lloyd_iterations; ++i) {
         relax_seeds(solver, mesh, faces, cell, seeds);
         cell = voronoi_cells(solver, mesh, faces, seeds);
     }
@@ -91,10 +92,11 @@ std::vector<Faces> connected_patches(const Mesh& mesh, std::span<const uint32_t>
 
 }
 
-Split split_patch(const Mesh& mesh, std::span<const double> edge_lengths, std::span<const uint32_t> faces,
-                  uint32_t count, uint32_t lloyd_iterations, FieldSolver& solver, Random& random) {
-    auto cell = relaxed_cells(mesh, faces, count, lloyd_iterations, solver, random);
-    const uint64_t border_cost = count == 1 ? 0 : shorten_borders(mesh, edge_lengths, faces, cell);
+Split split_patch(const Splitting& splitting, std::span<const uint32_t> faces, uint32_t count,
+                  FieldSolver& solver, Random& random) {
+    const Mesh& mesh = splitting.mesh;
+    auto cell = relaxed_cells(splitting, faces, count, solver, random);
+    const uint64_t border_cost = count == 1 ? 0 : shorten_borders(mesh, splitting.edge_lengths, faces, cell);
     return {connected_patches(mesh, faces, cell), border_cost};
 }
 

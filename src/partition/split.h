@@ -17,14 +17,21 @@ struct Split {
     uint64_t border_cost;
 };
 
+// What is the same for all patches of a mesh.
+struct Splitting {
+    const Mesh& mesh;
+    std::span<const double> edge_lengths;     // of all edges
+    std::span<const uint32_t> part_of_vertex; // see Parts
+    uint32_t lloyd_iterations;
+};
+
 // Splits a patch, given by its faces, into about `count` patches of faces, each connected, which are round by
 // the distances of the solver. There are more of them where the faces themselves are not connected.
-// edge_lengths are those of all edges of the mesh.
 //
 // A patch may have several border rings, as a section of a tube has. (The paper splits such a patch until
 // each part has one. That cuts tubes lengthwise, again and again, and makes the borders of lattices and of
 // meshes with handles many times longer.)
-Split split_patch(const Mesh& mesh, std::span<const double> edge_lengths, std::span<const uint32_t> faces,
-                  uint32_t count, uint32_t lloyd_iterations, FieldSolver& solver, Random& random);
+Split split_patch(const Splitting& splitting, std::span<const uint32_t> faces, uint32_t count,
+                  FieldSolver& solver, Random& random);
 
 }
