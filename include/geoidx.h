@@ -127,11 +127,11 @@ enum { GEOIDX_POSITION_FLOAT = 0, GEOIDX_POSITION_DOUBLE = 1 };
  * at the place of a used one is reached as that one is, whereas unused vertices that are welded to each
  * other only are unreachable from each other, too. Any number of components, open boundaries, any genus,
  * either orientation, vertices where several fans of triangles meet, and edges with three or more triangles
- * are fine: paths pass from each of them to every other. GEOIDX_ERROR_BAD_MESH:
- * a position that is NaN or infinite, a double larger than the largest float, an id out of range, a mesh
- * without vertices, without triangles or with degenerate ones only, and one whose bounding box has a diagonal
- * that is no normal float (0, smaller than FLT_MIN, or infinite). More vertices or triangles than below, and
- * 2^31 edges or more, are GEOIDX_ERROR_LIMIT. */
+ * are fine: paths pass from each of them to every other. GEOIDX_ERROR_BAD_MESH: a position that is NaN or
+ * infinite, a double larger than the largest float, an id out of range, a mesh without vertices, without
+ * triangles or with degenerate ones only, and one whose bounding box has a diagonal that is no normal float
+ * (0, smaller than FLT_MIN, or infinite). More vertices or triangles than below, and 2^31 edges or more, are
+ * GEOIDX_ERROR_LIMIT. */
 typedef struct geoidx_mesh {
     uint32_t struct_size;
     uint32_t position_type;    /* GEOIDX_POSITION_FLOAT (default) or GEOIDX_POSITION_DOUBLE */

@@ -22,10 +22,10 @@ struct BorderEdge {
 
 // The edges between two or more leaves, those with the largest deviations first. The deviation of an edge is
 // the mean, over the sources, of the relative error that the distance of its middle has if it is unfolded
-// from those of its two ends. Errors are
-// relative, so that an edge counts more for the sources near it, as it does for queries: more of their paths
-// cross it, and the same length is a larger share of these. The workers' metric is the exact one of this
-// mesh. Middles that are too near to have a relative error do not count.
+// from those of its two ends. Errors are relative, so that an edge counts more for the sources near it, as it
+// does for queries: more of their paths cross it, and the same length is a larger share of these. The
+// workers' metric is the exact one of this mesh. Middles that are too near to have a relative error do not
+// count.
 std::vector<BorderEdge> border_edges(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
                                      std::span<const uint32_t> sources, double too_short, Workers& workers);
 

@@ -32,7 +32,7 @@ private:
     Query* query_;
 };
 
-// An empty list passes: Query::take_sources() says that there is no source.
+// An empty list passes: where there must be a source, Query::take_sources() says that there is none.
 void check_sources(std::span<const uint32_t> sources) {
     require(sources.empty() || sources.data(), "sources is NULL");
 }
