@@ -5,24 +5,16 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <span>
 
+#include "src/build/short_distances.h"
 #include "src/index/description.h"
 #include "src/metric/metric.h"
 
 namespace geodesic {
 
-// Up to which distance a float beside the extent of a mesh does not tell two points from one. As a share of
-// such a distance, what is rounded anywhere on the mesh is large, and says nothing of answers: a program that
-// asks for sin(pi) gets some 1e-16, and a pole made by it is a ring of vertices that far apart. The extent is
-// the diagonal of the bounding box, or see too_short_to_count() where positions do not decide distances.
-inline double too_short_beside(double extent) {
-    return double{std::numeric_limits<float>::epsilon()} * extent;
-}
-
 // Whether an answer can have a relative error at this distance: whatever the builder states, compares or
-// averages as a share of distances leaves out the others.
+// averages as a share of distances leaves out the others. `too_short` is that of ShortDistances.
 inline bool has_relative_error(double exact, double too_short) {
     return exact > too_short && exact < UNREACHABLE;
 }
@@ -33,9 +25,9 @@ inline double relative_error(double exact, double answer) { return std::abs((ans
 // is the distance by the metric; answers are by the caller's ids, of which this is one for each vertex.
 template <class Exact, class Use>
 void for_each_comparison(std::span<const float> answers, std::span<const uint32_t> id_of_vertex,
-                         double too_short, const Exact& exact, const Use& use) {
+                         const ShortDistances& too_short, const Exact& exact, const Use& use) {
     for (uint32_t v = 0; v < id_of_vertex.size(); ++v)
-        if (const double distance = exact(v); has_relative_error(distance, too_short))
+        if (const double distance = exact(v); has_relative_error(distance, too_short.up_to(v)))
             use(distance, double{answers[id_of_vertex[v]]});
 }
 

@@ -98,7 +98,7 @@ void Filling::fill_tables(const SplitSurface& surface, std::span<const uint32_t>
 
 const ExactFields& Filling::fields(std::optional<ExactFields>& fields, uint64_t seed,
                                    Workers& workers) const {
-    if (!fields) fields = exact_fields(about_.seed ^ seed, intake_.mesh.vertex_count(), workers);
+    if (!fields) fields = exact_fields(about_, intake_.mesh, about_.seed ^ seed, workers);
     return *fields;
 }
 

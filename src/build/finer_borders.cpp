@@ -66,14 +66,15 @@ std::vector<double> deviations(const FieldSolver& solver, const Mesh& mesh, std:
 }
 
 std::vector<BorderEdge> border_edges(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
-                                     std::span<const uint32_t> sources, double too_short, Workers& workers) {
+                                     std::span<const uint32_t> sources, const ShortDistances& too_short,
+                                     Workers& workers) {
     std::vector<BorderEdge> edges = edges_between_leaves(mesh, leaf_of_face);
     const EdgePoints points = points_of(mesh, edges);
     std::vector<std::vector<double>> of_source(sources.size());
     if (!edges.empty())
         workers.run(sources.size(), [&](FieldSolver& solver, size_t i) {
             solver.solve({{&sources[i], 1}, points.ends, {}, points.middles});
-            of_source[i] = deviations(solver, mesh, edges, too_short);
+            of_source[i] = deviations(solver, mesh, edges, too_short.up_to(sources[i]));
         });
     for (const auto& added : of_source)
         for (size_t i = 0; i < added.size(); ++i)

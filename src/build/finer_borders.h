@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "src/build/short_distances.h"
 #include "src/mesh/mesh.h"
 #include "src/metric/workers.h"
 #include "src/partition/hierarchy.h"
@@ -24,10 +25,11 @@ struct BorderEdge {
 // the mean, over the sources, of the relative error that the distance of its middle has if it is unfolded
 // from those of its two ends. Errors are relative, so that an edge counts more for the sources near it, as it
 // does for queries: more of their paths cross it, and the same length is a larger share of these. The
-// workers' metric is the exact one of this mesh. Middles that are too near to have a relative error do not
-// count.
+// workers' metric is the exact one of this mesh. Middles that are too near a source to have a relative error
+// do not count.
 std::vector<BorderEdge> border_edges(const Mesh& mesh, std::span<const uint32_t> leaf_of_face,
-                                     std::span<const uint32_t> sources, double too_short, Workers& workers);
+                                     std::span<const uint32_t> sources, const ShortDistances& too_short,
+                                     Workers& workers);
 
 // How many of these edges, from the first on, have together at least this share of the sum of all
 // deviations. Edges without deviation are never among them.

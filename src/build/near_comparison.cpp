@@ -44,7 +44,7 @@ void NearComparison::compare(uint32_t source, std::vector<WrongPair>& wrong) {
 
 void NearComparison::correct_wrong() {
     for (const auto& near : near_.of(source_)) {
-        if (!has_relative_error(near.distance, too_short_)) continue;
+        if (!has_relative_error(near.distance, too_short_.up_to(source_))) continue;
         if (const double error = largest_error(near.vertex); error > limit_)
             correct(near.vertex, error);
         else
@@ -108,7 +108,7 @@ void NearComparison::make_less_steep(uint32_t vertex) {
         if (!is_near(other) || !is_too_steep(vertex, other)) continue;
         const uint32_t worse = field_[vertex].deviation() < field_[other].deviation() ? other : vertex;
         const Distances& distances = field_[worse];
-        if (!has_relative_error(distances.exact, too_short_)) continue;
+        if (!has_relative_error(distances.exact, too_short_.up_to(source_))) continue;
         if (!(distances.deviation() > LARGEST_ROUNDING * distances.exact)) continue;
         correct(worse, distances.error());
         open_.push_back(worse);

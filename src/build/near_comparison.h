@@ -70,8 +70,8 @@ private:
     const ListOfLists<uint32_t>& edge_ends_;
     const double limit_;
     const bool finds_steep_;
-    const double too_short_;        // distances to be compared
-    const double rounded_by_limit_; // up to which distance a step of codes may be the limit
+    const ShortDistances& too_short_; // to be compared
+    const double rounded_by_limit_;   // up to which distance a step of codes may be the limit
     Query query_;
     uint32_t source_ = NONE;
     std::vector<WrongPair>* wrong_ = nullptr;

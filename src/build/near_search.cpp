@@ -53,7 +53,7 @@ public:
     double disagreement() {
         double most = 0;
         for (uint32_t v = 0; v < intake_.mesh.vertex_count(); ++v)
-            if (const double d = msad(v); d > too_short_ && d <= radius_ && may_be_worse(v))
+            if (const double d = msad(v); d > too_short_.up_to(v) && d <= radius_ && may_be_worse(v))
                 most = std::max(most, relative_error(d, sssd(v)));
         return most;
     }
@@ -66,7 +66,8 @@ private:
     double radius_of_field() {
         nearest_.clear();
         for (uint32_t v = 0; v < intake_.mesh.vertex_count(); ++v)
-            if (const float d = msad(v); d > too_short_ && d <= largest_radius_) nearest_.push_back(d);
+            if (const float d = msad(v); d > too_short_.up_to(v) && d <= largest_radius_)
+                nearest_.push_back(d);
         if (nearest_.size() <= MOST_SEARCHED) return largest_radius_;
         const auto last = nearest_.begin() + MOST_SEARCHED - 1;
         std::ranges::nth_element(nearest_, last);
@@ -83,7 +84,8 @@ private:
 
     const Index& index_;
     const Intake& intake_;
-    const double largest_radius_, too_short_;
+    const double largest_radius_;
+    const ShortDistances& too_short_;
     Query query_;
     uint32_t source_ = NONE;
     double radius_ = 0;
@@ -118,7 +120,7 @@ private:
         solver_.solve({&source, 1}, {}, answers_.radius());
         for (uint32_t v = 0; v < vertex_count_; ++v)
             if (const double d = solver_.distance(v);
-                d <= answers_.radius() && has_relative_error(d, too_short_))
+                d <= answers_.radius() && has_relative_error(d, too_short_.up_to(v)))
                 near_.push_back(v);
     }
 
@@ -131,7 +133,7 @@ private:
     }
 
     const uint32_t vertex_count_;
-    const double too_short_;
+    const ShortDistances& too_short_;
     FieldSolver& solver_;
     Answers answers_;
     std::vector<uint32_t> near_; // vertices

@@ -55,7 +55,8 @@ private:
 
     const Index& index_;
     const Intake& intake_;
-    const double average_edge_, too_short_;
+    const double average_edge_;
+    const ShortDistances& too_short_;
     std::vector<Source> sources_;
     size_t compared_ = 0; // of the sources, the first ones
     std::vector<bool> is_source_;

@@ -89,7 +89,7 @@ void PointErrors::choose_points(const std::vector<double>& areas, uint64_t seed)
 }
 
 MeasuredError PointErrors::measure(const Index& index, Workers& workers) const {
-    const double too_short = too_short_beside(surface_.bounding_box_diagonal);
+    const ShortDistances too_short(surface_.parts);
     std::vector<std::vector<double>> of_point(points_.size());
     workers.run(points_.size(), [&](FieldSolver&, size_t i) {
         Query query(index, global_heap());

@@ -24,44 +24,63 @@ void answer(const Index& index, Crossing crossing, uint32_t source, std::span<fl
         GraphQuery(std::get<GraphIndex>(index.engine), memory).msad({&source, 1}, INFINITE, distance);
 }
 
-double mean_edge_at_sources(const Mesh& mesh, const ExactFields& exact, double too_short) {
+double mean_edge_at_sources(const Mesh& mesh, const ExactFields& exact) {
     double sum = 0;
     uint64_t count = 0;
     for (size_t i = 0; i < exact.sources.size(); ++i)
         for (const uint32_t v : neighbours(mesh, exact.sources[i]))
-            if (const double length = exact.distances[i][v]; has_relative_error(length, too_short)) {
+            if (const double length = exact.distances[i][v];
+                has_relative_error(length, exact.too_short.up_to(v))) {
                 sum += length;
                 ++count;
             }
     return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
+// The longest of these distances that is finite, or 0.
+double longest_of(std::span<const double> distances) {
+    double longest = 0;
+    for (const double distance : distances)
+        if (distance < UNREACHABLE) longest = std::max(longest, distance);
+    return longest;
 }
 
-ExactFields exact_fields(uint64_t seed, uint32_t vertex_count, Workers& workers) {
+// By the longest distances of the fields.
+ShortDistances short_by_fields(const Parts& parts, const ExactFields& exact) {
+    std::vector<double> extents(parts.parts.size(), 0);
+    for (size_t i = 0; i < exact.sources.size(); ++i) {
+        double& extent = extents[parts.of_vertex[exact.sources[i]]];
+        extent = std::max(extent, longest_of(exact.distances[i]));
+    }
+    double narrowest = INFINITE;
+    for (const double extent : extents)
+        if (extent > 0) narrowest = std::min(narrowest, extent);
+    ShortDistances result(parts.of_vertex, {});
+    for (const double extent : extents)
+        result.of_part.push_back(
+            ShortDistances::beside(extent > 0 || narrowest == INFINITE ? extent : narrowest));
+    return result;
+}
+
+}
+
+ExactFields exact_fields(const Description& about, const Mesh& mesh, uint64_t seed, Workers& workers) {
+    const uint32_t vertex_count = mesh.vertex_count();
+    const Parts parts = parts_of(mesh);
     Random random(seed);
-    ExactFields fields{std::vector<uint32_t>(SOURCES), std::vector<std::vector<double>>(SOURCES)};
+    ExactFields fields{std::vector<uint32_t>(SOURCES), std::vector<std::vector<double>>(SOURCES),
+                       ShortDistances(parts)};
     for (uint32_t& source : fields.sources) source = random.below(vertex_count);
     workers.run(SOURCES, [&](FieldSolver& solver, size_t i) {
         solver.solve({&fields.sources[i], 1}, {});
         for (uint32_t v = 0; v < vertex_count; ++v) fields.distances[i].push_back(solver.distance(v));
     });
+    if (!follows_positions(about)) fields.too_short = short_by_fields(parts, fields);
     return fields;
 }
 
-double too_short_to_count(const Description& about, const ExactFields& exact) {
-    if (follows_positions(about)) return too_short_beside(about.bounding_box_diagonal);
-    double longest = 0;
-    for (const auto& of_source : exact.distances)
-        for (const double distance : of_source)
-            if (distance < UNREACHABLE) longest = std::max(longest, distance);
-    return too_short_beside(longest);
-}
-
 DistanceScale distance_scale(const Description& about, const Mesh& mesh, const ExactFields& exact) {
-    const double too_short = too_short_to_count(about, exact);
-    return {too_short,
-            follows_positions(about) ? mean_edge(mesh) : mean_edge_at_sources(mesh, exact, too_short)};
+    return {exact.too_short, follows_positions(about) ? mean_edge(mesh) : mean_edge_at_sources(mesh, exact)};
 }
 
 std::vector<double> relative_errors(const Index& index, Crossing crossing,
@@ -69,7 +88,6 @@ std::vector<double> relative_errors(const Index& index, Crossing crossing,
                                     Workers& workers) {
     std::vector<uint32_t> number_of(vertex_of_number.size());
     for (uint32_t n = 0; n < vertex_of_number.size(); ++n) number_of[vertex_of_number[n]] = n;
-    const double too_short = too_short_to_count(index.description, exact);
     std::vector<std::vector<double>> errors(exact.sources.size());
     workers.run(errors.size(), [&](FieldSolver&, size_t i) {
         std::vector<float> answered(vertex_of_number.size());
@@ -78,7 +96,7 @@ std::vector<double> relative_errors(const Index& index, Crossing crossing,
             const uint32_t vertex = vertex_of_number[number];
             if (vertex >= exact.distances[i].size()) continue; // an added vertex
             const double distance = exact.distances[i][vertex];
-            if (has_relative_error(distance, too_short))
+            if (has_relative_error(distance, exact.too_short.up_to(vertex)))
                 errors[i].push_back((double{answered[number]} - distance) / distance);
         }
     });

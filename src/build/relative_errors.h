@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "src/build/short_distances.h"
 #include "src/mesh/intake.h"
 #include "src/mesh/mesh.h"
 #include "src/metric/workers.h"
@@ -15,20 +16,19 @@ namespace geodesic {
 struct ExactFields {
     std::vector<uint32_t> sources;
     std::vector<std::vector<double>> distances; // of each source, per vertex
+    ShortDistances too_short;
 };
 
-// Another seed chooses other sources.
-ExactFields exact_fields(uint64_t seed, uint32_t vertex_count, Workers& workers);
+// Another seed chooses other sources. Where positions alone do not decide distances, the extent of a part is
+// the longest distance of the fields in it, and one without a source counts as wide as the narrowest other.
+ExactFields exact_fields(const Description& about, const Mesh& mesh, uint64_t seed, Workers& workers);
 
-// Up to which distance answers have no relative error, see too_short_beside(). Where positions alone do not
-// decide distances, the longest one of these fields is the extent.
-double too_short_to_count(const Description& about, const ExactFields& exact);
-
-// What decides of a distance whether it counts, and to which class it belongs: see too_short_beside() and
-// ErrorsByDistance. The average edge is that of the mesh where positions alone decide distances, and by the
-// metric that of the edges at the sources of the fields where they do not.
+// What decides of a distance whether it counts, and to which class of ErrorsByDistance it belongs. The
+// average edge is that of the mesh where positions alone decide distances, and by the metric that of the
+// edges at the sources of the fields where they do not.
 struct DistanceScale {
-    double too_short, average_edge;
+    ShortDistances too_short;
+    double average_edge;
 };
 DistanceScale distance_scale(const Description& about, const Mesh& mesh, const ExactFields& exact);
 
@@ -37,7 +37,7 @@ DistanceScale distance_scale(const Description& about, const Mesh& mesh, const E
 struct Compared {
     const Index& index;
     const Intake& intake;
-    DistanceScale scale;
+    const DistanceScale& scale;
 };
 
 // The errors of MSAD from each of these sources alone, relative to the metric. vertex_of_number gives the

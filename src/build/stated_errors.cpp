@@ -82,7 +82,7 @@ struct FieldErrors {
 FieldErrors errors_of_field(const Compared& compared, const ExactFields& exact, size_t i,
                             bool counts_in_means, uint32_t pairs) {
     const auto& ids = compared.intake.id_of_vertex;
-    const double too_short = compared.scale.too_short;
+    const ShortDistances& too_short = compared.scale.too_short;
     FieldErrors errors{ErrorsByDistance(compared.scale.average_edge), {}};
     Query query(compared.index, global_heap());
     const auto& distances = exact.distances[i];
@@ -102,7 +102,7 @@ FieldErrors errors_of_field(const Compared& compared, const ExactFields& exact, 
     Random random(compared.index.description.seed ^ PAIR_SEED ^ i);
     for (uint32_t k = 0; k < pairs; ++k) {
         const uint32_t v = random.below(static_cast<uint32_t>(distances.size()));
-        if (!has_relative_error(distances[v], too_short)) continue;
+        if (!has_relative_error(distances[v], too_short.up_to(v))) continue;
         const double answer = query.sssd(source, ids[v]);
         errors.by_distance.of(distances[v]).add_to_max(relative_error(distances[v], answer));
     }

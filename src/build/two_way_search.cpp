@@ -102,14 +102,15 @@ std::vector<TwoWaySearch::Differences> TwoWaySearch::differences_of_directions(W
 
 // Those of several vertices together, since their answers lie side by side.
 void TwoWaySearch::find_largest(size_t first, size_t end, std::span<Differences> largest) const {
-    const auto too_short = static_cast<float>(too_short_);
-    for (uint32_t other = 0; other < vertices_.size(); ++other)
+    for (uint32_t other = 0; other < vertices_.size(); ++other) {
+        const auto too_short = static_cast<float>(too_short_.up_to(vertices_[other]));
         for (size_t place = first; place < end; ++place) {
             const auto [less, more] = std::minmax({answer(place, other), answer(other, place)});
             Difference& found = largest[place][class_of(less)];
             if (!(more > less * (1 + found.share)) || less <= too_short || more == INFINITE) continue;
             found = {more / less - 1, less, other};
         }
+    }
 }
 
 // Of random pairs and of those that they lead to: where SSSD loses a way, it often does so around both ends,
@@ -153,7 +154,7 @@ void TwoWaySearch::measure(Query& query, Pair& pair) const {
     Difference& difference = pair.difference;
     const auto [less, more] =
         std::minmax({answer(pair.place, difference.other), answer(difference.other, pair.place)});
-    if (!has_relative_error(less, too_short_) || more == INFINITE) return;
+    if (!has_relative_error(less, too_short_.up_to(vertices_[pair.place])) || more == INFINITE) return;
     const float answered = query.sssd(id_of(pair.place), id_of(difference.other));
     difference.distance = less;
     difference.share = std::max(answered / more, less / answered) - 1;
@@ -246,7 +247,8 @@ TwoWaySearch::WorstPair TwoWaySearch::compare_fields(const Source& source, const
     WorstPair worst{0, vertices_[source.place], vertices_[source.place]};
     for (uint32_t other = 0; other < vertices_.size(); ++other) {
         const double distance = exact.distance(vertices_[other]);
-        if (distance > source.radius || !has_relative_error(distance, too_short_)) continue;
+        if (distance > source.radius || !has_relative_error(distance, too_short_.up_to(vertices_[other])))
+            continue;
         for (const float answered : {answer(source.place, other), answer(other, source.place)}) {
             const double error = relative_error(distance, answered);
             errors.add_to_max_of_fields(distance, error);
@@ -261,7 +263,8 @@ void TwoWaySearch::compare_pairs(const Source& source, const FieldSolver& exact,
     Query query(index_, global_heap());
     for (const uint32_t other : source.of_pairs) {
         const double distance = exact.distance(vertices_[other]);
-        if (distance > source.radius || !has_relative_error(distance, too_short_)) continue;
+        if (distance > source.radius || !has_relative_error(distance, too_short_.up_to(vertices_[other])))
+            continue;
         const float answered = query.sssd(id_of(source.place), id_of(other));
         const double error = relative_error(distance, answered);
         errors.of(distance).add_to_max(error);

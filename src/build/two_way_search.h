@@ -85,7 +85,8 @@ private:
 
     const Index& index_;
     const Intake& intake_;
-    const double average_edge_, too_short_;
+    const double average_edge_;
+    const ShortDistances& too_short_;
     std::vector<uint32_t> vertices_; // that are compared now
     std::vector<float> answers_;     // of MSAD from each of them to each
     std::vector<WorstPair> worst_;   // of each source so far

@@ -240,7 +240,7 @@ private:
     MeasuredPairs& measured() const { return std::get<OverlayIndex>(index_.engine).measured; }
 
     const Intake& intake_;
-    const DistanceScale scale_;
+    const DistanceScale& scale_;
     NearDistances& near_;
     Workers& workers_;
     const double end_fraction_;

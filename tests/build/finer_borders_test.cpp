@@ -34,7 +34,8 @@ struct Split {
             faces, [&](uint32_t f) { return hierarchy.leaf_of_face[f] != hierarchy.leaf_of_face[faces[0]]; });
     }
     std::vector<BorderEdge> edges(std::span<const uint32_t> sources, double too_short = 0) {
-        return border_edges(mesh, hierarchy.leaf_of_face, sources, too_short, workers);
+        return border_edges(mesh, hierarchy.leaf_of_face, sources,
+                            {std::vector<uint32_t>(mesh.vertex_count(), 0), {too_short}}, workers);
     }
 };
 

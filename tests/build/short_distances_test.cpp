@@ -91,3 +91,18 @@ TEST_CASE("short distances: those of edges 1e-4 times as long as others are comp
     CHECK(of_rounded.max > 0.5);
     CHECK(info_of(rounded.get()).error_near_max > 0.5 * of_rounded.max);
 }
+
+TEST_CASE("short distances: a part that is wide and far away makes none of another part short") {
+    const TestMesh alone = lumpy(0.1);
+    TestMesh mesh = alone;
+    const uint32_t first = mesh.vertex_count();
+    mesh.positions.insert(mesh.positions.end(), {1e8, 0, 0, 1e8 + 1e7, 0, 0, 1e8, 1e7, 0});
+    mesh.triangles.insert(mesh.triangles.end(), {first, first + 1, first + 2});
+    const geoidx_info of_part = info_of(shared_index(alone, default_options()).get());
+    const geoidx_info info = info_of(build(mesh, default_options()).get());
+    REQUIRE(of_part.added_vertex_count > 0);
+    CHECK(info.added_vertex_count > of_part.added_vertex_count / 3);
+    CHECK(info.error_mean > of_part.error_mean / 2);
+    CHECK(info.error_mean < 2 * of_part.error_mean);
+    CHECK(info.error_max > of_part.error_max / 4);
+}
