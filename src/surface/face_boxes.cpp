@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <memory_resource>
 #include <utility>
 
-#include <Eigen/Geometry>
+#include "src/base/array.h"
 
 namespace geodesic {
 
 namespace {
 
+using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
 // The share of the edge from a to b at which the point nearest to a position is.
@@ -33,24 +36,34 @@ double square_to_box_of(const Surface& surface, uint32_t face, const Vector3d& p
     return (low - position).cwiseMax(position - high).cwiseMax(0).squaredNorm();
 }
 
-constexpr uint32_t FACES_PER_LEAF = 8; // at least, unless the surface has fewer
-constexpr double MOST_CELLS = std::numeric_limits<uint16_t>::max();
-constexpr double MARGIN = 1; // in cells: far more than the rounding of positions in cells
-
+// Whether a is nearer to a position than b. From far away both lengths may be the same but for rounding.
+bool is_nearer(const Vector3d& a, const Vector3d& b, const Vector3d& position) {
+    return (a - b).dot((a - position) + (b - position)) < 0;
 }
 
-// Over the plane of the face if the foot lies inside of it, and else on the nearest of the three edges. A
-// face without an area has edges only.
-SurfacePoint closest_on_face(const Surface& surface, uint32_t face, const Vector3d& position) {
-    const auto corners = corners_of(surface, face);
+// Where the foot of a position on the plane of a face is, if it lies inside of the face.
+struct Foot {
+    bool is_inside = false;
+    bool is_sure = false; // the plane of a needle is mostly rounding
+    SurfacePoint point{};
+};
+
+Foot foot_on_face(uint32_t face, const std::array<Vector3d, 3>& corners, const Vector3d& position) {
+    constexpr double NEEDLE = 1e-6; // its height, as a share of its longest edge
     const Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0], normal = u.cross(v);
-    if (const double area = normal.squaredNorm(); area > 0) {
-        const Vector3d w = position - corners[0];
-        const double second = w.cross(v).dot(normal) / area, third = u.cross(w).dot(normal) / area;
-        const double first = 1 - second - third; // may be negative where the sum of both is rounded to 1
-        if (first >= 0 && second >= 0 && third >= 0)
-            return {face, without_negligible({first, second, third})};
-    }
+    const double area = normal.squaredNorm();
+    if (!(area > 0)) return {};
+    const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
+    const Vector3d w = position - corners[0];
+    const double second = w.cross(v).dot(normal) / area, third = u.cross(w).dot(normal) / area;
+    const double first = 1 - second - third; // may be negative where the sum of both is rounded to 1
+    if (!(first >= 0 && second >= 0 && third >= 0)) return {};
+    return {
+        true, area > NEEDLE * NEEDLE * longest * longest, {face, without_negligible({first, second, third})}};
+}
+
+SurfacePoint closest_on_edges(uint32_t face, const std::array<Vector3d, 3>& corners,
+                              const Vector3d& position) {
     SurfacePoint best{face, {1, 0, 0}};
     double least = std::numeric_limits<double>::infinity();
     for (size_t k = 0; k < 3; ++k) {
@@ -67,39 +80,61 @@ SurfacePoint closest_on_face(const Surface& surface, uint32_t face, const Vector
     return best;
 }
 
+constexpr uint32_t FACES_PER_LEAF = 8; // at least, unless the surface has fewer
+constexpr double STEPS = std::numeric_limits<uint16_t>::max();
+
+// The most whole steps that reach no farther than a place, from one end towards another one.
+uint16_t steps_to(double from, double step, double place) {
+    const double share = step != 0 ? std::clamp((place - from) / step, 0.0, STEPS) : 0;
+    auto steps = static_cast<uint16_t>(share);
+    while (steps > 0 && std::abs(steps * step) > std::abs(place - from)) --steps;
+    return steps;
+}
+
+}
+
+// Over the plane of the face if the foot lies inside of it, and else on the nearest of the three edges. A
+// face without an area has edges only.
+SurfacePoint closest_on_face(const Surface& surface, uint32_t face, const Vector3d& position) {
+    const auto corners = corners_of(surface, face);
+    const Foot foot = foot_on_face(face, corners, position);
+    if (foot.is_inside && foot.is_sure) return foot.point;
+    const SurfacePoint on_edge = closest_on_edges(face, corners, position);
+    const bool is_foot_nearer = foot.is_inside && is_nearer(position_of(surface, foot.point),
+                                                            position_of(surface, on_edge), position);
+    return is_foot_nearer ? foot.point : on_edge;
+}
+
 FaceBoxes::FaceBoxes(const Surface& surface) {
-    Vector3d low = surface.positions[0], high = low;
-    for (const Vector3d& position : surface.positions) {
-        low = low.cwiseMin(position);
-        high = high.cwiseMax(position);
-    }
-    origin_ = low;
-    // A position in the last cell is rounded up, and so takes one more.
-    cells_per_length_ = (MOST_CELLS - 2 * MARGIN - 1) / (high - low).maxCoeff();
     const uint32_t leaves = std::bit_floor(std::max(1u, surface.face_count() / FACES_PER_LEAF));
     first_leaf_ = leaves - 1;
-    boxes_.resize(size_t{2} * leaves - 1);
-    for (uint32_t leaf = 0; leaf < leaves; ++leaf) boxes_[first_leaf_ + leaf] = box_of_leaf(surface, leaf);
-    for (uint32_t i = first_leaf_; i-- > 0;) {
-        const Box &first = boxes_[2 * i + 1], &second = boxes_[2 * i + 2];
-        for (size_t k = 0; k < 3; ++k) {
-            boxes_[i].low[k] = std::min(first.low[k], second.low[k]);
-            boxes_[i].high[k] = std::max(first.high[k], second.high[k]);
-        }
+    std::vector<AlignedBox3d> exact(size_t{2} * leaves - 1);
+    for (uint32_t leaf = 0; leaf < leaves; ++leaf) exact[first_leaf_ + leaf] = around_leaf(surface, leaf);
+    for (uint32_t i = first_leaf_; i-- > 0;) exact[i] = exact[2 * i + 1].merged(exact[2 * i + 2]);
+    whole_ = exact[0];
+    boxes_.resize(exact.size());
+    for (uint32_t i = 1; i < boxes_.size(); ++i) {
+        const AlignedBox3d& around = exact[(i - 1) / 2]; // as it is placed already
+        boxes_[i] = inside_of(around, exact[i]);
+        exact[i] = place(around, boxes_[i]);
     }
 }
 
-Vector3d FaceBoxes::in_cells(const Vector3d& position) const {
-    return (position - origin_) * cells_per_length_ + Vector3d::Constant(MARGIN);
-}
-
-void FaceBoxes::add_to(Box& box, const Vector3d& position) const {
-    const Vector3d cells = in_cells(position);
+FaceBoxes::Box FaceBoxes::inside_of(const AlignedBox3d& around, const AlignedBox3d& exact) {
+    Box box{};
+    const Vector3d step = around.sizes() / STEPS;
     for (size_t k = 0; k < 3; ++k) {
-        const double at = cells[static_cast<Eigen::Index>(k)];
-        box.low[k] = std::min(box.low[k], static_cast<uint16_t>(std::floor(at - MARGIN)));
-        box.high[k] = std::max(box.high[k], static_cast<uint16_t>(std::ceil(at + MARGIN)));
+        const auto axis = static_cast<Eigen::Index>(k);
+        box.low[k] = steps_to(around.min()[axis], step[axis], exact.min()[axis]);
+        box.high[k] = steps_to(around.max()[axis], -step[axis], exact.max()[axis]);
     }
+    return box;
+}
+
+AlignedBox3d FaceBoxes::place(const AlignedBox3d& around, const Box& box) {
+    const Vector3d step = around.sizes() / STEPS;
+    return {around.min() + Vector3d(box.low[0], box.low[1], box.low[2]).cwiseProduct(step),
+            around.max() - Vector3d(box.high[0], box.high[1], box.high[2]).cwiseProduct(step)};
 }
 
 // Every leaf has as many faces as any other, or one more or less.
@@ -107,56 +142,68 @@ uint32_t FaceBoxes::first_face_of(const Surface& surface, uint32_t leaf) const {
     return static_cast<uint32_t>(uint64_t{leaf} * surface.face_count() / (first_leaf_ + 1));
 }
 
-FaceBoxes::Box FaceBoxes::box_of_leaf(const Surface& surface, uint32_t leaf) const {
-    constexpr auto FAR = static_cast<uint16_t>(MOST_CELLS);
-    Box box{{FAR, FAR, FAR}, {0, 0, 0}};
+AlignedBox3d FaceBoxes::around_leaf(const Surface& surface, uint32_t leaf) const {
+    AlignedBox3d box;
     for (uint32_t f = first_face_of(surface, leaf); f < first_face_of(surface, leaf + 1); ++f)
-        for (const uint32_t corner : surface.faces[f]) add_to(box, surface.positions[corner]);
+        for (const uint32_t corner : surface.faces[f]) box.extend(surface.positions[corner]);
     return box;
 }
 
-double FaceBoxes::square_to(uint32_t box, const Vector3d& cells) const {
-    double square = 0;
-    for (size_t k = 0; k < 3; ++k) {
-        const double x = cells[static_cast<Eigen::Index>(k)];
-        const double off = std::max({boxes_[box].low[k] - x, x - boxes_[box].high[k], 0.0});
-        square += off * off;
+// What has been found. Whatever may be no farther, but for rounding, also that of boxes, is looked at.
+struct FaceBoxes::Nearest {
+    bool may_be_beaten_at(double square) const {
+        constexpr double ROUNDING = 1e-15;
+        return point.face == NONE || square * (1 - ROUNDING) <= distance * distance;
     }
-    return square;
-}
+
+    SurfacePoint point{NONE, {}};
+    Vector3d at = Vector3d::Zero();
+    double distance = std::numeric_limits<double>::infinity();
+};
 
 void FaceBoxes::search_leaf(const Surface& surface, uint32_t leaf, const Vector3d& position,
-                            ClosestPoint& best) const {
+                            Nearest& best) const {
     for (uint32_t f = first_face_of(surface, leaf); f < first_face_of(surface, leaf + 1); ++f) {
-        const bool is_first = best.point.face == NONE;
-        if (!is_first && square_to_box_of(surface, f, position) > best.distance * best.distance) continue;
+        if (!best.may_be_beaten_at(square_to_box_of(surface, f, position))) continue;
         const SurfacePoint point = closest_on_face(surface, f, position);
-        const double distance = (position_of(surface, point) - position).stableNorm();
-        if (is_first || distance < best.distance) best = {point, distance};
+        const Vector3d at = position_of(surface, point);
+        if (best.point.face == NONE || is_nearer(at, best.at, position))
+            best = {point, at, (at - position).stableNorm()};
     }
 }
 
 // The nearer of two boxes first; a box farther than what has been found is passed over.
 ClosestPoint FaceBoxes::closest(const Surface& surface, const Vector3d& position) const {
-    const Vector3d cells = in_cells(position);
-    ClosestPoint best{{NONE, {}}, std::numeric_limits<double>::infinity()};
-    std::array<std::pair<double, uint32_t>, 64> waiting;
-    size_t count = 0;
-    waiting[count++] = {square_to(0, cells), 0};
-    while (count > 0) {
-        const auto [square, box] = waiting[--count];
-        const double farthest = best.distance * cells_per_length_;
-        if (best.point.face != NONE && square > farthest * farthest) continue;
-        if (box >= first_leaf_) {
-            search_leaf(surface, box - first_leaf_, position, best);
+    struct Waiting {
+        double square;
+        uint32_t number;
+        AlignedBox3d box;
+    };
+    const auto waiting_at = [&](uint32_t number, const AlignedBox3d& box) {
+        return Waiting{box.squaredExteriorDistance(position), number, box};
+    };
+    Nearest best;
+    std::array<std::byte, 4096> room; // for all that wait on any surface but the largest
+    std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
+    Array<Waiting> waiting(&memory);
+    waiting.reserve(48);
+    waiting.push_back(waiting_at(0, whole_));
+    while (!waiting.empty()) {
+        const Waiting next = waiting.back();
+        waiting.pop_back();
+        if (!best.may_be_beaten_at(next.square)) continue;
+        if (next.number >= first_leaf_) {
+            search_leaf(surface, next.number - first_leaf_, position, best);
             continue;
         }
-        const std::pair<double, uint32_t> first{square_to(2 * box + 1, cells), 2 * box + 1},
-            second{square_to(2 * box + 2, cells), 2 * box + 2};
-        waiting[count++] = std::max(first, second);
-        waiting[count++] = std::min(first, second);
+        const uint32_t first = 2 * next.number + 1, second = first + 1;
+        Waiting nearer = waiting_at(first, place(next.box, boxes_[first])),
+                farther = waiting_at(second, place(next.box, boxes_[second]));
+        if (farther.square < nearer.square) std::swap(nearer, farther);
+        waiting.push_back(farther);
+        waiting.push_back(nearer);
     }
-    return best;
+    return {best.point, best.distance};
 }
 
 }

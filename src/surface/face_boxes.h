@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "src/surface/surface.h"
 
 namespace geodesic {
@@ -15,8 +17,9 @@ struct ClosestPoint {
 };
 
 // Boxes around runs of faces, which lie near each other since faces are numbered in spatial order, and around
-// pairs of boxes, up to one around all: which faces may be the nearest is told by the boxes. Boxes are in
-// whole cells of a grid over the surface and rounded outwards; faces are measured in double precision.
+// pairs of boxes, up to one around all: which faces may be the nearest is told by the boxes. A box is told by
+// steps across the one around it, rounded outwards, so that it fits what lies in it however wide the surface
+// is; faces are measured in double precision.
 class FaceBoxes {
 public:
     explicit FaceBoxes(const Surface& surface);
@@ -26,21 +29,20 @@ public:
 
 private:
     struct Box {
-        std::array<uint16_t, 3> low, high;
+        std::array<uint16_t, 3> low, high; // steps from either end of the box around it
     };
+    struct Nearest;
 
-    Eigen::Vector3d in_cells(const Eigen::Vector3d& position) const;
-    void add_to(Box& box, const Eigen::Vector3d& position) const;
+    static Box inside_of(const Eigen::AlignedBox3d& around, const Eigen::AlignedBox3d& exact);
+    static Eigen::AlignedBox3d place(const Eigen::AlignedBox3d& around, const Box& box);
     uint32_t first_face_of(const Surface& surface, uint32_t leaf) const;
-    Box box_of_leaf(const Surface& surface, uint32_t leaf) const;
-    double square_to(uint32_t box, const Eigen::Vector3d& cells) const;
+    Eigen::AlignedBox3d around_leaf(const Surface& surface, uint32_t leaf) const;
     void search_leaf(const Surface& surface, uint32_t leaf, const Eigen::Vector3d& position,
-                     ClosestPoint& best) const;
+                     Nearest& best) const;
 
-    Eigen::Vector3d origin_; // of the grid
-    double cells_per_length_ = 0;
+    Eigen::AlignedBox3d whole_;
     uint32_t first_leaf_ = 0;
-    std::vector<Box> boxes_; // a heap: box i is around 2 i + 1 and 2 i + 2
+    std::vector<Box> boxes_; // a heap: box i is around 2 i + 1 and 2 i + 2; the first one is not read
 };
 
 // The point of a face that is nearest to a position.

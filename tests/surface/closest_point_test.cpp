@@ -150,6 +150,64 @@ TEST_CASE("closest point: surfaces of any size, and positions far away") {
     }
 }
 
+// From there all of a plane is as far away as a double can tell.
+TEST_CASE("closest point: from far above a plane it is the foot") {
+    const Soup soup = grid(10, 10, 1, 1);
+    const SurfaceHandle surface = surface_of(soup);
+    std::mt19937_64 random(5);
+    for (const double height : {1.0, 1e4, 1e8, -1e9})
+        for (int i = 0; i < 20; ++i) {
+            const std::array<double, 3> position{uniform(random, 0, 1), uniform(random, 0, 1), height};
+            geoidx_surface_point point{};
+            REQUIRE(geoidx_closest_point(surface.get(), position.data(), &point, nullptr) == GEOIDX_OK);
+            Vector3d at = Vector3d::Zero();
+            for (size_t k = 0; k < 3; ++k)
+                at += point.weights[k] * soup.positions[soup.triangles[point.triangle][k]];
+            CHECK(at.x() == doctest::Approx(position[0]).epsilon(1e-6));
+            CHECK(at.y() == doctest::Approx(position[1]).epsilon(1e-6));
+        }
+}
+
+// The normal of a needle may be nothing but rounding.
+TEST_CASE("closest point: on a needle it is where it should be") {
+    std::mt19937_64 random(6);
+    for (int i = 0; i < 3000; ++i) {
+        Soup soup;
+        const Vector3d along(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+        soup.positions = {Vector3d::Zero(), uniform(random, 0.01, 0.99) * along, along};
+        soup.triangles = {{0, 1, 2}};
+        const double share = uniform(random, 0, 1);
+        const Vector3d position = share * along;
+        const geoidx_mesh view = view_of(soup);
+        geoidx_surface* made = nullptr;
+        if (geoidx_surface_create(&view, nullptr, &made) != GEOIDX_OK) continue; // no area at all
+        const SurfaceHandle surface(made);
+        geoidx_surface_point point{};
+        double distance = INFINITY;
+        REQUIRE(geoidx_closest_point(surface.get(), position.data(), &point, &distance) == GEOIDX_OK);
+        CHECK(distance <= 1e-14 * along.norm());
+    }
+}
+
+// One that is wide for the object makes all of it look like one place.
+TEST_CASE("closest point: an object on ground that is a million times as wide") {
+    Soup object = bumpy_sphere(3, 2);
+    const uint32_t first = object.vertex_count();
+    const Soup alone = object;
+    object.positions.insert(object.positions.end(), {{-1e6, -1e6, -9}, {1e6, -1e6, -9}, {1e6, 1e6, -9}});
+    object.triangles.insert(object.triangles.begin(), {first, first + 1, first + 2});
+    const SurfaceHandle surface = surface_of(object), of_alone = surface_of(alone);
+    std::mt19937_64 random(7);
+    for (int i = 0; i < 500; ++i) {
+        const Vector3d position(uniform(random, -2, 2), uniform(random, -2, 2), uniform(random, -2, 2));
+        geoidx_surface_point point{}, same{};
+        double distance = 0, expected = 0;
+        REQUIRE(geoidx_closest_point(surface.get(), position.data(), &point, &distance) == GEOIDX_OK);
+        REQUIRE(geoidx_closest_point(of_alone.get(), position.data(), &same, &expected) == GEOIDX_OK);
+        CHECK(distance == expected);
+    }
+}
+
 TEST_CASE("surface: bad input is refused by name") {
     const Soup soup = cube(1);
     const geoidx_mesh view = view_of(soup);
