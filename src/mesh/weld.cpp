@@ -38,16 +38,13 @@ std::vector<uint32_t> weld_equal(const std::vector<Eigen::Vector3d>& positions) 
     return representative;
 }
 
-// Representatives by the cell of a grid whose cells are at least one tolerance wide: a neighbour is at most
-// one cell away.
+// Representatives by the cell of a grid whose cells are one tolerance wide: a neighbour is at most one cell
+// away. So far out that cells could not be counted, different coordinates differ by more than a tolerance,
+// and each is a cell by itself.
 class RepresentativeGrid {
 public:
     RepresentativeGrid(const std::vector<Eigen::Vector3d>& positions, double tolerance)
-        : positions_(positions), tolerance_(tolerance), width_(tolerance) {
-        // Cells can be counted: a tolerance far below the rounding of the coordinates does not make them
-        // smaller.
-        for (const auto& p : positions) width_ = std::max(width_, p.cwiseAbs().maxCoeff() / LARGEST_CELL);
-    }
+        : positions_(positions), tolerance_(tolerance) {}
 
     uint32_t find_or_add(uint32_t i) {
         const Key cell = cell_of(positions_[i]);
@@ -61,11 +58,13 @@ public:
     }
 
 private:
+    int64_t cell_along_axis(double coordinate) const {
+        const double cell = std::floor(coordinate / tolerance_);
+        return std::abs(cell) < LARGEST_CELL ? static_cast<int64_t>(cell)
+                                             : std::bit_cast<int64_t>(coordinate);
+    }
     Key cell_of(const Eigen::Vector3d& p) const {
-        Key cell;
-        for (int k = 0; k < 3; ++k)
-            cell[static_cast<size_t>(k)] = static_cast<int64_t>(std::floor(p[k] / width_));
-        return cell;
+        return {cell_along_axis(p[0]), cell_along_axis(p[1]), cell_along_axis(p[2])};
     }
 
     uint32_t first_near(uint32_t i, const Key& cell) const {
@@ -78,8 +77,7 @@ private:
 
     const std::vector<Eigen::Vector3d>& positions_;
     static constexpr double LARGEST_CELL = 4.0e18;
-    double tolerance_;
-    double width_; // of a cell
+    const double tolerance_; // and the width of a cell
     std::unordered_map<Key, std::vector<uint32_t>, KeyHash> cells_;
 };
 

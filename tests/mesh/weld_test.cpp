@@ -110,3 +110,15 @@ TEST_CASE("weld: coordinates far beyond what the grid can number") {
     CHECK(weld({{far, 0, 0}, {-far, 0, 0}, {far, 0, 0}, {far, 1, 0}}, 1e-9) ==
           std::vector<uint32_t>{0, 1, 0, 3});
 }
+
+TEST_CASE("weld: one position as far away as a float can be does not make the cells of others wide") {
+    auto positions = random_positions(60000, -1, 1, 10);
+    const double far = std::numeric_limits<float>::max();
+    for (const double sign : {1.0, -1.0, 1.0}) positions.emplace_back(sign * far, far, -far);
+    positions.push_back(positions[5]);
+    auto expected = std::vector<uint32_t>(positions.size());
+    std::iota(expected.begin(), expected.end(), 0u);
+    expected[60002] = 60000;
+    expected.back() = 5;
+    CHECK(weld(positions, 1e-15) == expected);
+}
