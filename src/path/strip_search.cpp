@@ -15,11 +15,9 @@ void StripSearch::begin(const SurfacePoint& source, const SurfacePoint& target) 
     open_.clear();
     faces_.clear();
     vertices_.clear();
-    sources_.clear();
-    targets_.clear();
     target_position_ = position_of(surface_, target);
-    for_each_alias(surface_, source, [&](const SurfacePoint& alias) { sources_.push_back(alias); });
-    for_each_alias(surface_, target, [&](const SurfacePoint& alias) { targets_.push_back(alias); });
+    sources_ = aliases_of(surface_, source);
+    targets_ = aliases_of(surface_, target);
     for (const SurfacePoint& alias : sources_)
         open(faces_[alias.face], 0, {Kind::FACE, alias.face, NONE, {{NONE, NONE}, 0, 0}, 0, 0});
 }
@@ -28,7 +26,7 @@ void StripSearch::begin(const SurfacePoint& source, const SurfacePoint& target) 
 Vector3d StripSearch::position(const Node& node) const {
     if (node.kind == Kind::VERTEX) return surface_.positions[node.item];
     if (node.entry.ends.a != NONE) return position_at(surface_, node.entry.ends, node.share);
-    return position_of(surface_, *std::ranges::find(sources_, node.item, &SurfacePoint::face));
+    return position_of(surface_, *alias_in(sources_, node.item));
 }
 
 // Notes a way to a face or vertex, unless that is closed or a way is open there that is expected to be no
@@ -54,8 +52,7 @@ void StripSearch::leave_face(uint32_t index) {
     const Node& node = open_[index];
     const Leaving leaving{index, node.item, position(node), node.length};
     const Edge entry = node.entry;
-    if (std::ranges::find(targets_, leaving.face, &SurfacePoint::face) != targets_.end())
-        reach_target(leaving);
+    if (alias_in(targets_, leaving.face)) reach_target(leaving);
     const auto& corners = surface_.faces[leaving.face];
     std::array<double, 3> rests;
     for (size_t k = 0; k < 3; ++k) rests[k] = rest_from(corners[k], entry);
@@ -127,7 +124,7 @@ std::optional<Strip> StripSearch::run(const SurfacePoint& source, const SurfaceP
 
 Strip StripSearch::strip_to(uint32_t index) const {
     Strip strip;
-    strip.target = *std::ranges::find(targets_, open_[index].item, &SurfacePoint::face);
+    strip.target = *alias_in(targets_, open_[index].item);
     for (uint32_t i = open_[index].before; i != NONE; i = open_[i].before) {
         if (open_[i].kind == Kind::VERTEX) continue;
         strip.faces.push_back(open_[i].item);
@@ -135,7 +132,7 @@ Strip StripSearch::strip_to(uint32_t index) const {
     }
     std::ranges::reverse(strip.faces);
     std::ranges::reverse(strip.portals);
-    strip.source = *std::ranges::find(sources_, strip.faces.front(), &SurfacePoint::face);
+    strip.source = *alias_in(sources_, strip.faces.front());
     return strip;
 }
 

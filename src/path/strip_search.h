@@ -91,7 +91,7 @@ private:
     const Surface& surface_;
     const TargetDistances* distances_ = nullptr; // of a run
     Eigen::Vector3d target_position_;
-    std::vector<SurfacePoint> sources_, targets_;
+    std::vector<SurfacePoint> sources_, targets_; // as aliases_of()
     OpenNodes<Node> open_;
     NumberMap<Expected> faces_;
     NumberMap<Vertex> vertices_;

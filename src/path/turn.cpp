@@ -1,51 +1,84 @@
 #include "src/path/turn.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace geodesic {
 
 using Eigen::Vector3d;
 
-uint32_t Turn::spoke_of(uint32_t vertex) {
-    const auto found = std::ranges::find(spokes_, vertex, &Spoke::vertex);
-    if (found == spokes_.end()) {
-        spokes_.push_back({vertex, surface_.positions[vertex] - surface_.positions[vertex_]});
-        return static_cast<uint32_t>(spokes_.size() - 1);
+Turn::Turn(const Surface& surface, uint32_t vertex) {
+    const size_t faces = surface.vertex_faces.room_for(vertex);
+    Array<uint32_t> ends(&memory_);
+    ends.reserve(2 * faces);
+    sectors_.reserve(faces);
+    for (const uint32_t face : surface.vertex_faces[vertex]) {
+        const uint32_t k = corner_of(surface, face, vertex);
+        const uint32_t a = surface.faces[face][(k + 1) % 3], b = surface.faces[face][(k + 2) % 3];
+        ends.insert(ends.end(), {a, b});
+        sectors_.push_back({face, {a, b}}); // spokes have no numbers yet
     }
-    return static_cast<uint32_t>(found - spokes_.begin());
+    std::ranges::sort(ends);
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    spokes_.reserve(ends.size());
+    for (const uint32_t end : ends)
+        spokes_.push_back({end, surface.positions[end] - surface.positions[vertex]});
+    for (Sector& sector : sectors_)
+        for (uint32_t& spoke : sector.spokes) spoke = spoke_of(spoke);
+    list_sides();
+    reached_.reserve(spokes_.size());
 }
 
-void Turn::add_face(uint32_t face) {
-    const uint32_t k = corner_of(surface_, face, vertex_);
-    const uint32_t a = surface_.faces[face][(k + 1) % 3], b = surface_.faces[face][(k + 2) % 3];
-    sectors_.push_back({face, {spoke_of(a), spoke_of(b)}});
+void Turn::list_sides() {
+    for (const Sector& sector : sectors_)
+        for (const uint32_t spoke : sector.spokes) ++spokes_[spoke].first_side;
+    uint32_t end = 0;
+    for (Spoke& spoke : spokes_) spoke.first_side = end += spoke.first_side;
+    sides_.resize(end);
+    for (size_t i = sectors_.size(); i-- > 0;)
+        for (const uint32_t spoke : sectors_[i].spokes)
+            sides_[--spokes_[spoke].first_side] = static_cast<uint32_t>(i);
 }
 
-// The one with the least angle below the limit whose neighbours have not been reached from it, or NONE.
-uint32_t Turn::nearest_spoke(double limit) const {
-    uint32_t nearest = NONE;
-    for (uint32_t s = 0; s < spokes_.size(); ++s) {
-        const Spoke& spoke = spokes_[s];
-        if (spoke.is_done || spoke.is_forbidden || !(spoke.angle < limit)) continue;
-        nearest = s;
-        limit = spoke.angle;
+uint32_t Turn::spoke_of(uint32_t other_end) const {
+    return static_cast<uint32_t>(std::ranges::lower_bound(spokes_, other_end, {}, &Spoke::vertex) -
+                                 spokes_.begin());
+}
+
+void Turn::reach(uint32_t spoke, double angle) {
+    if (!(angle < spokes_[spoke].angle)) return;
+    spokes_[spoke].angle = angle;
+    reached_.push_back({angle, spoke});
+    std::ranges::push_heap(reached_, std::ranges::greater{});
+}
+
+// The one with the least angle below the limit that ways may pass and whose neighbours have not been reached
+// from it, or NONE.
+uint32_t Turn::take_nearest(double limit) {
+    while (!reached_.empty() && reached_.front().angle < limit) {
+        const uint32_t spoke = reached_.front().spoke;
+        std::ranges::pop_heap(reached_, std::ranges::greater{});
+        reached_.pop_back();
+        if (!spokes_[spoke].is_done && !spokes_[spoke].is_forbidden) return spoke;
     }
-    return nearest;
+    return NONE;
 }
 
 // To its neighbours over the faces between the two.
 void Turn::spread(uint32_t spoke, uint32_t from_face, uint32_t to_face) {
     spokes_[spoke].is_done = true;
-    for (const Sector& sector : sectors_) {
+    const size_t end = spoke + 1 < spokes_.size() ? spokes_[spoke + 1].first_side : sides_.size();
+    for (size_t side = spokes_[spoke].first_side; side < end; ++side) {
+        const Sector& sector = sectors_[sides_[side]];
+        if (sector.face == from_face || sector.face == to_face) continue;
         const auto [a, b] = sector.spokes;
-        if ((a != spoke && b != spoke) || sector.face == from_face || sector.face == to_face) continue;
-        Spoke& other = spokes_[a == spoke ? b : a];
-        if (other.is_done) continue;
+        const uint32_t other = a == spoke ? b : a;
+        if (spokes_[other].is_done) continue;
         const double angle = spokes_[spoke].angle + angle_of(sector);
-        if (!(angle < other.angle)) continue;
-        other.angle = angle;
-        other.before = spoke;
-        other.face = sector.face;
+        if (!(angle < spokes_[other].angle)) continue;
+        reach(other, angle);
+        spokes_[other].before = spoke;
+        spokes_[other].face = sector.face;
     }
 }
 
@@ -62,14 +95,13 @@ Turn::Fan Turn::fan_to(uint32_t spoke) const {
     return fan;
 }
 
-// Dijkstra's algorithm over the few edges at a vertex.
+// Dijkstra's algorithm over the edges at the vertex.
 std::optional<Turn::Fan> Turn::below(double limit, uint32_t from_face, const Vector3d& from, uint32_t to_face,
                                      const Vector3d& to) {
-    for (const uint32_t s : sector_of(from_face).spokes)
-        spokes_[s].angle = std::min(spokes_[s].angle, angle_between(from, spokes_[s].direction));
+    for (const uint32_t s : sector_of(from_face).spokes) reach(s, angle_between(from, spokes_[s].direction));
     uint32_t best = NONE;
     const auto ends = sector_of(to_face).spokes;
-    for (uint32_t s; (s = nearest_spoke(limit)) != NONE; spread(s, from_face, to_face)) {
+    for (uint32_t s; (s = take_nearest(limit)) != NONE; spread(s, from_face, to_face)) {
         if (s != ends[0] && s != ends[1]) continue;
         const double angle = spokes_[s].angle + angle_between(to, spokes_[s].direction);
         if (!(angle < limit)) continue;

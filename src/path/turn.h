@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -18,12 +19,7 @@ namespace geodesic {
 // The way crosses edges at the vertex; any number of faces may share each of these.
 class Turn {
 public:
-    Turn(const Surface& surface, uint32_t vertex) : surface_(surface), vertex_(vertex) {
-        const size_t faces = surface.vertex_faces.room_for(vertex);
-        spokes_.reserve(faces + 1);
-        sectors_.reserve(faces);
-        for (const uint32_t face : surface.vertex_faces[vertex]) add_face(face);
-    }
+    Turn(const Surface& surface, uint32_t vertex);
 
     // No way passes the edge to this vertex.
     void forbid(uint32_t other_end) { spokes_[spoke_of(other_end)].is_forbidden = true; }
@@ -42,30 +38,39 @@ private:
         Eigen::Vector3d direction;  // to its other end
         double angle = UNREACHABLE; // from the first direction
         uint32_t before = NONE, face = NONE;
+        uint32_t first_side = 0; // where its sectors begin in `sides_`
         bool is_done = false, is_forbidden = false;
     };
     struct Sector {
         uint32_t face;
         std::array<uint32_t, 2> spokes;
     };
+    // A spoke that has been reached at an angle.
+    struct Reached {
+        double angle;
+        uint32_t spoke;
+        auto operator<=>(const Reached&) const = default;
+    };
 
-    void add_face(uint32_t face);
-    uint32_t spoke_of(uint32_t vertex);
+    void list_sides();
+    // That of an edge to this vertex, which there must be.
+    uint32_t spoke_of(uint32_t other_end) const;
     const Sector& sector_of(uint32_t face) const { return *std::ranges::find(sectors_, face, &Sector::face); }
     double angle_of(const Sector& sector) const {
         const auto [a, b] = sector.spokes;
         return angle_between(spokes_[a].direction, spokes_[b].direction);
     }
-    uint32_t nearest_spoke(double limit) const;
+    void reach(uint32_t spoke, double angle);
+    uint32_t take_nearest(double limit);
     void spread(uint32_t spoke, uint32_t from_face, uint32_t to_face);
     Fan fan_to(uint32_t spoke) const;
 
-    const Surface& surface_;
-    const uint32_t vertex_;
     std::array<std::byte, 1024> room_; // for the faces of most vertices
     std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
-    Array<Spoke> spokes_{&memory_};
-    Array<Sector> sectors_{&memory_};
+    Array<Spoke> spokes_{&memory_};    // ascending by vertex
+    Array<Sector> sectors_{&memory_};  // ascending by face
+    Array<uint32_t> sides_{&memory_};  // sectors, of one spoke after the other
+    Array<Reached> reached_{&memory_}; // a heap; a spoke may be in it at larger angles, too
 };
 
 // The faces around a vertex in their order from a first one on, where they form a closed fan: each edge at

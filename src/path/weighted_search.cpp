@@ -58,8 +58,8 @@ private:
 
     const Surface& surface_;
     const WeightedSearchRequest& request_;
-    const uint32_t count_; // points per edge
-    std::vector<SurfacePoint> sources_, targets_;
+    const uint32_t count_;                              // points per edge
+    const std::vector<SurfacePoint> sources_, targets_; // as aliases_of()
     std::vector<Node> nodes_;
     std::vector<Edge> edges_;
     std::unordered_map<uint32_t, uint32_t> vertex_nodes_;
@@ -68,9 +68,8 @@ private:
 };
 
 SteinerWay::SteinerWay(const Surface& surface, const WeightedSearchRequest& request)
-    : surface_(surface), request_(request), count_(request.points_per_edge) {
-    for_each_alias(surface, request.source, [&](const SurfacePoint& alias) { sources_.push_back(alias); });
-    for_each_alias(surface, request.target, [&](const SurfacePoint& alias) { targets_.push_back(alias); });
+    : surface_(surface), request_(request), count_(request.points_per_edge),
+      sources_(aliases_of(surface, request.source)), targets_(aliases_of(surface, request.target)) {
     nodes_.push_back({position_of(surface, request.source), 0});
     nodes_.push_back({position_of(surface, request.target), 0});
 }
@@ -142,8 +141,7 @@ void SteinerWay::reach_inside_of(uint32_t face, uint32_t a, uint32_t b, uint32_t
 }
 
 void SteinerWay::reach_target(uint32_t face, uint32_t from) {
-    if (std::ranges::find(targets_, face, &SurfacePoint::face) != targets_.end())
-        reach_through(face, TARGET, from);
+    if (alias_in(targets_, face)) reach_through(face, TARGET, from);
 }
 
 void SteinerWay::leave_source() {
@@ -180,8 +178,7 @@ void SteinerWay::leave_edge(uint32_t from) {
     const Edge edge = edges_[node.edge];
     for (const uint32_t next : {node_at(node.edge, node.on_edge - 1), node_at(node.edge, node.on_edge + 1)})
         reach(next, node.length + edge.step, from, edge.cheapest_face);
-    for (const uint32_t face : surface_.vertex_faces[edge.a])
-        if (face != node.face && corner_of(surface_, face, edge.b) != NONE) cross(face, from);
+    for_each_face_beyond(surface_, node.face, edge.a, edge.b, [&](uint32_t face) { cross(face, from); });
 }
 
 void SteinerWay::cross(uint32_t face, uint32_t from) {
@@ -228,8 +225,8 @@ StripWay SteinerWay::way() const {
     std::ranges::reverse(way.strip.faces);
     std::ranges::reverse(way.strip.portals);
     std::ranges::reverse(way.path.shares);
-    way.strip.source = *std::ranges::find(sources_, way.strip.faces.front(), &SurfacePoint::face);
-    way.strip.target = *std::ranges::find(targets_, way.strip.faces.back(), &SurfacePoint::face);
+    way.strip.source = *alias_in(sources_, way.strip.faces.front());
+    way.strip.target = *alias_in(targets_, way.strip.faces.back());
     way.path.length = nodes_[TARGET].length;
     return way;
 }

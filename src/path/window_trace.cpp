@@ -5,6 +5,7 @@
 
 #include "src/base/plane.h"
 #include "src/metric/target_points.h"
+#include "src/surface/nearby.h"
 
 namespace geodesic {
 
@@ -25,7 +26,9 @@ struct Piece {
 class WindowTrace {
 public:
     WindowTrace(const IntrinsicMesh& mesh, const WindowSolver& solver, const SurfacePoint& source)
-        : mesh_(mesh), solver_(solver), sources_(in_all_faces(mesh, source)) {}
+        : mesh_(mesh), solver_(solver), sources_(in_all_faces(mesh, source)) {
+        std::ranges::sort(sources_, {}, &SurfacePoint::face);
+    }
 
     std::optional<Strip> run(const SurfacePoint& target) const;
 
@@ -39,7 +42,7 @@ private:
 
     const IntrinsicMesh& mesh_;
     const WindowSolver& solver_;
-    const std::vector<SurfacePoint> sources_; // the source as a point of each face that it is in
+    std::vector<SurfacePoint> sources_; // the source as a point of each face that it is in, ascending
 };
 
 SurfacePoint point_at(uint32_t corner) {
@@ -49,8 +52,8 @@ SurfacePoint point_at(uint32_t corner) {
 }
 
 void WindowTrace::try_source(const SurfacePoint& end, Piece& best) const {
-    const auto source = std::ranges::find(sources_, end.face, &SurfacePoint::face);
-    if (source == sources_.end()) return;
+    const SurfacePoint* const source = alias_in(sources_, end.face);
+    if (!source) return;
     const PlanePoint from = place_on_side(mesh_, 3 * end.face, *source),
                      to = place_on_side(mesh_, 3 * end.face, end);
     const double length = hypotenuse(from.x - to.x, from.depth - to.depth);

@@ -103,6 +103,13 @@ double straight_in_plane(const Surface& surface, const SurfacePoint& a, const Su
     });
 }
 
+std::vector<SurfacePoint> aliases_of(const Surface& surface, const SurfacePoint& point) {
+    std::vector<SurfacePoint> aliases;
+    for_each_alias(surface, point, [&](const SurfacePoint& alias) { aliases.push_back(alias); });
+    std::ranges::sort(aliases, {}, &SurfacePoint::face);
+    return aliases;
+}
+
 std::optional<SurfacePoint> point_in_face(const Surface& surface, const SurfacePoint& point, uint32_t face) {
     std::optional<SurfacePoint> found;
     for_each_alias(surface, point, [&](const SurfacePoint& alias) {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "src/surface/surface.h"
 
@@ -65,6 +67,15 @@ void for_each_alias(const Surface& surface, const SurfacePoint& point, const Use
         });
         return;
     }
+}
+
+// The same points, ascending by face.
+std::vector<SurfacePoint> aliases_of(const Surface& surface, const SurfacePoint& point);
+
+// The alias in a face, or NULL.
+inline const SurfacePoint* alias_in(std::span<const SurfacePoint> aliases, uint32_t face) {
+    const auto found = std::ranges::lower_bound(aliases, face, {}, &SurfacePoint::face);
+    return found != aliases.end() && found->face == face ? &*found : nullptr;
 }
 
 // The point with the weights of a face, if it lies in that face.
