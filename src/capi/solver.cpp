@@ -28,16 +28,26 @@ std::vector<uint32_t> used_vertices(const geoidx_solver& solver, std::span<const
     return vertices;
 }
 
+// Those that no triangle uses, in ascending order.
+std::vector<uint32_t> unused_ids(const geoidx_solver& solver, std::span<const uint32_t> ids) {
+    std::vector<uint32_t> unused;
+    for (const uint32_t id : ids)
+        if (solver_vertex(solver, id) == NONE) unused.push_back(id);
+    std::ranges::sort(unused);
+    return unused;
+}
+
 void solve(geoidx_solver& solver, std::span<const uint32_t> sources, std::span<const uint32_t> targets,
            bool all_targets, double* distances) {
     const auto source_vertices = used_vertices(solver, sources);
     const auto target_vertices = used_vertices(solver, targets);
     if (!source_vertices.empty() && (all_targets || !target_vertices.empty()))
         solver.solver->solve(source_vertices, target_vertices);
+    const auto unused_sources = unused_ids(solver, sources);
     const auto distance_of = [&](uint32_t id) {
         const uint32_t vertex = solver_vertex(solver, id);
         if (vertex != NONE) return source_vertices.empty() ? UNREACHABLE : solver.solver->distance(vertex);
-        return std::find(sources.begin(), sources.end(), id) == sources.end() ? UNREACHABLE : 0.0;
+        return std::ranges::binary_search(unused_sources, id) ? 0.0 : UNREACHABLE;
     };
     const size_t count = all_targets ? solver.intake.vertex_of_id.size() : targets.size();
     for (size_t i = 0; i < count; ++i) {
