@@ -105,12 +105,9 @@ IndexHandle open_in(CountingAllocator& allocator, const Bytes& file) {
     return IndexHandle(index);
 }
 
-void check_eight_threads(uint32_t engine) {
-    const TestMesh mesh = hills(20, 18);
+void check_eight_threads(const TestMesh& mesh, geoidx_build_options options) {
     const uint32_t count = mesh.vertex_count();
     CountingAllocator allocator;
-    auto options = build_options(GEOIDX_METRIC_EDGES, 3);
-    options.engine = engine;
     options.exact_vertices = 30;
     options.threads = 3;
     const auto built = build(mesh, options);
@@ -136,7 +133,26 @@ void check_eight_threads(uint32_t engine) {
 }
 
 TEST_CASE("eight threads on one index get the answers of one thread") {
-    for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) check_eight_threads(engine);
+    for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
+        auto options = build_options(GEOIDX_METRIC_EDGES, 3);
+        options.engine = engine;
+        check_eight_threads(hills(20, 18), options);
+    }
+    check_eight_threads(hills(13, 12), default_options());
+}
+
+TEST_CASE("building: the number of threads does not change a byte") {
+    for (uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES})
+        for (double delta : {0.0, 2.0}) {
+            auto options = build_options(metric, 2, delta);
+            options.threads = 1;
+            const Bytes expected = save(build(hills(20, 19), options).get());
+            for (uint32_t threads : {2u, 3u, 7u}) {
+                CAPTURE(threads);
+                options.threads = threads;
+                CHECK(save(build(hills(20, 19), options).get()) == expected);
+            }
+        }
 }
 
 TEST_CASE("opening: the number of threads changes nothing") {

@@ -10,7 +10,6 @@
 
 #include "tests/faults/faults.h"
 #include "tests/query/planted_pairs.h"
-#include "tests/support/sanitized.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace geodesic::test;
@@ -21,10 +20,10 @@ constexpr Source SOURCES[] = {Source::caller, Source::process};
 constexpr uint32_t ENGINES[] = {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY};
 
 // Of the allocations of a query, each of which is followed by every question.
-constexpr uint64_t ASKING_STRIDE = SANITIZED ? 17 : 3;
+constexpr uint64_t ASKING_STRIDE = 17;
 
-// One, and more: with a sanitizer not each number of them.
-constexpr uint32_t NEXT_THREADS = SANITIZED ? 3 : 1;
+// One, and more.
+constexpr uint32_t NEXT_THREADS = 3;
 
 // Two parts that borders divide, one that none does, and vertices that no triangle uses.
 TestMesh several_parts() {
@@ -411,7 +410,7 @@ TEST_CASE("out of memory while an index is asked") {
         for (size_t q = 0; q < std::size(QUESTIONS_TO_AN_INDEX); ++q) {
             CAPTURE(QUESTIONS_TO_AN_INDEX[q].name);
             for (Source source : SOURCES) {
-                const uint64_t stride = SANITIZED && source == Source::process ? 2 : 1;
+                const uint64_t stride = source == Source::process ? 2 : 1;
                 const uint64_t failed = try_with_faults(source, stride, [&](Fault& fault) {
                     const IndexHandle index = open_with(file, fault.allocator());
                     Asked asked(index.get(), nullptr);
@@ -431,7 +430,7 @@ TEST_CASE("out of memory while a query is given threads") {
     const Answers right = answers_to(QUESTIONS_TO_A_QUERY, reference);
     for (uint32_t threads = 2; threads <= 4; ++threads)
         for (Source source : SOURCES) {
-            const uint64_t failed = try_with_faults(source, SANITIZED ? 3 : 1, [&](Fault& fault) {
+            const uint64_t failed = try_with_faults(source, 3, [&](Fault& fault) {
                 const IndexHandle index = open_with(file, fault.allocator());
                 const QueryHandle query = query_of(index.get());
                 fault.disturb([&] { return geoidx_query_set_threads(query.get(), threads); });
@@ -495,7 +494,7 @@ TEST_CASE("out of memory while building a small index") {
         auto options = options_of(engine, 2);
         options.level_count = 1;
         options.metric = GEOIDX_METRIC_EDGES;
-        try_with_faults(Source::process, SANITIZED ? 47 : 5, [&](Fault& fault) {
+        try_with_faults(Source::process, 47, [&](Fault& fault) {
             geoidx* index = nullptr;
             const geoidx_status status = fault.disturb([&] { return geoidx_build(&view, &options, &index); });
             CHECK((status == GEOIDX_OK) == (index != nullptr));

@@ -2,14 +2,13 @@
 // the answer is the right one or GEOIDX_ERROR_OUT_OF_MEMORY, and the question can be asked again.
 
 #include "tests/faults/faults.h"
-#include "tests/support/sanitized.h"
 
 using namespace geodesic::test;
 
 namespace {
 
 // Allocations of paths are many; the stride is a prime, so that it meets each kind.
-constexpr uint64_t STRIDE = SANITIZED ? 29 : 7;
+constexpr uint64_t STRIDE = 29;
 
 // With room for every answer, since a question that is disturbed must not allocate by itself.
 struct AboutPoints {

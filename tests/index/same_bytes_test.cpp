@@ -1,33 +1,10 @@
-// Saving and opening lose nothing, and the same input gives the same bytes.
+// The same input gives the same bytes.
 
-#include <cstring>
 #include <filesystem>
 
-#include "tests/query/query_cases.h"
-#include "tests/support/sanitized.h"
+#include "tests/capi/calls.h"
 
 using namespace geodesic::test;
-
-TEST_CASE("an opened index answers bit for bit as the built one and saves the same bytes" *
-          doctest::skip(SANITIZED)) {
-    for (const QueryCase& test : query_cases()) {
-        CAPTURE(test.name);
-        const geoidx* built = index_of(test);
-        const Bytes bytes = save(built);
-        const auto opened = open(bytes);
-        CHECK(save(opened.get()) == bytes);
-        const geoidx_info before = info_of(built), after = info_of(opened.get());
-        CHECK(std::memcmp(&before, &after, sizeof before) == 0);
-        const uint32_t count = test.mesh.vertex_count();
-        for (uint32_t source : {0u, count / 2, count - 1}) {
-            const auto expected = msad(built, source, count), found = msad(opened.get(), source, count);
-            CHECK(std::memcmp(expected.data(), found.data(), count * sizeof(float)) == 0);
-            for (uint32_t target = 0; target < count; target += 7)
-                CHECK(sssd(built, source, target) == sssd(opened.get(), source, target));
-        }
-        CHECK(geoidx_verify(bytes.data(), bytes.size(), nullptr, nullptr) == GEOIDX_OK);
-    }
-}
 
 TEST_CASE("a file is what save_memory gives") {
     const auto path = std::filesystem::temp_directory_path() / "geoidx_same_bytes_test.gidx";
@@ -39,20 +16,6 @@ TEST_CASE("a file is what save_memory gives") {
     CHECK(std::filesystem::file_size(path) == save(index.get()).size());
     CHECK(save(opened.get()) == save(index.get()));
     std::filesystem::remove(path);
-}
-
-TEST_CASE("the number of threads does not change a byte") {
-    for (uint32_t metric : {GEOIDX_METRIC_EXACT, GEOIDX_METRIC_EDGES})
-        for (double delta : {0.0, 2.0}) {
-            auto options = build_options(metric, 2, delta);
-            options.threads = 1;
-            const Bytes expected = save(build(hills(20, 19), options).get());
-            for (uint32_t threads : {2u, 3u, 7u}) {
-                CAPTURE(threads);
-                options.threads = threads;
-                CHECK(save(build(hills(20, 19), options).get()) == expected);
-            }
-        }
 }
 
 TEST_CASE("the seed decides: the same one gives the same bytes, another one other patches") {

@@ -80,7 +80,7 @@ std::vector<uint32_t> seeded_sources(const Mesh& mesh, size_t count) {
     return sources;
 }
 
-constexpr double AGREEMENT = 1e-7;
+constexpr double AGREEMENT = 1e-11; // stress meshes come to 6e-13
 
 void compare_with_cgal(const std::string& name, const Mesh& mesh, size_t source_count) {
     const auto sources = seeded_sources(mesh, source_count);
@@ -198,7 +198,8 @@ TEST_CASE("CGAL: scanned and modelled meshes of GEOIDX_MESHES") {
         SurfaceMesh surface;
         const size_t refused = to_cgal(intake.mesh, surface);
         if (refused == 0) {
-            compare_with_cgal(name, intake.mesh, 2); // CGAL takes seconds a source
+            const bool is_large = intake.mesh.vertex_count() > 40000; // CGAL takes ten seconds a source
+            compare_with_cgal(name, intake.mesh, is_large ? 1 : 2);
         } else {
             MESSAGE(name, ": CGAL refuses ", refused, " of its faces; compared with Steiner points instead");
             compare_with_steiner(name, intake.mesh);

@@ -28,6 +28,27 @@ TEST_CASE("opened: every answer is that of the index as built, bit for bit" * do
     }
 }
 
+TEST_CASE("opened: small meshes of every kind answer bit for bit as built, and save the same bytes" *
+          doctest::skip(SANITIZED)) {
+    for (const QueryCase& test : query_cases()) {
+        CAPTURE(test.name);
+        const geoidx* built = index_of(test);
+        const Bytes bytes = save(built);
+        const auto opened = open(bytes);
+        CHECK(save(opened.get()) == bytes);
+        const geoidx_info before = info_of(built), after = info_of(opened.get());
+        CHECK(std::memcmp(&before, &after, sizeof before) == 0);
+        const uint32_t count = test.mesh.vertex_count();
+        for (uint32_t source : {0u, count / 2, count - 1}) {
+            const auto expected = msad(built, source, count), found = msad(opened.get(), source, count);
+            CHECK(std::memcmp(expected.data(), found.data(), count * sizeof(float)) == 0);
+            for (uint32_t target = 0; target < count; target += 7)
+                CHECK(sssd(built, source, target) == sssd(opened.get(), source, target));
+        }
+        CHECK(geoidx_verify(bytes.data(), bytes.size(), nullptr, nullptr) == GEOIDX_OK);
+    }
+}
+
 // Each fits into a leaf: there is no border at all.
 TEST_CASE("opened: a thousand separate triangles") {
     constexpr uint32_t TRIANGLES = 1000;
