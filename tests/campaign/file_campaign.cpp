@@ -104,5 +104,7 @@ int main(int count, char** values) {
     }
     std::printf("%llu files, of which %llu were opened\n", static_cast<unsigned long long>(done),
                 static_cast<unsigned long long>(opened));
-    return 0;
+    if (opened >= done - done / 10) return 0;
+    std::fprintf(stderr, "more than a tenth of the files is refused\n");
+    return 1;
 }

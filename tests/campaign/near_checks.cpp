@@ -23,7 +23,9 @@ Ranked ranked(const std::vector<uint32_t>& which, const Floats& distances, uint3
     return ranked;
 }
 
-void check_nearest_sources(const Subject& subject, std::span<const uint32_t> sources, const Floats& field) {
+// A single source's own field may say something else than that of all, but not twice as much.
+void check_nearest_sources(const Subject& subject, std::span<const uint32_t> sources, const Floats& field,
+                           Dice& dice) {
     const uint32_t count = subject.vertex_count();
     std::vector<uint32_t> nearest(count, 7);
     Floats distances(count, -1);
@@ -35,6 +37,14 @@ void check_nearest_sources(const Subject& subject, std::span<const uint32_t> sou
     for (uint32_t id = 0; id < count; ++id)
         expect(nearest[id] < sources.size() || (nearest[id] == GEOIDX_NO_SOURCE && !(field[id] < FAR)),
                "nearest_sources names a source where there is one", "%u: %u", id, nearest[id]);
+    const auto id = static_cast<uint32_t>(dice.below(count));
+    if (nearest[id] == GEOIDX_NO_SOURCE) return;
+    const Floats own = subject.msad(sources[nearest[id]]);
+    expect(own[id] <= 2 * field[id], "nearest_sources names the nearest source", "%u: %u, %.9g for %.9g", id,
+           nearest[id], double{own[id]}, double{field[id]});
+    expect(std::ranges::find(sources.first(nearest[id]), sources[nearest[id]]) ==
+               sources.first(nearest[id]).end(),
+           "nearest_sources names the first of repeated sources", "%u: %u", id, nearest[id]);
 }
 
 void check_within(const Subject& subject, uint32_t source, const Floats& field, float radius) {
@@ -101,7 +111,7 @@ void check_matrix(const Subject& subject, std::span<const uint32_t> sources, Dic
 }
 
 void check_near(const Subject& subject, std::span<const uint32_t> sources, const Floats& field, Dice& dice) {
-    check_nearest_sources(subject, sources, field);
+    check_nearest_sources(subject, sources, field, dice);
     const uint32_t source = sources[dice.below(sources.size())];
     const Floats own = subject.msad(source);
     for (const float radius : {own[dice.below(own.size())], 0.0f, own[dice.below(own.size())]})
