@@ -46,7 +46,7 @@ say_runtimes() {
     local library age
     for library in "$csharp"/runtimes/*/native/*; do
         age=
-        [ -z "$(find include src -name '*.[ch]*' -newer "$library" -print -quit)" ] || age=", OLDER THAN THE SOURCES"
+        [ -z "$(find include src format -name '*.[ch]*' -newer "$library" -print -quit)" ] || age=", OLDER THAN THE SOURCES"
         echo "packed: ${library#"$csharp"/runtimes/}, built $(date -r "$library" '+%F %R')$age"
     done
 }
@@ -120,7 +120,9 @@ take_unity_page() {
 compile_unity() {
     export GEOIDX_UNITY_OUT=$out/unity
     refuses_a_unity_package_without_libraries
-    bash -euo pipefail <(scripts/page_block.sh bindings/unity/README.md Install sh 2)
+    scripts/page_block.sh bindings/unity/README.md Install sh 2 >"$GEOIDX_UNITY_OUT/install.sh"
+    rm -rf "$GEOIDX_UNITY_OUT/package"
+    bash -euo pipefail "$GEOIDX_UNITY_OUT/install.sh"
     check_identities "$GEOIDX_UNITY_OUT/package"
     check_licences "$GEOIDX_UNITY_OUT/package"
     compiles_everywhere

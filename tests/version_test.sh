@@ -24,7 +24,7 @@ mirrors $csharp "        private const uint Expected = $((major * 10000 + minor 
 mirrors $csharp "        private const uint ExpectedAbi = $abi;"
 grep -q "^## $version\$" CHANGELOG.md || fail "CHANGELOG.md has no part of $version"
 
-others=$(grep -rIlwF "$version" CMakeLists.txt CMakePresets.json README.md bench bindings cmake docs examples format \
-    include scripts src tests tools --exclude-dir={artifacts,bin,build,obj,runtimes} 2>/dev/null || true)
+others=$(grep -rIlwF "$version" CMakeLists.txt CMakePresets.json README.md bench bindings cmake docs format \
+    include scripts src tests tools --exclude-dir={artifacts,bin,build,obj,runtimes}) || [ $? -eq 1 ]
 [ -z "$others" ] || fail "the version $version is also written in: $others"
 echo "$version: in one place, and mirrored"

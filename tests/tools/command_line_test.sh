@@ -166,7 +166,7 @@ awk '/^v/ { v[++n] = $2 " " $3 " " $4 } /^f/ { f[++m] = NF - 1; for (i = 2; i <=
 succeeds --help
 succeeds --version
 grep -q '^geoidx [0-9]' out.txt || fail "no version"
-for command in build info verify sssd msad exact; do succeeds $command --help; done
+for command in build convert info verify sssd msad path exact bench; do succeeds $command --help; done
 
 for mesh in grid.obj grid.ply sphere.obj cube.off two_parts.stl; do
     succeeds build $mesh -o ${mesh%.*}.${mesh#*.}.geoidx
@@ -182,9 +182,7 @@ grep -qE '^vertices +441$' out.txt || fail "info does not say 441 vertices"
 grep -qE '^triangles +800$' out.txt || fail "info does not say 800 triangles"
 succeeds info grid.obj.geoidx --json
 grep -q '"vertex_count": 441' out.txt || fail "info --json does not say 441 vertices"
-if command -v python3 >/dev/null; then
-    python3 -c 'import json; json.load(open("out.txt"))' 2>/dev/null || fail "info --json is no JSON"
-fi
+/usr/bin/python3 -c 'import json; json.load(open("out.txt"))' 2>/dev/null || fail "info --json is no JSON"
 
 succeeds build grid.obj -o options.geoidx --metric edges --delta 1 --weld-tolerance 1e-9 --levels 2 --patches 4,3 \
     --seed 7 --threads 1 --lloyd-iterations 2
@@ -475,14 +473,15 @@ done
 
 make_grid 150 >large.obj
 while read -r signal expected line; do
-    "$tool" build large.obj -o cancelled.geoidx --json >out.txt 2>err.txt &
+    : >err.txt
+    "$tool" build large.obj -o cancelled.geoidx --json --progress >out.txt 2>err.txt &
     pid=$!
-    sleep 1
+    while [ ! -s err.txt ] && kill -0 $pid 2>/dev/null; do sleep 0.1; done # until it says how far it is
     kill -$signal $pid 2>/dev/null || fail "the build was over before it could be cancelled"
     wait $pid
     status=$?
     [ $status -eq $expected ] || fail "after SIG$signal a build exited with $status"
-    [ "$(cat err.txt)" = "geoidx: $line" ] || fail "after SIG$signal a build says: $(cat err.txt)"
+    [ "$(tail -n 1 err.txt)" = "geoidx: $line" ] || fail "after SIG$signal a build says: $(cat err.txt)"
     [ ! -s out.txt ] || fail "a build that was ended prints: $(cat out.txt)"
     absent cancelled.geoidx
 done <<'SIGNALS'

@@ -471,7 +471,7 @@ import geoidx, meshes
 
     def test_a_child_does_not_wait_for_calls_of_its_parent(self):
         self.assert_ends("""
-import os, sys, threading, time, geoidx, meshes
+import os, sys, threading, geoidx, meshes
 inside = threading.Event()
 begin = threading.Event()
 def progress(fraction, stage):
@@ -480,11 +480,9 @@ def progress(fraction, stage):
 threading.Thread(target=geoidx.Index.build, args=meshes.SQUARE, kwargs={"progress": progress}, daemon=True).start()
 inside.wait()
 child = os.fork()
-started = time.monotonic()
 if child == 0:
     sys.exit()
-os.waitpid(child, 0)
-assert time.monotonic() - started < 5
+os.waitpid(child, 0)  # while the parent's call goes on, which would not end before
 begin.set()
 """)
 
