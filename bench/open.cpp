@@ -1,3 +1,4 @@
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <new>
@@ -38,7 +39,7 @@ private:
         ::operator delete (memory, std::align_val_t{alignment});
     }
 
-    uint64_t bytes_ = 0;
+    std::atomic<uint64_t> bytes_ = 0; // an index is opened on several threads
 };
 
 // What one round of opening and first questions took: milliseconds from its beginning, and bytes.
