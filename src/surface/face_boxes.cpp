@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <memory_resource>
 #include <utility>
-
-#include "src/base/array.h"
 
 namespace geodesic {
 
@@ -65,13 +61,13 @@ Foot foot_on_face(uint32_t face, const std::array<Vector3d, 3>& corners, const V
 SurfacePoint closest_on_edges(uint32_t face, const std::array<Vector3d, 3>& corners,
                               const Vector3d& position) {
     SurfacePoint best{face, {1, 0, 0}};
-    double least = std::numeric_limits<double>::infinity();
+    Vector3d best_at = corners[0];
     for (size_t k = 0; k < 3; ++k) {
         const size_t next = (k + 1) % 3;
         const double share = share_along(corners[k], corners[next], position);
-        const double square = ((1 - share) * corners[k] + share * corners[next] - position).squaredNorm();
-        if (!(square < least)) continue;
-        least = square;
+        const Vector3d at = (1 - share) * corners[k] + share * corners[next];
+        if (!is_nearer(at, best_at, position)) continue;
+        best_at = at;
         best.weights = {};
         best.weights[k] = 1 - share;
         best.weights[next] = share;
@@ -83,11 +79,13 @@ SurfacePoint closest_on_edges(uint32_t face, const std::array<Vector3d, 3>& corn
 constexpr uint32_t FACES_PER_LEAF = 8; // at least, unless the surface has fewer
 constexpr double STEPS = std::numeric_limits<uint16_t>::max();
 
-// The most whole steps that reach no farther than a place, from one end towards another one.
+// The most whole steps, which may be negative ones, that lead from one end no farther than to a place, as
+// place() rounds.
 uint16_t steps_to(double from, double step, double place) {
     const double share = step != 0 ? std::clamp((place - from) / step, 0.0, STEPS) : 0;
     auto steps = static_cast<uint16_t>(share);
-    while (steps > 0 && std::abs(steps * step) > std::abs(place - from)) --steps;
+    const auto is_beyond = [&](double at) { return step > 0 ? at > place : at < place; };
+    while (steps > 0 && is_beyond(from + steps * step)) --steps;
     return steps;
 }
 
@@ -149,10 +147,10 @@ AlignedBox3d FaceBoxes::around_leaf(const Surface& surface, uint32_t leaf) const
     return box;
 }
 
-// What has been found. Whatever may be no farther, but for rounding, also that of boxes, is looked at.
+// What has been found. Whatever may be no farther, but for the rounding of squares, is looked at.
 struct FaceBoxes::Nearest {
     bool may_be_beaten_at(double square) const {
-        constexpr double ROUNDING = 1e-15;
+        constexpr double ROUNDING = 1e-14;
         return point.face == NONE || square * (1 - ROUNDING) <= distance * distance;
     }
 
@@ -183,14 +181,11 @@ ClosestPoint FaceBoxes::closest(const Surface& surface, const Vector3d& position
         return Waiting{box.squaredExteriorDistance(position), number, box};
     };
     Nearest best;
-    std::array<std::byte, 4096> room; // for all that wait on any surface but the largest
-    std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
-    Array<Waiting> waiting(&memory);
-    waiting.reserve(48);
-    waiting.push_back(waiting_at(0, whole_));
-    while (!waiting.empty()) {
-        const Waiting next = waiting.back();
-        waiting.pop_back();
+    std::array<Waiting, 32> waiting; // one for each level of boxes, of which no surface has so many
+    size_t count = 0;
+    waiting[count++] = waiting_at(0, whole_);
+    while (count > 0) {
+        const Waiting next = waiting[--count];
         if (!best.may_be_beaten_at(next.square)) continue;
         if (next.number >= first_leaf_) {
             search_leaf(surface, next.number - first_leaf_, position, best);
@@ -200,8 +195,8 @@ ClosestPoint FaceBoxes::closest(const Surface& surface, const Vector3d& position
         Waiting nearer = waiting_at(first, place(next.box, boxes_[first])),
                 farther = waiting_at(second, place(next.box, boxes_[second]));
         if (farther.square < nearer.square) std::swap(nearer, farther);
-        waiting.push_back(farther);
-        waiting.push_back(nearer);
+        waiting[count++] = farther;
+        waiting[count++] = nearer;
     }
     return {best.point, best.distance};
 }

@@ -11,8 +11,7 @@ Surface::Surface(Intake&& intake, SurfaceCosts&& given, FlatFaces&& flat)
       vertex_faces(intake.mesh.vertex_faces), vertex_of_id(std::move(intake.vertex_of_id)),
       id_of_vertex(std::move(intake.id_of_vertex)), face_of_triangle(std::move(intake.face_of_triangle)),
       triangle_of_face(faces.size(), NONE), corners_of_duplicate(std::move(intake.corners_of_duplicate)),
-      fingerprint(intake.fingerprint), bounding_box_diagonal(intake.bounding_box_diagonal),
-      costs(std::move(given)), flat_faces(std::move(flat)) {
+      fingerprint(intake.fingerprint), costs(std::move(given)), flat_faces(std::move(flat)) {
     for (uint32_t t = 0; t < face_of_triangle.size(); ++t)
         if (face_of_triangle[t] != NONE && !corners_of_duplicate.contains(t))
             triangle_of_face[face_of_triangle[t]] = t;

@@ -43,7 +43,6 @@ struct Surface {
     std::vector<uint32_t> triangle_of_face; // the first of the caller's, with the same order of corners
     std::unordered_map<uint32_t, std::array<uint32_t, 3>> corners_of_duplicate; // as in Intake
     uint64_t fingerprint = 0;
-    double bounding_box_diagonal = 0;
     SurfaceCosts costs;
     FlatFaces flat_faces; // for distances of points by positions, whatever the costs
 
