@@ -19,7 +19,9 @@ constexpr uint32_t TARGETS = 500; // of each source, by SSSD; and near ones by M
 constexpr uint32_t FEWEST_EDGES = 2, MOST_EDGES = 20;
 constexpr uint32_t GROUP_SIZES[] = {2, 3, 16, 64};
 constexpr uint32_t TOGETHER = 4; // half of the groups are chosen from so many times as many around a vertex
-constexpr double TOO_SHORT = 1.2e-7; // of the diagonal; such distances have no stated error
+// As a share of what is twice the longest distance from the sources, and so no less than the diagonal of
+// their part; such distances have no stated error.
+constexpr double TOO_SHORT = 1.2e-7;
 
 struct StatedArguments {
     std::string mesh;
@@ -60,9 +62,8 @@ using Classes = std::array<Passed, std::size(CLASSES)>;
 class StatedBench {
 public:
     StatedBench(const Model& model, const geoidx_info& info, geoidx_query& query, geoidx_solver& solver)
-        : model_(model), query_(query), solver_(solver), too_short_(TOO_SHORT * info.bounding_box_diagonal),
-          edge_(average_edge(model.mesh)), neighbours_(model.mesh), exact_(model.mesh.vertex_count()),
-          field_(model.mesh.vertex_count()) {
+        : model_(model), query_(query), solver_(solver), edge_(average_edge(model.mesh)),
+          neighbours_(model.mesh), exact_(model.mesh.vertex_count()), field_(model.mesh.vertex_count()) {
         const double stated[] = {info.error_near_max, info.error_middle_max, info.error_far_max};
         for (size_t i = 0; i < std::size(stated); ++i) random_[i].stated = near_[i].stated = stated[i];
         several_.stated = info.error_several_max;
@@ -145,6 +146,10 @@ private:
         tools::require_ok(geoidx_query_msad(&query_, sources.data(), static_cast<uint32_t>(sources.size()),
                                             field_.data(), static_cast<uint32_t>(field_.size())),
                           model_.path);
+        float longest = 0;
+        for (const float distance : field_)
+            if (!std::isinf(distance)) longest = std::max(longest, distance);
+        too_short_ = TOO_SHORT * 2 * double{longest};
     }
 
     double sssd(uint32_t source, uint32_t target) {
@@ -156,7 +161,8 @@ private:
     const Model& model_;
     geoidx_query& query_;
     geoidx_solver& solver_;
-    const double too_short_, edge_;
+    const double edge_;
+    double too_short_ = 0;
     Neighbours neighbours_;
     std::vector<double> exact_;
     std::vector<float> field_;

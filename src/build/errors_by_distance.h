@@ -14,7 +14,8 @@
 namespace geodesic {
 
 // Whether an answer can have a relative error at this distance: whatever the builder states, compares or
-// averages as a share of distances leaves out the others. `too_short` is that of ShortDistances.
+// averages as a share of distances leaves out the others. `too_short` is what
+// ShortDistances::up_to() says.
 inline bool has_relative_error(double exact, double too_short) {
     return exact > too_short && exact < UNREACHABLE;
 }

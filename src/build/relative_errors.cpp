@@ -52,13 +52,15 @@ ShortDistances short_by_fields(const Parts& parts, const ExactFields& exact) {
         double& extent = extents[parts.of_vertex[exact.sources[i]]];
         extent = std::max(extent, longest_of(exact.distances[i]));
     }
-    double narrowest = INFINITE;
-    for (const double extent : extents)
-        if (extent > 0) narrowest = std::min(narrowest, extent);
+    double least_ratio = INFINITE; // of such a distance to the diagonal of its part
+    for (size_t p = 0; p < extents.size(); ++p)
+        if (extents[p] > 0) least_ratio = std::min(least_ratio, extents[p] / parts.parts[p].diagonal);
     ShortDistances result(parts.of_vertex, {});
-    for (const double extent : extents)
+    for (size_t p = 0; p < extents.size(); ++p) {
+        const bool is_known = extents[p] > 0 || least_ratio == INFINITE;
         result.of_part.push_back(
-            ShortDistances::beside(extent > 0 || narrowest == INFINITE ? extent : narrowest));
+            ShortDistances::beside(is_known ? extents[p] : least_ratio * parts.parts[p].diagonal));
+    }
     return result;
 }
 
