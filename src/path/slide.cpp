@@ -103,16 +103,16 @@ bool Sliding::is_held(size_t i) const {
 
 // The Newton step of the points that are not held: elimination down and substitution up.
 void Sliding::solve() {
-    // Of a diagonal entry so much is added to it, and of what it may be at most where pieces are as long as
-    // their rail, since it may be 0 along an edge.
+    // Such a share of a diagonal entry is added to it, and of the cost times the rail, since the entry is 0
+    // where both pieces run along the rail.
     constexpr double LEAST = 1e-10;
     double before = 0, pivot = 1, right = 0; // of the last row: its entry beside the diagonal, and the rest
     for (size_t i = 0; i < rails_.size(); ++i) {
         const bool held = is_held(i);
         const double coupling = held ? 0 : before;
         const double factor = coupling / pivot;
-        const double most = std::max(cost_[i], cost_[i + 1]) * rails_[i].along.norm();
-        const double own = held ? 1 : diagonal_[i] * (1 + LEAST) + most * LEAST;
+        const double of_rail = std::max(cost_[i], cost_[i + 1]) * rails_[i].along.norm();
+        const double own = held ? 1 : diagonal_[i] * (1 + LEAST) + of_rail * LEAST;
         right = (held ? 0 : -first_[i]) - factor * right;
         pivot = std::max(own - factor * coupling, own * LEAST);
         const bool next_held = i + 1 == rails_.size() || is_held(i + 1);

@@ -21,7 +21,7 @@ class Turn {
 public:
     Turn(const Surface& surface, uint32_t vertex);
 
-    // No way passes the edge to this vertex.
+    // No way passes the edge to this vertex, which there must be.
     void forbid(uint32_t other_end) { spokes_[spoke_of(other_end)].is_forbidden = true; }
 
     // The faces between the two, without them, and the other ends of the edges passed.
@@ -53,7 +53,6 @@ private:
     };
 
     void list_sides();
-    // That of an edge to this vertex, which there must be.
     uint32_t spoke_of(uint32_t other_end) const;
     const Sector& sector_of(uint32_t face) const { return *std::ranges::find(sectors_, face, &Sector::face); }
     double angle_of(const Sector& sector) const {

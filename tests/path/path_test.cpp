@@ -51,6 +51,30 @@ TEST_CASE("path: on triangles, never shorter than the exact distance, and exact 
     }
 }
 
+// Where hundreds of faces meet, ways turn around the vertex, end there, and cross two faces beside it. Three
+// more faces stand on edges of the second one.
+TEST_CASE("path: around a vertex of hundreds of faces") {
+    Soup finned = cone(saddle_rays(120, 0.2), 1);
+    for (const uint32_t ray : {1u, 2u, 40u}) {
+        finned.positions.push_back(finned.positions[ray] + Eigen::Vector3d(0, 0, 1));
+        finned.triangles.push_back({0, ray, finned.vertex_count() - 1});
+    }
+    for (const Soup& soup : {cone(saddle_rays(300, 0.05), 1), finned}) {
+        const PathCase on(soup);
+        check_paths(on, 40);
+        std::mt19937_64 random(9);
+        const auto apex = on.at_vertex(0);
+        for (size_t i = 0; i < 10; ++i) {
+            const auto to = random_point(soup, random, i);
+            const double line = (on.position(to) - soup.positions[0]).norm();
+            for (const uint32_t quality : {GEOIDX_PATH_STRAIGHT, GEOIDX_PATH_EXACT}) {
+                CHECK(path_length(on, apex, to, quality) == doctest::Approx(line).epsilon(1e-12));
+                CHECK(path_length(on, to, apex, quality) == doctest::Approx(line).epsilon(1e-12));
+            }
+        }
+    }
+}
+
 // Faces of such soups share edges with any number of others, only a vertex, or nothing: ways lead over
 // vertices where no edge has a face beyond.
 TEST_CASE("path: on random triangles between a few points, in both directions" * doctest::skip(SANITIZED)) {

@@ -115,14 +115,12 @@ double least(double low, double high, const auto& value) {
 TEST_CASE("weighted path: where all costs are the same it is the straight line times the cost" *
           doctest::skip(SANITIZED)) {
     std::mt19937_64 random(2);
-    const std::pair<Soup, double> flat_soups[] = {
-        {jittered_grid(9, 4), 1e-13}, {delaunay_square(60, 3), 2.5}, {grid(7, 5, 1, 1), 1e13}};
-    for (const auto& [soup, cost] : flat_soups)
+    for (const Soup& soup : {jittered_grid(9, 4), delaunay_square(60, 3), grid(7, 5, 1, 1)})
         for (const uint32_t engine : {GEOIDX_ENGINE_OVERLAY, GEOIDX_ENGINE_GRAPH}) {
-            const WeightedCase of(soup, std::vector<double>(soup.triangles.size(), cost), engine);
+            const WeightedCase of(soup, std::vector<double>(soup.triangles.size(), 2.5), engine);
             for (size_t i = 0; i < 30; ++i) {
                 const auto from = random_point(soup, random, i), to = random_point(soup, random, i / 4);
-                const double line = cost * (of.on.position(from) - of.on.position(to)).norm();
+                const double line = 2.5 * (of.on.position(from) - of.on.position(to)).norm();
                 for (const uint32_t quality : {GEOIDX_PATH_STRAIGHT, GEOIDX_PATH_EXACT})
                     CHECK(of.length(from, to, quality) == doctest::Approx(line).epsilon(1e-7));
             }
@@ -148,8 +146,10 @@ TEST_CASE("weighted path: where all costs are the same it is hardly longer than 
 
 TEST_CASE("weighted path: bends by Snell's law between two half planes" * doctest::skip(SANITIZED)) {
     const Soup soup = grid(8, 8, 1, 1);
-    const WeightedCase of(
-        soup, costs_by_place(soup, [](const Eigen::Vector3d& at) { return at.x() < 0.5 ? 1.0 : 2.5; }));
+    const auto cost_at = [](const Eigen::Vector3d& at) { return at.x() < 0.5 ? 1.0 : 2.5; };
+    const auto tiny_cost_at = [&](const Eigen::Vector3d& at) { return 1e-13 * cost_at(at); };
+    const WeightedCase of(soup, costs_by_place(soup, cost_at)),
+        of_tiny(soup, costs_by_place(soup, tiny_cost_at));
     std::mt19937_64 random(4);
     for (size_t i = 0; i < 40; ++i) {
         const double x1 = uniform(random, 0.02, 0.48), y1 = uniform(random, 0.2, 0.8);
@@ -161,6 +161,7 @@ TEST_CASE("weighted path: bends by Snell's law between two half planes" * doctes
         for (const uint32_t quality : {GEOIDX_PATH_STRAIGHT, GEOIDX_PATH_EXACT}) {
             CHECK(of.length(from, to, quality) == doctest::Approx(best).epsilon(1e-7));
             CHECK(of.length(to, from, quality) == doctest::Approx(best).epsilon(1e-7));
+            CHECK(1e13 * of_tiny.length(from, to, quality) == doctest::Approx(best).epsilon(1e-7));
         }
     }
 }

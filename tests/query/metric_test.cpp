@@ -292,6 +292,11 @@ TEST_CASE("vertices that cannot be reached and vertices that no triangle uses") 
     CHECK(from_both[triangle + 2] == 4.0f);
     for (uint32_t v = 0; v < unused; ++v) CHECK(from_both[v] == INFINITE);
     CHECK(from_both[last] == INFINITE);
+
+    const auto metric = solver(mesh, build_options(GEOIDX_METRIC_EXACT, 2));
+    const auto exact = metric_distances(metric.get(), sources, count);
+    for (uint32_t v = 0; v < count; ++v)
+        CHECK((exact[v] == from_both[v] || exact[v] == doctest::Approx(double{from_both[v]})));
 }
 
 TEST_CASE("equal positions are one vertex") {
