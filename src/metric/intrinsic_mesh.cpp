@@ -193,15 +193,36 @@ std::pair<uint32_t, uint32_t> fan_start(const Mesh& mesh, uint32_t vertex) {
     return {corner, mesh.face_edges[corner / 3][(corner % 3 + 1) % 3]};
 }
 
-// Below this share of the extent of a surface, rounding hides on which side of an edge's ends paths pass. The
-// root of the sum of all squares of lengths is some times the extent.
-constexpr double SHORT = 1e-7;
+// Below this share of the extent of a part of a mesh, rounding hides on which side of an edge's ends paths
+// pass. The root of the sum of all squares of lengths is some times the extent.
+class ShortLengths {
+public:
+    ShortLengths(const Mesh& mesh, std::span<const double> edge_length) {
+        double squares = 0;
+        for (const double length : edge_length) squares += length * length;
+        of_whole_ = below(squares);
+        // Of a part it is no longer than that.
+        if (std::ranges::all_of(edge_length, [&](double length) { return length >= of_whole_; })) return;
+        Parts parts = parts_of(mesh);
+        of_part_.resize(parts.parts.size(), 0);
+        for (uint32_t e = 0; e < mesh.edge_count(); ++e)
+            of_part_[parts.of_vertex[mesh.edges[e][0]]] += edge_length[e] * edge_length[e];
+        for (double& of_part : of_part_) of_part = below(of_part);
+        part_of_vertex_ = std::move(parts.of_vertex);
+    }
 
-double short_length(const IntrinsicMesh& mesh) {
-    double squares = 0;
-    for (const double length : mesh.edge_length) squares += length * length;
-    return SHORT * std::sqrt(squares);
-}
+    // On the part of a vertex.
+    double at(uint32_t vertex) const {
+        return of_part_.empty() ? of_whole_ : of_part_[part_of_vertex_[vertex]];
+    }
+
+private:
+    static double below(double squares) { return 1e-7 * std::sqrt(squares); }
+
+    double of_whole_ = 0;
+    std::vector<double> of_part_; // none where no edge is short
+    std::vector<uint32_t> part_of_vertex_;
+};
 
 bool has_short_edge(const IntrinsicMesh& mesh, uint32_t vertex, double shortest) {
     return std::ranges::any_of(mesh.spokes[vertex],
@@ -268,9 +289,9 @@ IntrinsicMesh::IntrinsicMesh(const Mesh& mesh, std::span<const double> own_lengt
     total_angle.resize(mesh.vertex_count());
     fan.resize(mesh.vertex_count());
     can_bend.resize(mesh.vertex_count());
-    const double shortest = short_length(*this);
+    const ShortLengths shortest(mesh, edge_length);
     for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-        add_fan(mesh, v, shortest, *this);
+        add_fan(mesh, v, shortest.at(v), *this);
         can_bend[v] = geodesic::can_bend(*this, v);
     }
 }
