@@ -392,8 +392,9 @@ typedef struct geoidx_info {
     uint32_t patch_count[8]; /* of levels 1 .. level_count */
     /* Errors are relative to the metric's distance. Of distances that are too short to be told from 0 by a
      * float, none are stated and none count in target_error: those up to 2^-23 (1.2e-7) of the diagonal of
-     * the bounding box or, where costs, lengths or a callback decide distances, of the longest distance from
-     * the random sources. So two vertices that rounding has put 1e-16 apart, as at a pole, say nothing. */
+     * the box around what edges join or, where costs, lengths or a callback decide distances, of the longest
+     * distance there from the random sources. So two vertices that rounding has put 1e-16 apart, as at a
+     * pole, say nothing. */
     uint32_t error_sources;
     double error_mean;
     double error_signed_mean;
