@@ -10,7 +10,7 @@
 #include "src/base/array.h"
 #include "src/build/errors_by_distance.h"
 #include "src/build/relative_errors.h"
-#include "src/mesh/parts.h"
+#include "src/mesh/components.h"
 #include "src/partition/random.h"
 #include "src/points/point_queries.h"
 #include "src/surface/indexed_faces.h"
@@ -34,11 +34,11 @@ double longest_edge(const Mesh& mesh, uint32_t face) {
 
 // Per face, the area of all faces up to it, of those where edges are long.
 std::vector<double> areas_up_to(const Mesh& mesh) {
-    const Parts parts = parts_of(mesh);
+    const Components components = components_of(mesh);
     std::vector<double> areas;
     double sum = 0;
     for (uint32_t f = 0; f < mesh.face_count(); ++f) {
-        const double across = parts.of(mesh.faces[f][0]).edges_across(longest_edge(mesh, f));
+        const double across = components.of(mesh.faces[f][0]).edges_across(longest_edge(mesh, f));
         if (are_long_edges(across)) sum += area_of(mesh, f);
         areas.push_back(sum);
     }
@@ -89,7 +89,7 @@ void PointErrors::choose_points(const std::vector<double>& areas, uint64_t seed)
 }
 
 MeasuredError PointErrors::measure(const Index& index, Workers& workers) const {
-    const ShortDistances too_short(surface_.parts);
+    const ShortDistances too_short(surface_.components);
     std::vector<std::vector<double>> of_point(points_.size());
     workers.run(points_.size(), [&](FieldSolver&, size_t i) {
         Query query(index, global_heap());

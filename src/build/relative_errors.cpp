@@ -46,20 +46,20 @@ double longest_of(std::span<const double> distances) {
 }
 
 // By the longest distances of the fields.
-ShortDistances short_by_fields(const Parts& parts, const ExactFields& exact) {
-    std::vector<double> extents(parts.parts.size(), 0);
+ShortDistances short_by_fields(const Components& components, const ExactFields& exact) {
+    std::vector<double> extents(components.all.size(), 0);
     for (size_t i = 0; i < exact.sources.size(); ++i) {
-        double& extent = extents[parts.of_vertex[exact.sources[i]]];
+        double& extent = extents[components.of_vertex[exact.sources[i]]];
         extent = std::max(extent, longest_of(exact.distances[i]));
     }
-    double least_ratio = INFINITE; // of such a distance to the diagonal of its part
+    double least_ratio = INFINITE; // of such a distance to the diagonal of its component
     for (size_t p = 0; p < extents.size(); ++p)
-        if (extents[p] > 0) least_ratio = std::min(least_ratio, extents[p] / parts.parts[p].diagonal);
-    ShortDistances result(parts.of_vertex, {});
+        if (extents[p] > 0) least_ratio = std::min(least_ratio, extents[p] / components.all[p].diagonal);
+    ShortDistances result(components.of_vertex, {});
     for (size_t p = 0; p < extents.size(); ++p) {
         const bool is_known = extents[p] > 0 || least_ratio == INFINITE;
-        result.of_part.push_back(
-            ShortDistances::beside(is_known ? extents[p] : least_ratio * parts.parts[p].diagonal));
+        result.of_component.push_back(
+            ShortDistances::beside(is_known ? extents[p] : least_ratio * components.all[p].diagonal));
     }
     return result;
 }
@@ -68,16 +68,16 @@ ShortDistances short_by_fields(const Parts& parts, const ExactFields& exact) {
 
 ExactFields exact_fields(const Description& about, const Mesh& mesh, uint64_t seed, Workers& workers) {
     const uint32_t vertex_count = mesh.vertex_count();
-    const Parts parts = parts_of(mesh);
+    const Components components = components_of(mesh);
     Random random(seed);
     ExactFields fields{std::vector<uint32_t>(SOURCES), std::vector<std::vector<double>>(SOURCES),
-                       ShortDistances(parts)};
+                       ShortDistances(components)};
     for (uint32_t& source : fields.sources) source = random.below(vertex_count);
     workers.run(SOURCES, [&](FieldSolver& solver, size_t i) {
         solver.solve({&fields.sources[i], 1}, {});
         for (uint32_t v = 0; v < vertex_count; ++v) fields.distances[i].push_back(solver.distance(v));
     });
-    if (!follows_positions(about)) fields.too_short = short_by_fields(parts, fields);
+    if (!follows_positions(about)) fields.too_short = short_by_fields(components, fields);
     return fields;
 }
 

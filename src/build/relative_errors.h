@@ -19,9 +19,9 @@ struct ExactFields {
     ShortDistances too_short;
 };
 
-// Another seed chooses other sources. Where positions alone do not decide distances, the extent of a part is
-// the longest distance from its sources. That of a part without one is estimated from the diagonal of its
-// box, by the least ratio of the two that others have.
+// Another seed chooses other sources. Where positions alone do not decide distances, the extent of a
+// component is the longest distance from its sources. That of one without a source is estimated from the
+// diagonal of its box, by the least ratio of the two that others have.
 ExactFields exact_fields(const Description& about, const Mesh& mesh, uint64_t seed, Workers& workers);
 
 // What decides of a distance whether it counts, and to which class of ErrorsByDistance it belongs. The

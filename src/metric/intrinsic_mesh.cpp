@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "src/mesh/angle.h"
-#include "src/mesh/parts.h"
+#include "src/mesh/components.h"
 
 namespace geodesic {
 
@@ -74,16 +74,16 @@ double missing_length(const Mesh& mesh, const std::array<uint32_t, 3>& edges) {
 std::vector<double> mollified_lengths(const Mesh& mesh) {
     const auto has_area = [&](const auto& edges) { return missing_length(mesh, edges) == 0; };
     if (std::ranges::all_of(mesh.face_edges, has_area)) return {};
-    const Parts parts = parts_of(mesh);
-    const auto part_of = [&](uint32_t edge) { return parts.of_vertex[mesh.edges[edge][0]]; };
-    std::vector<double> addition(parts.parts.size(), 0);
+    const Components components = components_of(mesh);
+    const auto component_of = [&](uint32_t edge) { return components.of_vertex[mesh.edges[edge][0]]; };
+    std::vector<double> addition(components.all.size(), 0);
     for (const auto& edges : mesh.face_edges) {
-        double& most = addition[part_of(edges[0])];
+        double& most = addition[component_of(edges[0])];
         most = std::max(most, missing_length(mesh, edges));
     }
     std::vector<double> lengths;
     for (uint32_t e = 0; e < mesh.edge_count(); ++e)
-        lengths.push_back(mesh.edge_length(e) + addition[part_of(e)]);
+        lengths.push_back(mesh.edge_length(e) + addition[component_of(e)]);
     return lengths;
 }
 
@@ -193,7 +193,7 @@ std::pair<uint32_t, uint32_t> fan_start(const Mesh& mesh, uint32_t vertex) {
     return {corner, mesh.face_edges[corner / 3][(corner % 3 + 1) % 3]};
 }
 
-// Below this share of the extent of a part of a mesh, rounding hides on which side of an edge's ends paths
+// Below this share of the extent of a component, rounding hides on which side of an edge's ends paths
 // pass. The root of the sum of all squares of lengths is some times the extent.
 class ShortLengths {
 public:
@@ -201,27 +201,27 @@ public:
         double squares = 0;
         for (const double length : edge_length) squares += length * length;
         of_whole_ = below(squares);
-        // Of a part it is no longer than that.
+        // Of a component it is no longer than that.
         if (std::ranges::all_of(edge_length, [&](double length) { return length >= of_whole_; })) return;
-        Parts parts = parts_of(mesh);
-        of_part_.resize(parts.parts.size(), 0);
+        Components components = components_of(mesh);
+        of_component_.resize(components.all.size(), 0);
         for (uint32_t e = 0; e < mesh.edge_count(); ++e)
-            of_part_[parts.of_vertex[mesh.edges[e][0]]] += edge_length[e] * edge_length[e];
-        for (double& of_part : of_part_) of_part = below(of_part);
-        part_of_vertex_ = std::move(parts.of_vertex);
+            of_component_[components.of_vertex[mesh.edges[e][0]]] += edge_length[e] * edge_length[e];
+        for (double& of_component : of_component_) of_component = below(of_component);
+        component_of_vertex_ = std::move(components.of_vertex);
     }
 
-    // On the part of a vertex.
+    // On the component of a vertex.
     double at(uint32_t vertex) const {
-        return of_part_.empty() ? of_whole_ : of_part_[part_of_vertex_[vertex]];
+        return of_component_.empty() ? of_whole_ : of_component_[component_of_vertex_[vertex]];
     }
 
 private:
     static double below(double squares) { return 1e-7 * std::sqrt(squares); }
 
     double of_whole_ = 0;
-    std::vector<double> of_part_; // none where no edge is short
-    std::vector<uint32_t> part_of_vertex_;
+    std::vector<double> of_component_; // none where no edge is short
+    std::vector<uint32_t> component_of_vertex_;
 };
 
 bool has_short_edge(const IntrinsicMesh& mesh, uint32_t vertex, double shortest) {

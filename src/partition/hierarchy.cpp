@@ -7,7 +7,7 @@
 
 #include "geoidx.h"
 
-#include "src/mesh/parts.h"
+#include "src/mesh/components.h"
 #include "src/metric/edge_graph.h"
 #include "src/partition/split.h"
 
@@ -122,8 +122,8 @@ Hierarchy build_hierarchy(const Mesh& mesh, const HierarchyOptions& options, Wor
     hierarchy.level_begin = {0, 1};
     const std::vector<double> lengths =
         options.edge_lengths.empty() ? edge_lengths(mesh) : options.edge_lengths;
-    const Parts parts = parts_of(mesh);
-    const Splitting splitting{mesh, lengths, parts.of_vertex, options.lloyd_iterations};
+    const Components components = components_of(mesh);
+    const Splitting splitting{mesh, lengths, components.of_vertex, options.lloyd_iterations};
     std::vector<std::vector<uint32_t>> patches(1); // faces of the patches of the latest level
     for (uint32_t f = 0; f < mesh.face_count(); ++f) patches[0].push_back(f);
     OtherSolvers rough(options.rough_metric.get(), workers);

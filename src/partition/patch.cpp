@@ -14,18 +14,18 @@ std::vector<uint32_t> vertices_of(const Mesh& mesh, std::span<const uint32_t> fa
     return vertices;
 }
 
-Components connected_components(const Mesh& mesh, std::span<const uint32_t> faces,
-                                std::span<const uint32_t> label) {
+FaceGroups connected_groups(const Mesh& mesh, std::span<const uint32_t> faces,
+                            std::span<const uint32_t> label) {
     std::unordered_map<uint32_t, uint32_t> position;
     position.reserve(faces.size());
     for (uint32_t i = 0; i < faces.size(); ++i) position.emplace(faces[i], i);
 
-    Components components;
-    components.of_face.assign(faces.size(), NONE);
+    FaceGroups groups;
+    groups.of_face.assign(faces.size(), NONE);
     std::vector<uint32_t> stack;
     for (uint32_t start = 0; start < faces.size(); ++start) {
-        if (components.of_face[start] != NONE) continue;
-        components.of_face[start] = components.count;
+        if (groups.of_face[start] != NONE) continue;
+        groups.of_face[start] = groups.count;
         stack.push_back(start);
         while (!stack.empty()) {
             const uint32_t i = stack.back();
@@ -35,14 +35,14 @@ Components connected_components(const Mesh& mesh, std::span<const uint32_t> face
                     const auto found = position.find(g);
                     if (found == position.end()) continue;
                     const uint32_t j = found->second;
-                    if (components.of_face[j] != NONE || label[j] != label[i]) continue;
-                    components.of_face[j] = components.count;
+                    if (groups.of_face[j] != NONE || label[j] != label[i]) continue;
+                    groups.of_face[j] = groups.count;
                     stack.push_back(j);
                 }
         }
-        ++components.count;
+        ++groups.count;
     }
-    return components;
+    return groups;
 }
 
 }

@@ -18,18 +18,18 @@ void add_sample(FieldSolver& solver, std::span<const uint32_t> candidates, uint3
 
 // Returns, for each candidate, a bound on how far apart any two are that the metric joins to it: twice the
 // distance of the farthest one from some vertex among these. A metric need not join all that edges join,
-// since a caller's may have walls: candidates of a part that some solves do not reach count as 0, and get no
-// sample.
-std::vector<double> widths(FieldSolver& solver, std::span<const uint32_t> part_of_vertex,
+// since a caller's may have walls: candidates of a component that some solves do not reach count as 0, and
+// get no sample.
+std::vector<double> widths(FieldSolver& solver, std::span<const uint32_t> component_of_vertex,
                            std::span<const uint32_t> candidates) {
-    constexpr int MOST_SOLVES = 8; // of a part
-    std::vector<uint32_t> part_of;
-    for (const uint32_t candidate : candidates) part_of.push_back(part_of_vertex[candidate]);
-    const auto members = group_by(part_of, std::ranges::max(part_of) + 1);
+    constexpr int MOST_SOLVES = 8; // of a component
+    std::vector<uint32_t> component_of;
+    for (const uint32_t candidate : candidates) component_of.push_back(component_of_vertex[candidate]);
+    const auto members = group_by(component_of, std::ranges::max(component_of) + 1);
     std::vector<double> result(candidates.size(), 0);
-    std::vector<uint32_t> left, vertices; // of one part: those that no solve has reached
-    for (size_t part = 0; part < members.size(); ++part) {
-        left.assign(members[part].begin(), members[part].end());
+    std::vector<uint32_t> left, vertices; // of one component: those that no solve has reached
+    for (size_t component = 0; component < members.size(); ++component) {
+        left.assign(members[component].begin(), members[component].end());
         for (int solve = 0; solve < MOST_SOLVES && !left.empty(); ++solve) {
             vertices.clear();
             for (const uint32_t i : left) vertices.push_back(candidates[i]);
@@ -57,7 +57,7 @@ std::vector<double> widths(FieldSolver& solver, std::span<const uint32_t> part_o
 // A component that has no sample yet counts as its width (see widths()) away from the nearest sample. So
 // loose triangles beside a large body get a sample only once the disks on the body are no larger than they
 // are.
-std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, std::span<const uint32_t> part_of_vertex,
+std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, std::span<const uint32_t> component_of_vertex,
                                            std::span<const uint32_t> candidates, uint32_t count,
                                            Random& random) {
     constexpr double SHRINK = 0.8;
@@ -69,7 +69,7 @@ std::vector<uint32_t> poisson_disk_samples(FieldSolver& solver, std::span<const 
     std::vector<uint32_t> samples{shuffled[0]};
     add_sample(solver, shuffled, samples[0], UNREACHABLE, nearest);
     if (std::ranges::max(nearest) == UNREACHABLE) {
-        nearest = widths(solver, part_of_vertex, shuffled);
+        nearest = widths(solver, component_of_vertex, shuffled);
         samples[0] = shuffled[static_cast<size_t>(std::ranges::max_element(nearest) - nearest.begin())];
         add_sample(solver, shuffled, samples[0], UNREACHABLE, nearest);
     }

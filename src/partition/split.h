@@ -20,8 +20,8 @@ struct Split {
 // What is the same for all patches of a mesh.
 struct Splitting {
     const Mesh& mesh;
-    std::span<const double> edge_lengths;     // of all edges
-    std::span<const uint32_t> part_of_vertex; // see Parts
+    std::span<const double> edge_lengths;          // of all edges
+    std::span<const uint32_t> component_of_vertex; // see Components
     uint32_t lloyd_iterations;
 };
 

@@ -128,7 +128,7 @@ std::optional<StripWay> PathFinder::find_straight(const FacePoint& source, const
     }
     std::ranges::sort(ways, {}, length);
     const double longer = length(ways.back()) - length(ways.front());
-    const double edge = surface_.parts.of(surface_.faces[source_.face][0]).average_edge;
+    const double edge = surface_.components.of(surface_.faces[source_.face][0]).average_edge;
     if (longer <= SAME * length(ways.front()) || longer > MADE_UP_FOR * edge) ways.resize(1);
     try_other_sides(surface_, ways);
     return std::move(*std::ranges::min_element(ways, {}, length));

@@ -143,9 +143,9 @@ bool PointQueries::needs_path(const SurfacePoint& place, const FacePoint& source
         return false;
     if (!unfolds() || std::holds_alternative<GraphIndex>(index_.engine)) return false;
     // Pairs of vertices that tables have wrong are measured, so that only edges around points that are at no
-    // vertex count. Where these are short for the part, its average edge does, of which tables round to a
-    // share.
-    const double average = surface_.parts.of(surface_.faces[place.face][0]).average_edge;
+    // vertex count. Where these are short for the component, its average edge does, of which tables round to
+    // a share.
+    const double average = surface_.components.of(surface_.faces[place.face][0]).average_edge;
     const double longest = std::max({longest_edge_around(source), longest_edge_around(target), average});
     return double{distance} < FEW_EDGES * longest;
 }

@@ -25,7 +25,7 @@ inline std::array<double, 3> edge_lengths(const Surface& surface, const std::arr
 
 // How many edges the part of the surface is across that a face with these corners lies in.
 inline double edges_across(const Surface& surface, const std::array<uint32_t, 3>& corners) {
-    return surface.parts.of(corners[0]).edges_across(std::ranges::max(edge_lengths(surface, corners)));
+    return surface.components.of(corners[0]).edges_across(std::ranges::max(edge_lengths(surface, corners)));
 }
 
 // Whether the edges around such a face are long for what the surface does.

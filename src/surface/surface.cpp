@@ -6,7 +6,7 @@
 namespace geodesic {
 
 Surface::Surface(Intake&& intake, SurfaceCosts&& given, FlatFaces&& flat)
-    : average_edge(mean_edge(intake.mesh)), parts(parts_of(intake.mesh)),
+    : average_edge(mean_edge(intake.mesh)), components(components_of(intake.mesh)),
       positions(std::move(intake.mesh.positions)), faces(std::move(intake.mesh.faces)),
       vertex_faces(intake.mesh.vertex_faces), vertex_of_id(std::move(intake.vertex_of_id)),
       id_of_vertex(std::move(intake.id_of_vertex)), face_of_triangle(std::move(intake.face_of_triangle)),

@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
+#include "src/mesh/components.h"
 #include "src/mesh/intake.h"
-#include "src/mesh/parts.h"
 #include "src/metric/metric.h"
 #include "src/surface/flat_faces.h"
 #include "src/surface/vertex_faces.h"
@@ -33,7 +33,7 @@ struct Surface {
 
     double average_edge; // each edge counts once, as for the stated errors by distance; first, since it needs
                          // the mesh whose arrays the others take
-    Parts parts;
+    Components components;
     std::vector<Eigen::Vector3d> positions;
     std::vector<std::array<uint32_t, 3>> faces;
     VertexFaces vertex_faces;

@@ -39,7 +39,7 @@ FinerSurface cut(const Mesh& mesh, const Hierarchy& hierarchy, double share) {
     Workers workers(metric, 2, {});
     const uint32_t sources[] = {0, 5};
     const auto edges =
-        border_edges(mesh, hierarchy.leaf_of_face, sources, ShortDistances(parts_of(mesh)), workers);
+        border_edges(mesh, hierarchy.leaf_of_face, sources, ShortDistances(components_of(mesh)), workers);
     const auto count = static_cast<size_t>(share * static_cast<double>(edges.size()));
     REQUIRE(count > 0);
     return with_finer_borders(mesh, hierarchy, std::span(edges).first(count));

@@ -206,7 +206,7 @@ struct IndependentIndex {
     std::array<double, 3> position_origin;
     std::vector<int32_t> positions;
     std::vector<std::vector<uint32_t>> owned, internal, border; // per patch
-    std::vector<Table> border_table, crossing_table, internal_table;
+    std::vector<Table> border_table, border_internal_table, internal_table;
 
     explicit IndependentIndex(const Bytes& bytes) {
         const IndexFile file(bytes);
@@ -230,7 +230,7 @@ struct IndependentIndex {
         read_borders(file.bytes("BORD"), vertex_count);
         border_table = folded_tables(file, "BVBV", border);
         internal_table = folded_tables(file, "IVIV", internal);
-        read_crossing_tables(file);
+        read_border_internal_tables(file);
     }
 
     void read_meta(Numbers meta) {
@@ -327,9 +327,9 @@ struct IndependentIndex {
         CHECK(next == matrix.end());
     }
 
-    void read_crossing_tables(const IndexFile& file) {
+    void read_border_internal_tables(const IndexFile& file) {
         std::vector<std::pair<uint32_t, uint32_t>> shapes;
-        crossing_table.resize(patch_count);
+        border_internal_table.resize(patch_count);
         for (uint32_t p = inner_count; p < patch_count; ++p)
             if (!border[p].empty() && !internal[p].empty())
                 shapes.push_back(
@@ -338,7 +338,7 @@ struct IndependentIndex {
         size_t used = 0;
         for (uint32_t p = inner_count; p < patch_count; ++p)
             if (!border[p].empty() && !internal[p].empty())
-                crossing_table[p] = {border[p], internal[p], matrices[used++]};
+                border_internal_table[p] = {border[p], internal[p], matrices[used++]};
     }
 
     // ---- Distances from the tables
@@ -346,7 +346,7 @@ struct IndependentIndex {
     std::vector<const Table*> all_tables() const {
         std::vector<const Table*> tables;
         for (uint32_t p = 1; p < patch_count; ++p)
-            tables.insert(tables.end(), {&border_table[p], &crossing_table[p], &internal_table[p]});
+            tables.insert(tables.end(), {&border_table[p], &border_internal_table[p], &internal_table[p]});
         return tables;
     }
 
@@ -382,7 +382,7 @@ struct IndependentIndex {
             for (uint32_t i = 0; i < child_count[p]; ++i) tables.push_back(&border_table[first_child[p] + i]);
         if (common != 0) tables.push_back(&border_table[common]);
         for (uint32_t v : {a, b})
-            if (v >= border_vertex_count) tables.push_back(&crossing_table[leaf_of(v)]);
+            if (v >= border_vertex_count) tables.push_back(&border_internal_table[leaf_of(v)]);
         return tables;
     }
 
@@ -512,7 +512,7 @@ TEST_CASE("independent reader: borders, overlays and bounds are as SPEC.md has t
             CHECK(std::ranges::includes(overlay, border));
         }
         uint64_t undercut = 0;
-        for (const auto* tables : {&index.border_table, &index.crossing_table})
+        for (const auto* tables : {&index.border_table, &index.border_internal_table})
             for (const Table& table : *tables)
                 for (size_t i = 0; i < table.rows.size(); ++i)
                     for (size_t j = 0; j < table.cols.size(); ++j)

@@ -16,7 +16,7 @@
 #include <doctest/doctest.h>
 
 #include "geoidx.h"
-#include "src/mesh/parts.h"
+#include "src/mesh/components.h"
 #include "src/metric/edge_graph.h"
 #include "src/metric/fast_marching.h"
 #include "src/metric/window_propagation.h"
@@ -360,8 +360,8 @@ TEST_CASE("split_patch: a part of the mesh, into a partition of just its faces")
         for (uint32_t f = 0; f < mesh.face_count(); ++f)
             if (f % 16 < 9 || f == 0) faces.push_back(f); // scattered: parts of many components
         const auto lengths = edge_lengths(mesh);
-        const Parts parts = parts_of(mesh);
-        const Splitting splitting{mesh, lengths, parts.of_vertex, 2};
+        const Components components = components_of(mesh);
+        const Splitting splitting{mesh, lengths, components.of_vertex, 2};
         for (uint32_t count : {1u, 3u, 10u, 500u}) {
             Random random(count);
             Faces together;

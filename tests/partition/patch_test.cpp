@@ -45,23 +45,23 @@ TEST_CASE("vertices_of: ascending, each once") {
     CHECK(vertices_of(mesh, {}).empty());
 }
 
-TEST_CASE("connected components: over edges, not over vertices, apart by label") {
+TEST_CASE("connected groups: over edges, not over vertices, apart by label") {
     const Mesh mesh = mesh_of(grid(6, 6, 1, 1));
     // Two cells that touch at a corner, and one apart.
     const Faces faces =
         cells(6, 6, [](uint32_t x, uint32_t y) { return x == y && (x == 1 || x == 2 || x == 5); });
     const std::vector<uint32_t> same(faces.size(), 7);
-    const Components three = connected_components(mesh, faces, same);
+    const FaceGroups three = connected_groups(mesh, faces, same);
     CHECK(three.count == 3);
     CHECK(three.of_face == std::vector<uint32_t>{0, 0, 1, 1, 2, 2});
     // The two faces of a cell apart by label.
-    const Components apart = connected_components(mesh, faces, std::vector<uint32_t>{1, 2, 3, 3, 3, 3});
+    const FaceGroups apart = connected_groups(mesh, faces, std::vector<uint32_t>{1, 2, 3, 3, 3, 3});
     CHECK(apart.count == 4);
     CHECK(apart.of_face == std::vector<uint32_t>{0, 1, 2, 2, 3, 3});
     // Faces outside of the span do not connect.
     const Faces row = cells(6, 6, [](uint32_t x, uint32_t y) { return y == 0 && x != 3; });
-    CHECK(connected_components(mesh, row, std::vector<uint32_t>(row.size(), 0)).count == 2);
-    CHECK(connected_components(mesh_of(pinched_sheets(2)), all_faces(mesh_of(pinched_sheets(2))),
-                               std::vector<uint32_t>(mesh_of(pinched_sheets(2)).face_count(), 0))
+    CHECK(connected_groups(mesh, row, std::vector<uint32_t>(row.size(), 0)).count == 2);
+    CHECK(connected_groups(mesh_of(pinched_sheets(2)), all_faces(mesh_of(pinched_sheets(2))),
+                           std::vector<uint32_t>(mesh_of(pinched_sheets(2)).face_count(), 0))
               .count == 2);
 }

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "src/mesh/parts.h"
+#include "src/mesh/components.h"
 #include "src/metric/edge_graph.h"
 #include "src/metric/window_propagation.h"
 #include "src/partition/patch.h"
@@ -50,7 +50,7 @@ TEST_CASE("Poisson-disk samples: as many as asked for, apart as far as they cove
         for (uint32_t count : {1u, 2u, 7u, 40u}) {
             Random random(count);
             const auto samples =
-                poisson_disk_samples(*solver, parts_of(mesh).of_vertex, candidates, count, random);
+                poisson_disk_samples(*solver, components_of(mesh).of_vertex, candidates, count, random);
             REQUIRE(samples.size() == count);
             CHECK(std::set(samples.begin(), samples.end()).size() == count);
             if (count == 1) continue;
@@ -77,7 +77,8 @@ TEST_CASE("Poisson-disk samples: of the candidates only; all of them where they 
     const auto total = static_cast<uint32_t>(candidates.size());
     for (uint32_t count : {1u, 5u, total - 1, total, total + 1, 10 * total}) {
         Random random(4);
-        auto samples = poisson_disk_samples(*solver, parts_of(mesh).of_vertex, candidates, count, random);
+        auto samples =
+            poisson_disk_samples(*solver, components_of(mesh).of_vertex, candidates, count, random);
         std::sort(samples.begin(), samples.end());
         CHECK(samples.size() == std::min(count, total));
         CHECK(std::adjacent_find(samples.begin(), samples.end()) == samples.end());
@@ -93,8 +94,9 @@ TEST_CASE("Poisson-disk samples: every component gets some, the seed decides whi
     std::set<std::vector<uint32_t>> seen;
     for (uint64_t seed = 1; seed <= 5; ++seed) {
         Random random(seed), again(seed);
-        const auto samples = poisson_disk_samples(*solver, parts_of(mesh).of_vertex, candidates, 24, random);
-        CHECK(samples == poisson_disk_samples(*solver, parts_of(mesh).of_vertex, candidates, 24, again));
+        const auto samples =
+            poisson_disk_samples(*solver, components_of(mesh).of_vertex, candidates, 24, random);
+        CHECK(samples == poisson_disk_samples(*solver, components_of(mesh).of_vertex, candidates, 24, again));
         seen.insert(samples);
         std::set<uint32_t> components;
         for (uint32_t v : samples) components.insert(v / part.vertex_count());
@@ -120,7 +122,8 @@ TEST_CASE("Poisson-disk samples: loose triangles beside a body get none, and the
     const auto is_on_body = [&](uint32_t v) { return mesh.positions[v].norm() < 2; };
     for (uint64_t seed = 1; seed <= 5; ++seed) {
         Random random(seed);
-        const auto samples = poisson_disk_samples(*solver, parts_of(mesh).of_vertex, candidates, 12, random);
+        const auto samples =
+            poisson_disk_samples(*solver, components_of(mesh).of_vertex, candidates, 12, random);
         REQUIRE(samples.size() == 12);
         CHECK(std::ranges::all_of(samples, is_on_body));
         for (size_t i = 0; i < samples.size(); ++i)
@@ -134,7 +137,7 @@ TEST_CASE("Poisson-disk samples: vertices at distance zero of each other are one
     std::vector<double> cost(mesh.edges.size(), 0.0);
     const auto candidates = numbers_below(mesh.vertex_count());
     Random random(1);
-    CHECK(poisson_disk_samples(*EdgeGraphMetric(mesh, cost).make_solver(), parts_of(mesh).of_vertex,
+    CHECK(poisson_disk_samples(*EdgeGraphMetric(mesh, cost).make_solver(), components_of(mesh).of_vertex,
                                candidates, 10, random)
               .size() == 1);
 }
@@ -192,7 +195,8 @@ TEST_CASE("Lloyd: a seed moves to the vertex of its cell farthest from the cell'
         for (const auto& faces : {numbers_below(mesh.face_count()), faces_near(mesh, 0, 0.9)}) {
             const auto vertices = vertices_of(mesh, faces);
             Random random(3);
-            const auto before = poisson_disk_samples(*solver, parts_of(mesh).of_vertex, vertices, 6, random);
+            const auto before =
+                poisson_disk_samples(*solver, components_of(mesh).of_vertex, vertices, 6, random);
             const auto cell = voronoi_cells(*solver, mesh, faces, before);
             auto after = before;
             relax_seeds(*solver, mesh, faces, cell, after);

@@ -1,4 +1,4 @@
-#include "src/mesh/parts.h"
+#include "src/mesh/components.h"
 #include "src/partition/shorten_borders.h"
 
 #include <algorithm>
@@ -97,8 +97,8 @@ TEST_CASE("shortened borders: cheaper borders between Voronoi cells, which keep 
         const auto faces = faces_of(mesh);
         const auto solver = ExactMetric(mesh).make_solver();
         Random random(5);
-        auto seeds =
-            poisson_disk_samples(*solver, parts_of(mesh).of_vertex, vertices_of(mesh, faces), 12, random);
+        auto seeds = poisson_disk_samples(*solver, components_of(mesh).of_vertex, vertices_of(mesh, faces),
+                                          12, random);
         const auto before = voronoi_cells(*solver, mesh, faces, seeds);
         auto cell = before;
         shorten_borders(mesh, edge_lengths(mesh), faces, cell);

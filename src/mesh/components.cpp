@@ -1,4 +1,4 @@
-#include "src/mesh/parts.h"
+#include "src/mesh/components.h"
 
 #include <algorithm>
 #include <numeric>
@@ -31,30 +31,31 @@ private:
 
 }
 
-Parts parts_of(const Mesh& mesh) {
+Components components_of(const Mesh& mesh) {
     JoinedVertices joined(mesh.vertex_count());
     for (const auto& [a, b] : mesh.edges) joined.join(a, b);
-    Parts parts;
-    parts.of_vertex.resize(mesh.vertex_count());
+    Components components;
+    components.of_vertex.resize(mesh.vertex_count());
     std::vector<Eigen::AlignedBox3d> boxes;
     for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         const uint32_t least = joined.least_of(v);
         if (least == v) boxes.emplace_back();
-        parts.of_vertex[v] = least == v ? static_cast<uint32_t>(boxes.size() - 1) : parts.of_vertex[least];
-        boxes[parts.of_vertex[v]].extend(mesh.positions[v]);
+        components.of_vertex[v] =
+            least == v ? static_cast<uint32_t>(boxes.size() - 1) : components.of_vertex[least];
+        boxes[components.of_vertex[v]].extend(mesh.positions[v]);
     }
     std::vector<uint32_t> edge_counts(boxes.size());
-    parts.parts.resize(boxes.size());
+    components.all.resize(boxes.size());
     for (uint32_t e = 0; e < mesh.edge_count(); ++e) {
-        const uint32_t part = parts.of_vertex[mesh.edges[e][0]];
-        parts.parts[part].average_edge += mesh.edge_length(e);
-        ++edge_counts[part];
+        const uint32_t component = components.of_vertex[mesh.edges[e][0]];
+        components.all[component].average_edge += mesh.edge_length(e);
+        ++edge_counts[component];
     }
     for (size_t i = 0; i < boxes.size(); ++i) {
-        parts.parts[i].diagonal = boxes[i].diagonal().norm();
-        parts.parts[i].average_edge /= std::max(edge_counts[i], 1u);
+        components.all[i].diagonal = boxes[i].diagonal().norm();
+        components.all[i].average_edge /= std::max(edge_counts[i], 1u);
     }
-    return parts;
+    return components;
 }
 
 }
