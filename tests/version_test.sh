@@ -25,6 +25,6 @@ mirrors $csharp "        private const uint ExpectedAbi = $abi;"
 grep -q "^## $version\$" CHANGELOG.md || fail "CHANGELOG.md has no part of $version"
 
 others=$(grep -rIlwF "$version" CMakeLists.txt CMakePresets.json README.md bench bindings cmake docs format \
-    include scripts src tests tools --exclude-dir={artifacts,bin,build,obj,runtimes}) || [ $? -eq 1 ]
+    include scripts src tests tools --exclude-dir={__pycache__,artifacts,bin,build,obj,runtimes}) || [ $? -eq 1 ]
 [ -z "$others" ] || fail "the version $version is also written in: $others"
 echo "$version: in one place, and mirrored"

@@ -1,4 +1,4 @@
-// The caller's allocator: asked and paid back exactly, and no harm is left where it fails.
+// The caller's allocator: asked and paid back exactly, and failing at every possible call.
 
 #include <functional>
 #include <memory_resource>
@@ -11,6 +11,28 @@
 using namespace geodesic::test;
 
 namespace {
+
+// Runs `action` with an allocator that fails at the k-th call and, in a second round, only at that one, for
+// every k until none fails any more. The action releases everything that it made.
+void fail_at_every_call(const std::function<geoidx_status(const geoidx_allocator&)>& action) {
+    for (bool recovers : {false, true}) {
+        for (uint64_t k = 0;; ++k) {
+            CAPTURE(k);
+            CAPTURE(recovers);
+            CountingAllocator allocator(k, recovers);
+            const geoidx_status status = action(allocator.get());
+            CHECK(allocator.mistakes() == 0);
+            CHECK(allocator.blocks() == 0);
+            REQUIRE(k < 10000);
+            if (allocator.failures() == 0) {
+                CHECK(status == GEOIDX_OK);
+                CHECK(k > 5);
+                break;
+            }
+            REQUIRE((status == GEOIDX_OK || status == GEOIDX_ERROR_OUT_OF_MEMORY));
+        }
+    }
+}
 
 geoidx_open_options opening_with(const geoidx_allocator& allocator) {
     geoidx_open_options options;
@@ -146,6 +168,37 @@ TEST_CASE("the default memory resource of the program is not used") {
         });
 }
 
+TEST_CASE("out of memory while opening") {
+    for_each_file([](const Bytes& bytes) {
+        fail_at_every_call([&](const geoidx_allocator& allocator) {
+            const auto options = opening_with(allocator);
+            geoidx* index = nullptr;
+            const geoidx_status status = geoidx_open_memory(bytes.data(), bytes.size(), &options, &index);
+            CHECK((status == GEOIDX_OK) == (index != nullptr));
+            geoidx_close(index);
+            return status;
+        });
+    });
+}
+
+TEST_CASE("out of memory while building") {
+    const TestMesh mesh = hills(5, 5);
+    const geoidx_mesh view = mesh.view();
+    for_each_engine([&](const geoidx_build_options& engine_options) {
+        auto options = engine_options;
+        options.metric = GEOIDX_METRIC_EDGES;
+        options.patches[0] = options.patches[1] = 2;
+        fail_at_every_call([&](const geoidx_allocator& allocator) {
+            options.allocator = allocator;
+            geoidx* index = nullptr;
+            const geoidx_status status = geoidx_build(&view, &options, &index);
+            CHECK((status == GEOIDX_OK) == (index != nullptr));
+            geoidx_close(index);
+            return status;
+        });
+    });
+}
+
 // What failed must leave nothing behind that a later query stumbles on: each failure is followed by queries
 // that have memory and must give the right answers.
 TEST_CASE("out of memory during queries does no lasting harm") {
@@ -197,5 +250,32 @@ TEST_CASE("out of memory during queries does no lasting harm") {
                     CHECK(allocator.mistakes() == 0);
                 }
         CHECK(failed > 0);
+    });
+}
+
+TEST_CASE("out of memory while creating a query") {
+    for_each_file([](const Bytes& bytes) {
+        CountingAllocator allocator;
+        const auto options = opening_with(allocator.get());
+        geoidx* index = nullptr;
+        require_success(geoidx_open_memory(bytes.data(), bytes.size(), &options, &index));
+        const IndexHandle owned(index);
+        const size_t blocks = allocator.blocks();
+        uint64_t k = 0;
+        for (;; ++k) {
+            REQUIRE(k < 1000);
+            allocator.fail_at(k);
+            geoidx_query* query = nullptr;
+            const geoidx_status status = geoidx_query_create(index, &query);
+            if (status == GEOIDX_OK) {
+                geoidx_query_close(query);
+                CHECK(allocator.blocks() == blocks);
+                break;
+            }
+            CHECK(status == GEOIDX_ERROR_OUT_OF_MEMORY);
+            CHECK(query == nullptr);
+            CHECK(allocator.blocks() == blocks);
+        }
+        CHECK(k > 3);
     });
 }

@@ -1,5 +1,6 @@
 // One index, many threads: every thread gets what one thread alone gets. The thread sanitizer watches.
 
+#include <algorithm>
 #include <atomic>
 #include <barrier>
 #include <thread>
@@ -22,8 +23,18 @@ struct Expected {
     std::vector<float> of_pairs;
     std::vector<std::vector<float>> of_sources; // [i]: MSAD of pairs[2 i] and pairs[2 i + 1]
     std::vector<std::vector<float>> of_first;   // [i]: of pairs[2 i] alone
+    std::vector<uint32_t> farthest;             // from pairs[0]
     std::vector<float> prepared;                // of_pairs, from prepared sources
 };
+
+std::vector<uint32_t> farthest_points(geoidx_query* query, uint32_t first) {
+    std::vector<uint32_t> points(5, first);
+    uint32_t count = 0;
+    if (geoidx_query_farthest_points(query, &first, 1, 5, points.data(), nullptr, &count) != GEOIDX_OK)
+        points.clear();
+    points.resize(std::min<size_t>(points.size(), count));
+    return points;
+}
 
 Expected single_threaded(const geoidx* index, uint32_t count) {
     Expected expected;
@@ -38,6 +49,7 @@ Expected single_threaded(const geoidx* index, uint32_t count) {
         require_success(geoidx_query_prepare(query.get(), a));
         require_success(geoidx_query_prepared(query.get(), &b, 1, &expected.prepared.back()));
     }
+    expected.farthest = farthest_points(query.get(), expected.pairs[0]);
     return expected;
 }
 
@@ -60,6 +72,10 @@ uint64_t differences(const geoidx* index, uint32_t thread, uint32_t count, const
         wrong += distances != expected.of_sources[i];
         wrong += geoidx_query_msad(query, pair, 2, distances.data(), count) != GEOIDX_OK;
         wrong += distances != expected.of_sources[i];
+        std::vector<uint32_t> nearest(count);
+        wrong += geoidx_query_nearest_sources(query, pair, 2, nearest.data(), distances.data(), count) !=
+                 GEOIDX_OK;
+        wrong += distances != expected.of_sources[i];
         wrong += geoidx_query_ssad_batch(query, pair, 1, distances.data(), count) != GEOIDX_OK;
         wrong += distances != expected.of_first[i];
         wrong += geoidx_query_prepare(query, pair[0]) != GEOIDX_OK;
@@ -73,6 +89,7 @@ uint64_t differences(const geoidx* index, uint32_t thread, uint32_t count, const
         info.struct_size = sizeof info;
         wrong += geoidx_get_info(index, &info) != GEOIDX_OK || info.vertex_count != count;
     }
+    wrong += farthest_points(query, expected.pairs[0]) != expected.farthest;
     geoidx_query_close(query);
     return wrong;
 }
@@ -105,15 +122,16 @@ IndexHandle open_in(CountingAllocator& allocator, const Bytes& file) {
     return IndexHandle(index);
 }
 
-void check_eight_threads(const TestMesh& mesh, geoidx_build_options options) {
+void check_eight_threads(const TestMesh& mesh, geoidx_build_options options, uint32_t codec) {
     const uint32_t count = mesh.vertex_count();
     CountingAllocator allocator;
     options.exact_vertices = 30;
     options.threads = 3;
     const auto built = build(mesh, options);
     const Expected expected = single_threaded(built.get(), count);
+    const Bytes file = save(built.get(), codec);
     // Nobody has asked this one for a pair, so that the threads race for the first one.
-    IndexHandle index = open_in(allocator, save(built.get()));
+    IndexHandle index = open_in(allocator, file);
     std::vector<uint64_t> wrong(THREADS, 0);
     {
         std::barrier start(THREADS);
@@ -136,9 +154,10 @@ TEST_CASE("eight threads on one index get the answers of one thread") {
     for (uint32_t engine : {GEOIDX_ENGINE_GRAPH, GEOIDX_ENGINE_OVERLAY}) {
         auto options = build_options(GEOIDX_METRIC_EDGES, 3);
         options.engine = engine;
-        check_eight_threads(hills(20, 18), options);
+        check_eight_threads(hills(20, 18), options, GEOIDX_CODEC_PACKED);
     }
-    check_eight_threads(hills(13, 12), default_options());
+    for (const uint32_t codec : {GEOIDX_CODEC_PACKED, GEOIDX_CODEC_MAPPED})
+        check_eight_threads(hills(13, 12), default_options(), codec);
 }
 
 TEST_CASE("building: the number of threads does not change a byte") {

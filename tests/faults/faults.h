@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <optional>
 
@@ -56,14 +58,15 @@ private:
     CountingAllocator allocator_;
 };
 
-// Tries something with the first allocation failing, then with the one `stride` later, and so on until none
-// fails any more; once more from half a stride on, where allocations after the failing one succeed. Every one
-// fails where GEOIDX_EVERY_FAULT is set in the environment. Returns how often one failed.
+// Tries something with one allocation failing after the other until none fails any more: the first ones, and
+// then fewer and fewer, up to one of `stride`. Once more where allocations after the failing one succeed.
+// Every one fails where GEOIDX_EVERY_FAULT is set in the environment. Returns how often one failed.
 inline uint64_t try_with_faults(Source source, uint64_t stride, const std::function<void(Fault&)>& attempt) {
+    constexpr uint64_t FIRST_ONES = 8; // of twice as many every second one, and so on
     if (std::getenv("GEOIDX_EVERY_FAULT")) stride = 1;
     uint64_t failed = 0;
     for (bool recovers : {false, true})
-        for (uint64_t k = recovers ? stride / 2 : 0;; k += stride) {
+        for (uint64_t k = 0;; k += std::min(stride, 1 + k / FIRST_ONES)) {
             CAPTURE(k);
             CAPTURE(recovers);
             REQUIRE(k < 1000000);

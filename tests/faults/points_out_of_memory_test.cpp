@@ -7,7 +7,7 @@ using namespace geodesic::test;
 
 namespace {
 
-// Allocations of paths are many; the stride is a prime, so that it meets each kind.
+// Allocations of paths are many.
 constexpr uint64_t STRIDE = 29;
 
 // With room for every answer, since a question that is disturbed must not allocate by itself.

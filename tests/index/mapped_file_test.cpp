@@ -5,7 +5,6 @@
 #include <fstream>
 #include <functional>
 #include <random>
-#include <thread>
 
 #include "format/container.h"
 #include "src/file/index_file.h"

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "src/mesh/intake.h"
+#include "src/metric/intrinsic_mesh.h"
 #include "tests/support/meshes.h"
 #include "tests/support/oracles.h"
 #include "tests/support/sanitized.h"
@@ -96,5 +97,19 @@ TEST_CASE("short edges: paths go around tiny polygons as around the vertices in 
             CHECK(largest_difference(with_tiny_polygons(soup, radius), expected) <
                   std::max(20 * radius, rounding));
         }
+    }
+}
+
+// Far longer edges elsewhere make none of these short: windows then would leave all vertices in all
+// directions.
+TEST_CASE("short edges: as another component has them changes nothing") {
+    const Soup soup = waves();
+    Soup far = soup;
+    far.positions.insert(far.positions.end(), {{1e9, 0, 0}, {2e9, 0, 0}, {1e9, 1e9, 0}});
+    far.triangles.push_back({soup.vertex_count(), soup.vertex_count() + 1, soup.vertex_count() + 2});
+    const IntrinsicMesh alone(mesh_of(soup)), beside(mesh_of(far));
+    for (uint32_t v = 0; v < soup.vertex_count(); ++v) {
+        CHECK(beside.fan[v] == alone.fan[v]);
+        CHECK(beside.can_bend[v] == alone.can_bend[v]);
     }
 }
