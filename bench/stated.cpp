@@ -19,8 +19,8 @@ constexpr uint32_t TARGETS = 500; // of each source, by SSSD; and near ones by M
 constexpr uint32_t FEWEST_EDGES = 2, MOST_EDGES = 20;
 constexpr uint32_t GROUP_SIZES[] = {2, 3, 16, 64};
 constexpr uint32_t TOGETHER = 4; // half of the groups are chosen from so many times as many around a vertex
-// As a share of what is twice the longest distance from the sources, and so no less than the diagonal of
-// their part; such distances have no stated error.
+// As a share of four times the longest distance from a source, and so no less than the diagonal of its
+// component; such distances have no stated error.
 constexpr double TOO_SHORT = 1.2e-7;
 
 struct StatedArguments {
@@ -149,7 +149,12 @@ private:
         float longest = 0;
         for (const float distance : field_)
             if (!std::isinf(distance)) longest = std::max(longest, distance);
-        too_short_ = TOO_SHORT * 2 * double{longest};
+        // The longest distance from the nearest of several sources says less.
+        too_short_ = TOO_SHORT * 4 * double{longest};
+        if (sources.size() == 1)
+            most_too_short_ = std::max(most_too_short_, too_short_);
+        else
+            too_short_ = most_too_short_;
     }
 
     double sssd(uint32_t source, uint32_t target) {
@@ -162,7 +167,7 @@ private:
     geoidx_query& query_;
     geoidx_solver& solver_;
     const double edge_;
-    double too_short_ = 0;
+    double too_short_ = 0, most_too_short_ = 0; // of what is asked, and of all single sources
     Neighbours neighbours_;
     std::vector<double> exact_;
     std::vector<float> field_;

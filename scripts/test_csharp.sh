@@ -120,8 +120,9 @@ take_unity_page() {
 compile_unity() {
     export GEOIDX_UNITY_OUT=$out/unity
     refuses_a_unity_package_without_libraries
-    scripts/page_block.sh bindings/unity/README.md Install sh 2 >"$GEOIDX_UNITY_OUT/install.sh"
     rm -rf "$GEOIDX_UNITY_OUT/package"
+    mkdir -p "$GEOIDX_UNITY_OUT"
+    scripts/page_block.sh bindings/unity/README.md Install sh 2 >"$GEOIDX_UNITY_OUT/install.sh"
     bash -euo pipefail "$GEOIDX_UNITY_OUT/install.sh"
     check_identities "$GEOIDX_UNITY_OUT/package"
     check_licences "$GEOIDX_UNITY_OUT/package"

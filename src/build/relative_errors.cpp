@@ -52,14 +52,14 @@ ShortDistances short_by_fields(const Components& components, const ExactFields& 
         double& extent = extents[components.of_vertex[exact.sources[i]]];
         extent = std::max(extent, longest_of(exact.distances[i]));
     }
-    double least_ratio = INFINITE; // of such a distance to the diagonal of its component
+    double least_ratio = INFINITE; // of the longest distance to the diagonal, of components with a source
     for (size_t p = 0; p < extents.size(); ++p)
         if (extents[p] > 0) least_ratio = std::min(least_ratio, extents[p] / components.all[p].diagonal);
     ShortDistances result(components.of_vertex, {});
     for (size_t p = 0; p < extents.size(); ++p) {
-        const bool is_known = extents[p] > 0 || least_ratio == INFINITE;
+        const bool is_estimated = extents[p] == 0 && least_ratio < INFINITE;
         result.of_component.push_back(
-            ShortDistances::beside(is_known ? extents[p] : least_ratio * components.all[p].diagonal));
+            ShortDistances::beside(is_estimated ? least_ratio * components.all[p].diagonal : extents[p]));
     }
     return result;
 }

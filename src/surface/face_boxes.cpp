@@ -79,8 +79,8 @@ SurfacePoint closest_on_edges(uint32_t face, const std::array<Vector3d, 3>& corn
 constexpr uint32_t FACES_PER_LEAF = 8; // at least, unless the surface has fewer
 constexpr double STEPS = std::numeric_limits<uint16_t>::max();
 
-// The most whole steps, which may be negative ones, that lead from one end no farther than to a place, as
-// place() rounds.
+// About as many whole steps, which may be negative ones, as lead from one end to a place, and no more: what
+// place() makes of them is not beyond it.
 uint16_t steps_to(double from, double step, double place) {
     const double share = step != 0 ? std::clamp((place - from) / step, 0.0, STEPS) : 0;
     auto steps = static_cast<uint16_t>(share);
