@@ -786,16 +786,16 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * the straight line between them is long, and so are those of triangles that share an edge which that line
  * crosses, unless the index knows a much shorter way; so are those a few triangles apart that see each other
  * over these, unless the index knows a way that is shorter by a hundredth. Where the index says that two
- * points are less than four edges apart, by the longest edge around them or the average one of what edges
- * join there, their distance is the length of a path of GEOIDX_PATH_STRAIGHT, of a shortest one in its
- * corridor where that is shorter, or of one of the ways above: of edges that are long for the distance,
- * vertices tell little. That takes tens of microseconds, on surfaces of few large triangles some hundred. It
- * takes scratch from the global heap each time, and from the index's allocator as paths do. It is given up
- * after 2000 triangles, or where more than 1000 vertices are in the corridor and more than 2000 triangles
- * near enough to both points in space, and by GEOIDX_ENGINE_GRAPH it is not done. All other distances are to
- * the accuracy of the index. Points of triangles that share a corner are no farther apart than the way over
- * it is long and, by GEOIDX_METRIC_EXACT, than a straight line around it over the triangles between the two.
- * +INFINITY where there is no path. */
+ * points are less than four edges apart, by the longest edge around them or the average one of the mesh,
+ * their distance is the length of a path of GEOIDX_PATH_STRAIGHT, of a shortest one in its corridor where
+ * that is shorter, or of one of the ways above: of edges that are long for the distance, vertices tell
+ * little. That takes tens of microseconds, on surfaces of few large triangles some hundred. It takes scratch
+ * from the global heap each time, and from the index's allocator as paths do. It is given up after 2000
+ * triangles, or where more than 1000 vertices are in the corridor and more than 2000 triangles near enough
+ * to both points in space, and by GEOIDX_ENGINE_GRAPH it is not done. All other distances are to the accuracy
+ * of the index. Points of triangles that share a corner are no farther apart than the way over it is long
+ * and, by GEOIDX_METRIC_EXACT, than a straight line around it over the triangles between the two. +INFINITY
+ * where there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* source,
                                                  const geoidx_surface_point* target, float* distance);

@@ -175,7 +175,7 @@ std::vector<Query::Found> PointQueries::nearest_targets(const SurfacePoint& sour
             if (from.point.vertex != NONE && to.point.vertex != NONE) return by_vertices;
             const WaysBetween ways = ways_between(source, from, targets[i], to, by_vertices);
             const float distance = ways.corrected(by_vertices);
-            if (!needs_path(source, from.point, to.point, ways, distance)) return distance;
+            if (!needs_path(from.point, to.point, ways, distance)) return distance;
             const auto [asked, is_new] = of_pairs.try_emplace(i);
             if (is_new) asked->second = of_pair(i);
             return asked->second;

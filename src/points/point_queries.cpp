@@ -133,20 +133,20 @@ double PointQueries::straight_way_of_near(const SurfacePoint& source, const Surf
     return std::min(seen_from(source, target), seen_from(target, source));
 }
 
-// Whether the distance that tables tell, with ways that are known besides, calls for a search for a path from
-// `place`, where the source is. A search asks for distances that points without tables, and the graph engine,
-// have by whole fields only: there the distance has to do.
-bool PointQueries::needs_path(const SurfacePoint& place, const FacePoint& source, const FacePoint& target,
-                              const WaysBetween& ways, float distance) const {
+// Whether the distance that tables tell, with ways that are known besides, calls for a search for a path. A
+// search asks for distances that points without tables, and the graph engine, have by whole fields only:
+// there the distance has to do.
+bool PointQueries::needs_path(const FacePoint& source, const FacePoint& target, const WaysBetween& ways,
+                              float distance) const {
     constexpr double FEW_EDGES = 4;
     if (ways.is_shortest || distance == INFINITE || !source.has_tables() || !target.has_tables())
         return false;
     if (!unfolds() || std::holds_alternative<GraphIndex>(index_.engine)) return false;
     // Pairs of vertices that tables have wrong are measured, so that only edges around points that are at no
-    // vertex count. Where these are short for the component, its average edge does, of which tables round to
-    // a share.
-    const double average = surface_.components.of(surface_.faces[place.face][0]).average_edge;
-    const double longest = std::max({longest_edge_around(source), longest_edge_around(target), average});
+    // vertex count. Where these are short for the mesh, its average edge does, of which tables round to a
+    // share: one patch may have several components.
+    const double longest =
+        std::max({longest_edge_around(source), longest_edge_around(target), surface_.average_edge});
     return double{distance} < FEW_EDGES * longest;
 }
 
@@ -161,7 +161,7 @@ PointQueries::Pair PointQueries::pair(const SurfacePoint& source, const SurfaceP
     const float by_tables = query_.point_sssd(from.point, to.point);
     const WaysBetween ways = ways_between(source, from, target, to, by_tables);
     const float distance = ways.corrected(by_tables);
-    if (!needs_path(source, from.point, to.point, ways, distance)) return {distance};
+    if (!needs_path(from.point, to.point, ways, distance)) return {distance};
     return {distance, true, ways.corrected(INFINITE)};
 }
 

@@ -81,8 +81,8 @@ private:
     void add_known_ways(const SurfacePoint& source, const SeenAround& around,
                         std::vector<KnownWay>& known) const;
     void add_measured_ways(const FacePoint& point, std::vector<KnownWay>& known) const;
-    bool needs_path(const SurfacePoint& place, const FacePoint& source, const FacePoint& target,
-                    const WaysBetween& ways, float distance) const;
+    bool needs_path(const FacePoint& source, const FacePoint& target, const WaysBetween& ways,
+                    float distance) const;
     WaysBetween ways_between(const SurfacePoint& source, const PointView& from, const SurfacePoint& target,
                              const PointView& to, float distance) const;
     double way_around_corner(const SurfacePoint& source, const SurfacePoint& target) const;
