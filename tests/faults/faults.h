@@ -8,6 +8,7 @@
 #include "tests/capi/calls.h"
 #include "tests/capi/counting_allocator.h"
 #include "tests/faults/failing_malloc.h"
+#include "tests/support/sanitized.h"
 
 namespace geodesic::test {
 
@@ -62,7 +63,7 @@ private:
 // then fewer and fewer, up to one of `stride`. Once more where allocations after the failing one succeed.
 // Every one fails where GEOIDX_EVERY_FAULT is set in the environment. Returns how often one failed.
 inline uint64_t try_with_faults(Source source, uint64_t stride, const std::function<void(Fault&)>& attempt) {
-    constexpr uint64_t FIRST_ONES = 8; // of twice as many every second one, and so on
+    constexpr uint64_t FIRST_ONES = SANITIZED ? 2 : 8; // of twice as many every second one, and so on
     if (std::getenv("GEOIDX_EVERY_FAULT")) stride = 1;
     uint64_t failed = 0;
     for (bool recovers : {false, true})
