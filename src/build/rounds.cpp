@@ -6,8 +6,6 @@
 
 #include "format/error.h"
 #include "src/build/metric_options.h"
-#include "src/build/short_distances.h"
-#include "src/mesh/components.h"
 #include "src/metric/window_propagation.h"
 #include "src/partition/random.h"
 
@@ -135,7 +133,7 @@ std::optional<FinerSurface> Rounds::finer_surface(const SplitSurface& surface, c
     workers.begin_stage("finer borders", 1);
     if (!can_be_cut(surface.mesh)) return std::nullopt;
     const auto sources = choosing_sources(options_.seed, intake_.mesh.vertex_count());
-    const ShortDistances too_short(components_of(intake_.mesh));
+    const ShortDistances& too_short = filling_.solved_fields().front()->too_short;
     const auto edges =
         border_edges(surface.mesh, surface.hierarchy.leaf_of_face, sources, too_short, workers);
     const size_t wanted = count_for_share(edges, share_to_cut(error, options_.target_error));

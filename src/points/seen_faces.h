@@ -66,9 +66,9 @@ struct SeenAround {
 SeenAround see_around(const Surface& surface, const SurfacePoint& at, size_t most);
 
 // Up to how many vertices the polygon of a point on a face with these corners grows: more where edges are
-// long for the part of the surface that the face lies in, since the error of a polygon that ends early is a
-// share of an edge. Vertices that were added between the ends of its edges come besides, for which 32 places
-// are left at least.
+// long for the component that the face lies in, since the error of a polygon that ends early is a share of an
+// edge. Vertices that were added between the ends of its edges come besides, for which 32 places are left at
+// least.
 size_t most_vertices_of_polygon(const Surface& surface, const std::array<uint32_t, 3>& corners);
 
 }

@@ -23,7 +23,7 @@ inline std::array<double, 3> edge_lengths(const Surface& surface, const std::arr
     return {length(1, 2), length(2, 0), length(0, 1)};
 }
 
-// How many edges the part of the surface is across that a face with these corners lies in.
+// How many edges the component is across that a face with these corners lies in.
 inline double edges_across(const Surface& surface, const std::array<uint32_t, 3>& corners) {
     return surface.components.of(corners[0]).edges_across(std::ranges::max(edge_lengths(surface, corners)));
 }
