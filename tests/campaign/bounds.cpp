@@ -11,9 +11,9 @@ namespace {
 
 // Of a float, to either side.
 constexpr double FLOAT_ROUNDING = 0x1p-24;
-// Two distances of the metric that are the same can differ by so much where faces have no area
-// (docs/limits.md).
-constexpr double METRIC_DIFFERENCE = 1e-6;
+// Two distances of the metric that are the same can differ by so much where faces have no area, and where
+// edges of a plane are flipped (docs/limits.md).
+constexpr double METRIC_DIFFERENCE = 1e-5;
 // Below this a float has fewer digits, or is 0.
 constexpr double SMALLEST = 1e-36;
 // Faces without area are given one (docs/limits.md), and squares of lengths are lost below their rounding.
@@ -21,6 +21,9 @@ constexpr double METRIC_ROUNDING = 1e-5;
 // How much too short and too long an answer of GEOIDX_ENGINE_OVERLAY may be: gross errors only, since the
 // largest ones of hard surfaces are not bounded yet.
 constexpr double OVERLAY_SHORT = 0.5, OVERLAY_LONG = 2;
+// Twice what is left between points of hard surfaces (docs/limits.md).
+constexpr double POINT_PAIR_ERROR = 0.1;
+
 bool is_source(const Truth& truth, const Surface& surface, uint32_t target) {
     return std::ranges::any_of(truth.sources, [&](uint32_t s) { return surface.are_one(s, target); });
 }
@@ -33,7 +36,7 @@ bool is_source(const Truth& truth, const Surface& surface, uint32_t target) {
 Bounds::Bounds(const BuildInput& input, const geoidx_info& info, double longest)
     : is_graph_(info.engine == GEOIDX_ENGINE_GRAPH),
       unfolds_(!is_graph_ && (info.metric_flags & GEOIDX_METRIC_UNFOLDABLE) != 0),
-      is_along_edges_(info.metric == GEOIDX_METRIC_EDGES) {
+      is_along_edges_(info.metric == GEOIDX_METRIC_EDGES), may_flip_edges_(input.may_flip_edges()) {
     for (double length : input.edge_bounds()) longest_edge_ = std::max(longest_edge_, length);
     const double hops = 2 * info.level_count + 1;
     detour_ = 2 * hops * input.options().delta / 100 * info.bounding_box_diagonal;
@@ -50,8 +53,21 @@ double Bounds::least(double exact) const {
 }
 
 double Bounds::most(double along_edges) const {
-    const double factor = is_graph_ ? 1 + share_ : unfolds_ ? OVERLAY_LONG : 1.02;
+    const double of_graph = may_flip_edges_ ? OVERLAY_LONG : 1 + share_;
+    const double factor = is_graph_ ? of_graph : unfolds_ ? OVERLAY_LONG : 1.02;
     return (along_edges + 2 * detour_) * factor + rounding_ + SMALLEST;
+}
+
+Bounds::Range Bounds::of_point_field(double exact, double along_edges) const {
+    return {std::min(exact * OVERLAY_SHORT, exact - longest_edge_) - rounding_ - SMALLEST,
+            most(std::max(exact, along_edges)) + 4 * FLOAT_ROUNDING * longest_edge_};
+}
+
+Bounds::Range Bounds::of_point_pair(double exact, double along_edges) const {
+    const Range of_field = of_point_field(exact, along_edges);
+    if (is_graph_ || detour_ > 0) return of_field;
+    return {exact * (1 - POINT_PAIR_ERROR) - rounding_ - SMALLEST,
+            exact * (1 + POINT_PAIR_ERROR) + rounding_ + 4 * FLOAT_ROUNDING * longest_edge_ + SMALLEST};
 }
 
 // Where all ways go along edges the inequality holds but for rounding; elsewhere one answer may be as long as

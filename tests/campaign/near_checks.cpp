@@ -107,6 +107,48 @@ void check_matrix(const Subject& subject, std::span<const uint32_t> sources, Dic
         }
 }
 
+// Each point is as far as the farthest vertex, from the sources and the points before it, but for what fields
+// may be off; those that cannot be reached come first.
+void check_farthest(const Subject& subject, std::span<const uint32_t> sources, Dice& dice) {
+    const uint32_t wanted = dice.pick({1u, 3u, 12u});
+    std::vector<uint32_t> points(wanted, 7);
+    Floats distances(wanted, -1);
+    uint32_t count = 0;
+    succeed(geoidx_query_farthest_points(subject.query(), sources.data(),
+                                         static_cast<uint32_t>(sources.size()), wanted, points.data(),
+                                         distances.data(), &count),
+            "geoidx_query_farthest_points");
+    const Surface& surface = subject.input().surface();
+    const Bounds& bounds = subject.bounds();
+    std::vector<uint32_t> so_far(sources.begin(), sources.end());
+    const auto farthest = [&](const Floats& field) {
+        float most = 0;
+        for (uint32_t id = 0; id < field.size(); ++id)
+            if (surface.is_used(id)) most = std::max(most, field[id]);
+        return most;
+    };
+    expect(count <= wanted, "farthest points", "%u of %u", count, wanted);
+    double before = FAR;
+    for (uint32_t i = 0; i < count; ++i) {
+        const Floats field = subject.msad(so_far);
+        expect(points[i] < field.size() && surface.is_used(points[i]), "farthest point is of a triangle",
+               "%u", points[i]);
+        const double told{distances[i]}, own{field[points[i]]};
+        expect(told > 0 && (told < FAR) == (own < FAR) &&
+                   (own == FAR || (told <= bounds.most_over(own) && own <= bounds.most_over(told))),
+               "farthest point is as far as msad says", "%u: %.9g, %.9g", points[i], told, own);
+        expect(double{farthest(field)} <= bounds.most_over(told), "farthest point is the farthest",
+               "%u: %.9g, %.9g", points[i], told, double{farthest(field)});
+        expect(told <= bounds.most_over(before), "farthest points come nearer", "%u: %.9g, %.9g", points[i],
+               told, before);
+        before = told;
+        so_far.push_back(points[i]);
+    }
+    if (count < wanted)
+        expect(double{farthest(subject.msad(so_far))} <= bounds.most_over(0), "all farthest points are found",
+               "%u of %u, %.9g left", count, wanted, double{farthest(subject.msad(so_far))});
+}
+
 }
 
 void check_near(const Subject& subject, std::span<const uint32_t> sources, const Floats& field, Dice& dice) {
@@ -117,6 +159,7 @@ void check_near(const Subject& subject, std::span<const uint32_t> sources, const
         check_within(subject, source, own, radius);
     check_nearest_targets(subject, source, own, dice);
     check_matrix(subject, sources, dice);
+    check_farthest(subject, sources, dice);
 }
 
 }

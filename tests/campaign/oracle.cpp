@@ -41,6 +41,27 @@ uint32_t Surface::welded_vertex_count() const {
     return static_cast<uint32_t>(std::count(used_.begin(), used_.end(), 1));
 }
 
+bool Surface::has_flat_edges(const test::Soup& soup) const {
+    constexpr double FLAT = 1e-2;                                                 // radians
+    std::vector<Eigen::Vector3d> normals(edges_.size(), Eigen::Vector3d::Zero()); // of one triangle at each
+    std::vector<uint8_t> count(edges_.size(), 0);
+    for (const Triangle& triangle : triangles_) {
+        const auto& v = triangle.vertices;
+        const auto side = [&](size_t k) -> Eigen::Vector3d {
+            return (soup.positions[v[k]] - soup.positions[v[0]]).normalized();
+        };
+        const Eigen::Vector3d cross = side(1).cross(side(2)), normal = cross.normalized();
+        if (cross.norm() < FLAT) return true; // a sliver, of which this does not tell
+        for (size_t k = 0; k < 3; ++k) {
+            const Edge edge{std::min(v[k], v[(k + 1) % 3]), std::max(v[k], v[(k + 1) % 3])};
+            const auto e = static_cast<size_t>(std::ranges::lower_bound(edges_, edge) - edges_.begin());
+            if (count[e]++ > 0 && normals[e].cross(normal).norm() < FLAT) return true;
+            normals[e] = normal;
+        }
+    }
+    return false;
+}
+
 void Surface::find_edges() {
     for (const Triangle& triangle : triangles_)
         for (size_t k = 0; k < 3; ++k) {

@@ -41,6 +41,9 @@ public:
     const std::vector<Triangle>& triangles() const { return triangles_; }
     // Each once, the smaller representative first.
     const std::vector<Edge>& edges() const { return edges_; }
+    // Whether two triangles at an edge lie in one plane, or nearly: the library may then cut their quadrangle
+    // along its other diagonal.
+    bool has_flat_edges(const test::Soup& soup) const;
 
     // Of every id, from a source, over edges with such costs, in the order of edges().
     std::vector<double> along_edges(std::span<const double> costs, uint32_t source) const;

@@ -4,6 +4,8 @@
 #include <thread>
 
 #include "tests/campaign/near_checks.h"
+#include "tests/campaign/path_checks.h"
+#include "tests/campaign/point_checks.h"
 
 namespace geodesic::campaign {
 
@@ -211,6 +213,8 @@ void check_queries(const Subject& subject, geoidx_solver* solver, std::span<cons
     const Floats field = subject.msad(one.sources);
     check_radius(subject, one.sources, field, dice);
     check_threads(subject, one.sources, field, dice);
+    check_points(subject, solver, dice);
+    check_paths(subject, solver, dice);
     if (dice.chance(0.2)) check_at_once(subject, truths, dice.bits());
 }
 
