@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/prefetch.h"
 #include "src/overlay/kernels/dispatch.h"
 #include "src/overlay/kernels/unfolding.h"
+#include "src/overlay/sssd/border_parts.h"
 #include "src/overlay/sssd/samples.h"
 #include "src/overlay/tables/ring_segments.h"
 
@@ -42,13 +42,6 @@ uint32_t lowest_common_patch(const Numbering& numbering, uint32_t a, uint32_t b)
     return a;
 }
 
-// The part near the way to a sample of a border that comes over a sample of the border before.
-BorderPart part_before(const OverlayIndex& index, uint32_t patch_before, const SampledAscent& sampled,
-                       size_t border, uint32_t before, uint32_t sample) {
-    const auto length = [&](uint32_t over) { return sampled.way_over(border, over, sample); };
-    return part_near(index, patch_before, ways_near(index, patch_before, before, length));
-}
-
 // The index of the place that has the least sum of the distances from both ends.
 uint32_t index_of_least_sum(const float* from, const float* to, uint32_t count) {
     float least = INFINITE;
@@ -62,80 +55,6 @@ uint32_t index_of_least_sum(const float* from, const float* to, uint32_t count) 
 }
 
 }
-
-// ---- One end
-
-void OverlaySssd::End::climb(const OverlayIndex& index, const PathEnd& of, uint32_t top, bool with_labels) {
-    if (of.vertex == NONE)
-        climb_from_point(index, of, top, ascent);
-    else
-        geodesic::climb(index, of.vertex, top, with_labels, ascent);
-    measured.begin();
-}
-
-// Whether any border of the ascent has segments.
-bool OverlaySssd::End::crosses_segments(const OverlayIndex& index) const {
-    return std::ranges::any_of(ascent.patches,
-                               [&](uint32_t patch) { return index.longest_segment[patch] > 0; });
-}
-
-// Returns whether each border has any vertex: around a separate part there may be none.
-bool OverlaySssd::End::take_whole_borders(const OverlayIndex& index) {
-    parts.clear();
-    for (const uint32_t patch : ascent.patches) {
-        if (index.rings.size(patch) == 0) return false;
-        parts.emplace_back(whole_border(index.rings, patch));
-    }
-    return true;
-}
-
-// Takes the parts near the way over samples to a sample of the last border, where `last_part` is, and asks
-// for what hops read of them.
-void OverlaySssd::End::take_parts(const OverlayIndex& index, uint32_t sample, const BorderPart& last_part) {
-    parts.resize(ascent.patches.size());
-    parts.back() = last_part;
-    for (size_t b = parts.size(); b-- > 1;) {
-        const uint32_t before = sampled.sample_before(b, sample);
-        parts[b - 1] = part_before(index, ascent.patches[b - 1], sampled, b, before, sample);
-        sample = before;
-    }
-    const Rings& rings = index.rings;
-    for (size_t b = 0; b < parts.size(); ++b)
-        for (const BorderRange& range : parts[b].ranges()) {
-            // The slots of a border follow each other as its places do, but for those that repeat vertices.
-            const uint32_t patch = ascent.patches[b], in_ring = range.first - rings.begin[patch];
-            const uint32_t about = std::min(in_ring, index.numbering.border_size(patch) - 1);
-            prefetch(&index.numbering.overlay_position[index.numbering.border_begin[patch] + about],
-                     range.size());
-            prefetch(rings.position.data() + range.first, range.size());
-            prefetch(rings.segment_length.data() + range.first, range.size());
-            prefetch(rings.half_inverse.data() + range.first, range.size());
-            prefetch(rings.is_own.data() + range.first, range.size());
-            prefetch(rings.vertex.data() + range.first, range.size());
-        }
-}
-
-// Takes the parts of all borders that a way no longer than this can cross.
-void OverlaySssd::End::take_parts_within(const OverlayIndex& index, float length) {
-    parts.clear();
-    for (size_t b = 0; b < ascent.patches.size(); ++b)
-        parts.push_back(part_within(index, ascent.patches[b], sampled.ways_over(b), length));
-}
-
-// Moves the parts to where a shorter way may be than the one that was measured, which crosses the last border
-// at this place. Returns whether any has moved.
-bool OverlaySssd::End::move_parts(const OverlayIndex& index, uint32_t place) {
-    bool moved = false;
-    for (size_t b = parts.size(); b-- > 0;) {
-        const BorderPart& measured_part = measured.parts()[b];
-        parts[b] = part_beside(index, ascent.patches[b], measured_part, place);
-        moved = moved || !measured_part.covers(parts[b]);
-        if (b > 0) place = index.rings.begin[ascent.patches[b - 1]] + measured.winner_before(b, place);
-    }
-    return moved;
-}
-
-// ---- Both ends
 
 OverlaySssd::OverlaySssd(const OverlayIndex& index, std::pmr::memory_resource* memory)
     : index_(index), numbering_(index.numbering), crossing_(index, memory),
@@ -296,7 +215,7 @@ float OverlaySssd::longest_of_long_segments() const {
 // The hops if all borders are crossed as a whole.
 WholeHops OverlaySssd::whole_hops() const {
     WholeHops hops;
-    for (const End* end : {&from_, &to_})
+    for (const PairEnd* end : {&from_, &to_})
         for (size_t b = 1; b < end->ascent.patches.size(); ++b)
             hops.add(index_, end->ascent.patches[b - 1], end->ascent.patches[b]);
     if (!from_.is_at_top()) hops.add(index_, from_.ascent.last_patch(), meeting_patch());

@@ -4,11 +4,8 @@
 #include <memory_resource>
 #include <span>
 
-#include "src/overlay/sssd/ascent.h"
-#include "src/overlay/sssd/border_parts.h"
 #include "src/overlay/sssd/candidates.h"
-#include "src/overlay/sssd/measured_path.h"
-#include "src/overlay/sssd/sampled_ascent.h"
+#include "src/overlay/sssd/pair_end.h"
 #include "src/overlay/sssd/whole_hops.h"
 #include "src/overlay/tables/tables.h"
 
@@ -35,27 +32,6 @@ public:
     float distance_of_points(const PathEnd& first, const PathEnd& second);
 
 private:
-    struct End {
-        End(const OverlayIndex& index, std::pmr::memory_resource* memory)
-            : ascent(index, memory), sampled(index, memory), parts(memory), measured(index, memory) {
-            parts.reserve(index.numbering.level_count());
-        }
-        void climb(const OverlayIndex& index, const PathEnd& of, uint32_t top, bool with_labels);
-        // Whether the end does not climb, since the lowest patch around both ends owns it: its distances are
-        // then entries of that patch's overlay table.
-        bool is_at_top() const { return ascent.patches.empty(); }
-        bool crosses_segments(const OverlayIndex& index) const;
-        bool take_whole_borders(const OverlayIndex& index);
-        void take_parts(const OverlayIndex& index, uint32_t sample, const BorderPart& last_part);
-        void take_parts_within(const OverlayIndex& index, float length);
-        bool move_parts(const OverlayIndex& index, uint32_t place_of_last);
-
-        Ascent ascent;
-        SampledAscent sampled;
-        Array<BorderPart> parts; // one for each patch of the ascent
-        MeasuredEnd measured;
-    };
-
     // Where `to_` has climbed to: the ends meet on the border of this patch.
     uint32_t meeting_patch() const { return to_.ascent.last_patch(); }
 
@@ -75,7 +51,7 @@ private:
     template <class Value>
     float largest_of_borders(const Value& value) const {
         float largest = 0;
-        for (const End* end : {&from_, &to_})
+        for (const PairEnd* end : {&from_, &to_})
             for (const uint32_t patch : end->ascent.patches) largest = std::max(largest, value(patch));
         return largest;
     }
@@ -91,7 +67,7 @@ private:
     const Numbering& numbering_;
     BorderCrossing crossing_;
     PartOfRing of_meeting_border_; // the part that was measured last
-    End from_, to_;
+    PairEnd from_, to_;
     Array<float> from_samples_; // the distances of `from_` to the samples of the meeting border
     Array<float> lengths_;      // of the ways over these samples
     Array<float> from_distances_;
