@@ -1,10 +1,13 @@
 // What the overlay engine derives from a file, foreseen from its counts.
 #include "src/overlay/prepare/proportion.h"
 
+#include <random>
+
 #include <doctest/doctest.h>
 
 #include "src/overlay/sssd/label_rows.h"
 #include "tests/overlay/overlay_of.h"
+#include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 
 using namespace geodesic;
@@ -58,4 +61,21 @@ TEST_CASE("proportion: bounds, tables of samples and labels are foreseen" * doct
         CHECK((label_codes(index) > 0) == (patches.size() > 1));
         CHECK(derived_codes(index) == codes_made(index));
     }
+}
+
+// Most triangles have no edge in common with another one, so that each is a patch, and a few hundred vertices
+// are on the borders of a thousand patches. Some hundred triangles are one patch with a long border.
+TEST_CASE("proportion: many patches that share few vertices") {
+    constexpr uint32_t VERTICES = 300, TRIANGLES = 6500;
+    TestMesh mesh;
+    std::mt19937_64 random(5);
+    for (uint32_t i = 0; i < 3 * VERTICES; ++i) mesh.positions.push_back(uniform(random, 0, 1));
+    for (uint32_t i = 0; i < 3 * TRIANGLES; ++i)
+        mesh.triangles.push_back(static_cast<uint32_t>(random() % VERTICES));
+    const OverlayOf built(mesh, build_options(GEOIDX_METRIC_EXACT, 1));
+    const OverlayIndex& index = built.overlay();
+    CHECK(index.numbering.patch_count() > 500);
+    CHECK(index.rings.largest_size() > 400);
+    CHECK(derived_codes(index) == codes_made(index));
+    CHECK(derived_codes(index) < 40 * stored_numbers(index));
 }

@@ -143,10 +143,26 @@ uint32_t longest_border_of_child(const OverlayIndex& index, uint32_t patch) {
     return longest;
 }
 
-// Whether a patch has a table across: where a hop from the longest border of its siblings, which has so many
-// places, is not made as a whole.
-bool needs_table_across(const OverlayIndex& index, uint32_t patch, uint32_t longest) {
-    return size_t{index.rings.size(patch)} * longest > FEW_PAIRS;
+// Of tables across, the children of a patch may have so many codes together for each entry of the patch's
+// overlay table, in which all these distances lie. Where thousands of children share a few hundred vertices,
+// rows for the samples of each would be out of all proportion, and none has a table. Meshes take up to 8.
+constexpr uint64_t MOST_ACROSS_EACH = 32;
+
+// Calls use(child) for each child of a patch that has a table across: to which a hop from the longest border
+// of its siblings is not made as a whole. begin[p] is the first sample of patch p.
+template <class Use>
+void for_each_table_across(const OverlayIndex& index, std::span<const uint32_t> begin, uint32_t patch,
+                           const Use& use) {
+    const uint32_t first = index.numbering.child_begin[patch], end = index.numbering.child_begin[patch + 1];
+    const size_t longest = longest_border_of_child(index, patch);
+    const auto has_table = [&](uint32_t child) { return index.rings.size(child) * longest > FEW_PAIRS; };
+    uint64_t columns = 0;
+    for (uint32_t child = first; child < end; ++child)
+        if (has_table(child)) columns += begin[child + 1] - begin[child];
+    const uint64_t vertices = index.numbering.overlay_size(patch);
+    if (columns * (begin[end] - begin[first]) > MOST_ACROSS_EACH * vertices * vertices / 2) return;
+    for (uint32_t child = first; child < end; ++child)
+        if (has_table(child)) use(child);
 }
 
 // The number of codes in the tables of all samples. begin[p] is the first sample of patch p.
@@ -154,12 +170,10 @@ uint64_t count_codes(const OverlayIndex& index, std::span<const uint32_t> begin)
     const Numbering& numbering = index.numbering;
     uint64_t codes = 0;
     for (uint32_t p = 0; p < numbering.first_leaf(); ++p) {
-        const uint32_t first = numbering.child_begin[p], end = numbering.child_begin[p + 1];
-        const uint32_t longest = longest_border_of_child(index, p);
         uint64_t columns = begin[p + 1] - begin[p];
-        for (uint32_t child = first; child < end; ++child)
-            if (needs_table_across(index, child, longest)) columns += begin[child + 1] - begin[child];
-        codes += columns * (begin[end] - begin[first]);
+        for_each_table_across(index, begin, p,
+                              [&](uint32_t child) { columns += begin[child + 1] - begin[child]; });
+        codes += columns * (begin[numbering.child_begin[p + 1]] - begin[numbering.child_begin[p]]);
     }
     return codes;
 }
@@ -273,9 +287,7 @@ private:
     void write_across_children_of(uint32_t patch) {
         const uint32_t first = numbering_.child_begin[patch], end = numbering_.child_begin[patch + 1];
         const uint32_t rows = samples_.begin[end] - samples_.begin[first];
-        const uint32_t longest = longest_border_of_child(index_, patch);
-        for (uint32_t child = first; child < end; ++child) {
-            if (!needs_table_across(index_, child, longest)) continue;
+        for_each_table_across(index_, samples_.begin, patch, [&](uint32_t child) {
             samples_.across_begin[child] = samples_.codes.size();
             const size_t columns = samples_.of(child).size();
             uint16_t* row = add_table(rows, columns);
@@ -285,7 +297,7 @@ private:
                     across_.fill(sibling, from, row);
                     row += columns;
                 }
-        }
+        });
     }
 
     const OverlayIndex& index_;
