@@ -120,8 +120,8 @@ private:
                "%.17g, straight %.17g %s", exact, straight, at_.c_str());
         if (input_.has_own_distances()) return;
         const double along = points_.along_edges(a, b);
-        expect(straight <= PATH_LONG * along + rounding_, "path over edges", "%.17g, edges %.17g %s",
-               straight, along, at_.c_str());
+        expect(straight <= PATH_LONG * subject_.bounds().most(along) + rounding_, "path over edges",
+               "%.17g, edges %.17g %s", straight, along, at_.c_str());
         if (input_.options().metric == GEOIDX_METRIC_EDGES) {
             expect(exact >= along * (1 - LENGTH_ROUNDING) - rounding_, "path under edges",
                    "%.17g, edges %.17g %s", exact, along, at_.c_str());

@@ -73,10 +73,12 @@ private:
         require(answer <= range.most, "is too long");
     }
 
+    // `range` is a function of Bounds.
+    template <class RangeOf>
     void check_pair_answer(const char* query, float answer, const geoidx_surface_point& a,
-                           const geoidx_surface_point& b) const {
+                           const geoidx_surface_point& b, const RangeOf& range) const {
         const double along = on_.along_edges(a, b), exact = along < FAR ? metric(a, b) : FAR;
-        check_answer_of(query, answer, along, subject_.bounds().of_point_pair(exact, along),
+        check_answer_of(query, answer, along, (subject_.bounds().*range)(exact, along),
                         described(a) + " to " + described(b));
     }
 
@@ -86,7 +88,7 @@ private:
         expect(same_bits(there, back), "point_sssd is symmetric", "%.9g, %.9g %s", double{there},
                double{back}, at.c_str());
         if (&a == &b) return expect(there == 0, "point_sssd is 0", "%.9g %s", double{there}, at.c_str());
-        check_pair_answer("point_sssd", there, a, b);
+        check_pair_answer("point_sssd", there, a, b, &Bounds::of_point_pair);
         const uint32_t from = on_.vertex_of(a), to = on_.vertex_of(b);
         if (from != GEOIDX_NO_SOURCE && to != GEOIDX_NO_SOURCE)
             expect(same_bits(there, subject_.sssd(from, to)), "point_sssd of vertices is sssd", "%s",
@@ -194,7 +196,8 @@ private:
         for (uint32_t k = 0; k < found; ++k) {
             expect(positions[k] < count && (k == 0 || distances[k - 1] <= distances[k]),
                    "point_nearest_targets in order", "%u: %.9g", positions[k], double{distances[k]});
-            check_pair_answer("point_nearest_targets", distances[k], source, targets[positions[k]]);
+            check_pair_answer("point_nearest_targets", distances[k], source, targets[positions[k]],
+                              &Bounds::of_point_field);
         }
     }
 
