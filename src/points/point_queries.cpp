@@ -77,12 +77,13 @@ PointView PointQueries::view_of(const SurfacePoint& at, const FacePoint& point) 
 // No way is shorter than the straight line in space. The straight line over the faces counts even where
 // tables, to their accuracy, say that there is a shorter way. Much shorter ways are there: around a needle
 // that stands between two faces. Where a polygon has both points in it, a table's rounded distance says less.
+// A way that is known besides is never left for a longer one.
 float WaysBetween::corrected(float distance) const {
     constexpr float SHORTER = 0.99f, MUCH_SHORTER = 0.95f;
     if (is_shortest) return straight;
     if (!(distance < SHORTER * seen)) distance = seen;
     distance = std::max(std::min(distance, other), line);
-    return distance < MUCH_SHORTER * straight ? distance : straight;
+    return distance < MUCH_SHORTER * straight ? distance : std::max(std::min(straight, other), line);
 }
 
 // What surface and views tell of a pair that is this far by tables.
@@ -96,10 +97,14 @@ WaysBetween PointQueries::ways_between(const SurfacePoint& source, const PointVi
         return ways;
     }
     if (unfolds()) {
+        ways.is_shortest = share_a_face(surface_, source, target);
+        if (ways.is_shortest) {
+            ways.straight =
+                static_cast<float>((position_of(surface_, source) - position_of(surface_, target)).norm());
+            return ways;
+        }
         ways.straight = static_cast<float>(
             std::min(straight_nearby(surface_, source, target), straight_in_plane(surface_, source, target)));
-        ways.is_shortest = source.face == target.face && ways.straight < INFINITE;
-        if (ways.is_shortest) return ways;
         ways.seen = static_cast<float>(
             std::min(from.seen.straight_to(surface_, target), to.seen.straight_to(surface_, source)));
     }
@@ -179,16 +184,18 @@ void PointQueries::add_known_ways(const SurfacePoint& source, const SeenAround& 
         known.push_back({number, static_cast<float>(std::max(way, chord)), static_cast<float>(chord)});
     };
     const auto add = [&](const SurfacePoint& from, uint32_t vertex, uint32_t face) {
-        add_way(vertex, straight_nearby(surface_, from, corner_point(surface_, face, vertex)));
+        add_way(vertex, straight_between(surface_, from, corner_point(surface_, face, vertex)));
     };
     if (!unfolds()) {
         for (const uint32_t corner : surface_.faces[source.face]) add(source, corner, source.face);
         return;
     }
+    // Beyond an edge that the point lies on are others of its faces.
     for_each_alias(surface_, source, [&](const SurfacePoint& alias) {
         const auto& corners = surface_.faces[alias.face];
         for (uint32_t k = 0; k < 3; ++k) {
             add(alias, corners[k], alias.face);
+            if (alias.weights[k] == 0) continue;
             const uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
             for_each_face_beyond(surface_, alias.face, a, b, [&](uint32_t face) {
                 for (const uint32_t vertex : surface_.faces[face])

@@ -31,17 +31,6 @@ double straight_across(const Surface& surface, const SurfacePoint& a, const Surf
     return crossing >= 0 && crossing <= length ? hypotenuse(from.foot - to.foot, off) : UNREACHABLE;
 }
 
-double straight_between(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
-    if (a.face == b.face) return (position_of(surface, a) - position_of(surface, b)).norm();
-    const auto& corners = surface.faces[a.face];
-    for (uint32_t k = 0; k < 3; ++k) {
-        const uint32_t v = corners[(k + 1) % 3], w = corners[(k + 2) % 3];
-        if (has_corner(surface, b.face, v) && has_corner(surface, b.face, w))
-            return straight_across(surface, a, b, v, w);
-    }
-    return UNREACHABLE;
-}
-
 template <class Length>
 double least_of_aliases(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b,
                         const Length& length) {
@@ -63,6 +52,29 @@ double least_of_corners(const Surface& surface, const SurfacePoint& a, const Sur
     return least;
 }
 
+}
+
+bool share_a_face(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    const auto is_inside = [](const SurfacePoint& point) {
+        return std::ranges::find(point.weights, 0) == point.weights.end();
+    };
+    if (a.face == b.face) return true;
+    if (is_inside(a)) return point_in_face(surface, b, a.face).has_value();
+    if (is_inside(b)) return point_in_face(surface, a, b.face).has_value();
+    const auto of_a = aliases_of(surface, a);
+    return std::ranges::any_of(aliases_of(surface, b),
+                               [&](const SurfacePoint& alias) { return alias_in(of_a, alias.face); });
+}
+
+double straight_between(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    if (a.face == b.face) return (position_of(surface, a) - position_of(surface, b)).norm();
+    const auto& corners = surface.faces[a.face];
+    for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t v = corners[(k + 1) % 3], w = corners[(k + 2) % 3];
+        if (has_corner(surface, b.face, v) && has_corner(surface, b.face, w))
+            return straight_across(surface, a, b, v, w);
+    }
+    return UNREACHABLE;
 }
 
 double straight_nearby(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {

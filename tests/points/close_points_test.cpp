@@ -145,30 +145,35 @@ TEST_CASE("points: near a common vertex they are no farther apart than the way o
 }
 
 TEST_CASE("points: near the apex of a cone they are no farther apart than unfolded") {
-    for (const auto& rays :
-         {cone_rays(7, 1.1), cone_rays(40, 0.3), cone_rays(200, 0.8), saddle_rays(10, 0.9)}) {
-        const PathCase on(cone(rays, 4));
-        const double step = angle_between(rays[0], rays[1]), total = step * static_cast<double>(rays.size());
-        const auto around = triangles_around_vertices(on.soup)[0];
-        // How far around the apex a point is: triangle k lies between the rays k and k + 1.
-        const auto turned = [&](const geoidx_surface_point& point) {
-            const auto k = static_cast<size_t>(std::ranges::find(around, point.triangle) - around.begin());
-            return step * static_cast<double>(k) + angle_between(rays[k], on.position(point));
-        };
-        std::mt19937_64 random(5);
-        for (size_t i = 0; i < 600; ++i) {
-            const auto point = [&] {
-                return point_near(on.soup, random, 0, around[random() % around.size()],
-                                  std::pow(0.1, 1 + i % 6));
+    for (const uint32_t engine : {GEOIDX_ENGINE_OVERLAY, GEOIDX_ENGINE_GRAPH})
+        for (const auto& rays : {cone_rays(3, 1.1), cone_rays(4, 0.5), cone_rays(7, 1.1), cone_rays(40, 0.3),
+                                 cone_rays(200, 0.8), saddle_rays(10, 0.9)}) {
+            auto options = path_options();
+            options.engine = engine;
+            const PathCase on(cone(rays, 4), options);
+            const double step = angle_between(rays[0], rays[1]),
+                         total = step * static_cast<double>(rays.size());
+            const auto around = triangles_around_vertices(on.soup)[0];
+            // How far around the apex a point is: triangle k lies between the rays k and k + 1.
+            const auto turned = [&](const geoidx_surface_point& point) {
+                const auto k =
+                    static_cast<size_t>(std::ranges::find(around, point.triangle) - around.begin());
+                return step * static_cast<double>(k) + angle_between(rays[k], on.position(point));
             };
-            const auto a = point(), b = point();
-            CAPTURE(i);
-            const double exact =
-                distance_on_cone(total, turned(a), turned(b), on.position(a).norm(), on.position(b).norm());
-            CHECK(double{on.sssd(a, b)} <= exact * (1 + 1e-6));
-            CHECK(on.sssd(a, b) == on.sssd(b, a));
+            std::mt19937_64 random(5);
+            for (size_t i = 0; i < 600; ++i) {
+                const auto point = [&] {
+                    return point_near(on.soup, random, 0, around[random() % around.size()],
+                                      std::pow(0.1, 1 + i % 6));
+                };
+                const auto a = point(), b = point();
+                CAPTURE(i);
+                const double exact = distance_on_cone(total, turned(a), turned(b), on.position(a).norm(),
+                                                      on.position(b).norm());
+                CHECK(double{on.sssd(a, b)} <= exact * (1 + 1e-6));
+                CHECK(on.sssd(a, b) == on.sssd(b, a));
+            }
         }
-    }
 }
 
 // Around a corner, nothing goes on over an edge of three triangles.

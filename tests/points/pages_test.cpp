@@ -1,4 +1,7 @@
 // Fields from points on pages that meet in a spine: patches meet at its edges, which many triangles share.
+#include <cmath>
+#include <numbers>
+
 #include "tests/path/path_cases.h"
 #include "tests/points/point_cases.h"
 #include "tests/support/sanitized.h"
@@ -33,5 +36,29 @@ TEST_CASE("points: fields of pages lead over each edge of the spine" * doctest::
             for (uint32_t v = 0; v < on.soup.vertex_count(); ++v)
                 CHECK(double{answers[v]} == doctest::Approx(exact[v]).epsilon(0.01));
         }
+    }
+}
+
+// From a point of the spine all corners are in plain sight, and so is any other point.
+TEST_CASE("points: an edge of a thousand triangles") {
+    constexpr uint32_t PAGES = 1000;
+    Soup soup;
+    soup.positions = {{0, 0, 0}, {0, 0, 1}};
+    for (uint32_t i = 0; i < PAGES; ++i) {
+        const double turned = 2 * std::numbers::pi * i / PAGES;
+        soup.positions.push_back({std::cos(turned), std::sin(turned), 0.3});
+        soup.triangles.push_back({0, 1, 2 + i});
+    }
+    const PathCase on(std::move(soup));
+    const geoidx_surface_point source{7, 0, {0.4, 0.6, 0}}, of_spine{500, 0, {0.9, 0.1, 0}},
+        of_page{900, 0, {0.2, 0.3, 0.5}};
+    const auto answers = field(on, {&source, 1});
+    for (uint32_t v = 0; v < on.soup.vertex_count(); ++v)
+        CHECK(double{answers[v]} ==
+              doctest::Approx((on.soup.positions[v] - on.position(source)).norm()).epsilon(1e-6));
+    for (const auto& target : {of_spine, of_page}) {
+        const double straight = (on.position(source) - on.position(target)).norm();
+        CHECK(double{on.sssd(source, target)} == doctest::Approx(straight).epsilon(1e-6));
+        CHECK(on.sssd(target, source) == on.sssd(source, target));
     }
 }

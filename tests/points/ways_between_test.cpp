@@ -24,6 +24,12 @@ TEST_CASE("ways between: bounds hold, and straight lines count unless tables kno
     CHECK(ways.corrected(5.1f) == 5.2f);
     CHECK(ways.corrected(4.5f) == 4.5f);
     CHECK(ways.corrected(INFINITE) == 5.2f);
+    ways.other = 5;
+    CHECK(ways.corrected(5.1f) == 5);
+    CHECK(ways.corrected(4.9f) == 4.9f);
+    CHECK(ways.corrected(INFINITE) == 5);
+    ways.other = 3;
+    CHECK(ways.corrected(INFINITE) == 4);
     ways.is_shortest = true;
     CHECK(ways.corrected(4.5f) == 5.2f);
 }
