@@ -256,6 +256,7 @@ geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32_t* targets
         require(query, "query is NULL");
         require(target_count == 0 || targets, "targets is NULL");
         require(target_count == 0 || distances, "distances is NULL");
+        query->query.require_prepared();
         for (uint64_t i = 0; i < target_count; ++i) distances[i] = query->query.prepared_sssd(targets[i]);
     });
 }

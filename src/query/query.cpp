@@ -75,8 +75,12 @@ void Query::prepare(uint32_t source_id) {
     prepared_id_ = source_id;
 }
 
-float Query::prepared_sssd(uint32_t target_id) {
+void Query::require_prepared() const {
     if (prepared_id_ == NONE) refuse_argument("no source has been prepared");
+}
+
+float Query::prepared_sssd(uint32_t target_id) {
+    require_prepared();
     const uint32_t target = number_of(target_id);
     if (target_id == prepared_id_) return 0;
     if (prepared_ == NONE || target == NONE) return INFINITE;

@@ -28,6 +28,7 @@ public:
 
     // From then on prepared_sssd() is from this source, until the next call.
     void prepare(uint32_t source_id);
+    void require_prepared() const;
     float prepared_sssd(uint32_t target_id);
 
     // Multiple sources, all destinations: distances[id] to the nearest source, infinite beyond the radius.

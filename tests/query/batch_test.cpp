@@ -183,6 +183,7 @@ TEST_CASE("batch: what is wrong is refused") {
             check_refused(status, GEOIDX_ERROR_INVALID_ARGUMENT, what);
         };
         refused(geoidx_query_prepared(query.get(), ids, 1, distances.data()), "prepared");
+        refused(geoidx_query_prepared(query.get(), nullptr, 0, nullptr), "prepared");
         refused(geoidx_query_prepare(query.get(), count), "out of range");
         refused(geoidx_query_prepared(query.get(), ids, 1, distances.data()), "prepared");
         require_success(geoidx_query_prepare(query.get(), 1));
