@@ -794,8 +794,8 @@ GEOIDX_API geoidx_status geoidx_query_prepared(geoidx_query* query, const uint32
  * triangles, or where more than 1000 vertices are in the corridor and more than 2000 triangles near enough
  * to both points in space, and by GEOIDX_ENGINE_GRAPH it is not done. All other distances are to the accuracy
  * of the index. Points of triangles that share a corner are no farther apart than the way over it is long
- * and, by GEOIDX_METRIC_EXACT, than a straight line around it over the triangles between the two. +INFINITY
- * where there is no path. */
+ * and, by GEOIDX_METRIC_EXACT, than a straight line around it over the triangles between the two, unless it
+ * passes an edge of three triangles or more, or a triangle without area. +INFINITY where there is no path. */
 GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* source,
                                                  const geoidx_surface_point* target, float* distance);
@@ -804,7 +804,9 @@ GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoi
  * sources[i] to v. `offsets` are finite and not negative; NULL: all are 0. An offset that all sources have is
  * added to the distances without it. By GEOIDX_METRIC_EXACT the distance to a vertex that a source within a
  * triangle sees over the triangles around it, 30 or so and up to 126 where edges are long, is no longer than
- * that straight line and, from one source, no shorter than the line in space. */
+ * that straight line and, from one source, no shorter than the line in space; a source in a triangle less
+ * than a millionth of its longest edge high sees the triangles beside it only. Each call takes 10 KB of
+ * scratch a source from the global heap, as do those below. */
 GEOIDX_API geoidx_status geoidx_query_point_msad(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* sources, uint32_t source_count,
                                                  const float* offsets, float* distances,
@@ -845,8 +847,9 @@ GEOIDX_API geoidx_status geoidx_query_point_nearest_targets(
  *
  * GEOIDX_METRIC_WEIGHTED: over the surface, bent at edges between triangles of different cost. The length is
  * the sum of the pieces' lengths, each times the cost of its triangle, along an edge that of the cheapest one
- * there. It is never below the true distance and, unlike that of geoidx_solver_distances, not tied to
- * points_per_edge points, so that it is mostly a little shorter.
+ * there, and of duplicate triangles that of the cheapest, though a path names the first. It is never below
+ * the true distance and, unlike that of geoidx_solver_distances, not tied to points_per_edge points, so that
+ * it is mostly a little shorter.
  *
  * GEOIDX_METRIC_EDGES: over vertices, along edges, the shortest way that a search led by the distances of the
  * index finds. Where these are wrong, as for edge costs that differ by many orders of magnitude, it may be
