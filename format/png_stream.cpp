@@ -165,6 +165,9 @@ void check_image_header(std::span<const std::byte> png, const PngImage& image) {
     if (png.size() < HEADER_SIZE)
         fail_corrupt(std::to_string(png.size()) + " bytes are too few for an image");
     if (png_sig_cmp(reinterpret_cast<png_const_bytep>(png.data()), 0, 8) != 0) fail_corrupt("not a PNG");
+    // libpng passes over chunks that it does not know, also in front of the one with the size.
+    if (load_big_endian(png.subspan(8)) != 13 || std::memcmp(png.data() + 12, "IHDR", 4) != 0)
+        fail_corrupt("the image does not begin with its size");
     const std::uint32_t width = load_big_endian(png.subspan(16));
     const std::uint32_t height = load_big_endian(png.subspan(20));
     if (width != image.width || height != image.height) {
@@ -180,6 +183,13 @@ void check_image_header(std::span<const std::byte> png, const PngImage& image) {
     }
 }
 
+// Whether libpng has found the image that the header promises, so that rows have the size of our own.
+bool is_as_expected(png_structp png, png_infop info, const PngImage& image) {
+    return png_get_image_width(png, info) == image.width && png_get_image_height(png, info) == image.height &&
+           png_get_rowbytes(png, info) == image.row_size() &&
+           png_get_interlace_type(png, info) == PNG_INTERLACE_NONE;
+}
+
 bool read_image(png_structp png, png_infop info, const PngImage& image, std::byte* pixels) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_user_limits(png, image.width, image.height);
@@ -187,6 +197,7 @@ bool read_image(png_structp png, png_infop info, const PngImage& image, std::byt
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_benign_errors(png, 0);
     png_read_info(png, info);
+    if (!is_as_expected(png, info, image)) png_error(png, "the image is another one than its header says");
     for (std::size_t r = 0; r < image.height; ++r)
         png_read_row(png, reinterpret_cast<png_bytep>(pixels) + r * image.row_size(), nullptr);
     png_read_end(png, nullptr);

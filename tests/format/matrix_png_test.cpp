@@ -54,6 +54,20 @@ Bytes png_by_libpng(const void* pixels, std::uint32_t rows, std::uint32_t cols, 
     return png;
 }
 
+Bytes chunk(const char* type, const Bytes& data) {
+    Bytes all;
+    const auto add_number = [&](std::uint32_t value) {
+        for (int shift = 24; shift >= 0; shift -= 8)
+            all.push_back(static_cast<std::byte>(value >> shift & 0xFF));
+    };
+    add_number(static_cast<std::uint32_t>(data.size()));
+    for (std::size_t i = 0; i < 4; ++i) all.push_back(static_cast<std::byte>(type[i]));
+    all.insert(all.end(), data.begin(), data.end());
+    add_number(static_cast<std::uint32_t>(
+        crc32(0, reinterpret_cast<const Bytef*>(all.data() + 4), static_cast<uInt>(all.size() - 4))));
+    return all;
+}
+
 // Changes a byte of the image header and makes its CRC right again.
 Bytes with_image_header(Bytes png, std::size_t offset, int value) {
     png.at(offset) = static_cast<std::byte>(value);
@@ -118,6 +132,21 @@ TEST_CASE("an image that another program wrote is read") {
 TEST_CASE("the same matrix gives the same image") {
     const auto values = random_floats(400, 3);
     CHECK(encode_png(values, 20, 20) == encode_png(values, 20, 20));
+}
+
+// libpng passes over chunks that it does not know. What is read of the one in front would be taken for the
+// size, and the rows behind it have twice as many bytes.
+TEST_CASE("an image with another chunk in front of its size is refused") {
+    constexpr std::uint32_t ROWS = 5, COLS = 7;
+    const Bytes expected = encode_png(random_floats(ROWS * COLS, 1), ROWS, COLS);
+    const std::vector<std::uint16_t> wide(4 * ROWS * COLS, 0x4141);
+    const Bytes hidden = png_by_libpng(wide.data(), ROWS, COLS, PNG_FORMAT_LINEAR_RGB_ALPHA);
+    Bytes png(expected.begin(), expected.begin() + 8);
+    const Bytes in_front = chunk("aaAa", {expected.begin() + 16, expected.begin() + 29});
+    png.insert(png.end(), in_front.begin(), in_front.end());
+    png.insert(png.end(), hidden.begin() + 8, hidden.end());
+    CHECK(decode_status(png, ROWS, COLS) == GEOIDX_ERROR_CORRUPT);
+    CHECK(decode_status(hidden, ROWS, COLS) == GEOIDX_ERROR_CORRUPT);
 }
 
 TEST_CASE("an image cut at any length is refused") {
