@@ -46,6 +46,12 @@ format::Issue issue_of(const Error& error, const format::Container& container) {
     return {number_of(error), error.status, offset, error.what()};
 }
 
+// A copy of bytes that do not lie where a file's arrays can be read in place; otherwise empty.
+std::vector<std::byte> aligned_copy(std::span<const std::byte> bytes) {
+    if (reinterpret_cast<uintptr_t>(bytes.data()) % alignof(uint64_t) == 0) return {};
+    return {bytes.begin(), bytes.end()};
+}
+
 // All problems that can be told apart: those of the container, then, if it has none, the first one of its
 // content.
 std::vector<format::Issue> issues_of(std::span<const std::byte> file) {
@@ -68,7 +74,9 @@ std::vector<format::Issue> issues_of(std::span<const std::byte> file) {
 geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user) {
     geoidx_status first = GEOIDX_OK;
     const geoidx_status failure = guarded([&] {
-        for (const auto& found : issues_of(bytes_at(data, size))) {
+        const auto bytes = bytes_at(data, size);
+        const auto copy = aligned_copy(bytes);
+        for (const auto& found : issues_of(copy.empty() ? bytes : copy)) {
             if (first == GEOIDX_OK) first = fail(found.status, found.message.c_str());
             const geoidx_issue told{found.number, found.status, found.offset, found.message.c_str()};
             if (issue && !issue(user, &told)) break;
