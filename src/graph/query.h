@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "src/graph/arc_queue.h"
@@ -53,7 +54,10 @@ private:
 
     // sssd.cpp
     float same_leaf_distance(uint32_t a, uint32_t b) const;
+    float common_border_distance(uint32_t low, uint32_t high) const;
     double search(uint32_t source, uint32_t target);
+    std::optional<double> search_led(uint32_t source, uint32_t target, uint64_t most_left);
+    double bound(uint32_t a, uint32_t b) const;
     void allow_ancestors(uint32_t source, uint32_t target);
     void open(uint32_t node, double distance, uint32_t target);
     void relax_border_vertex(uint32_t node, double distance, uint32_t target);
@@ -62,6 +66,7 @@ private:
     const Numbering& numbering_;
     uint32_t prepared_ = NONE;
     ArcQueue queue_; // of SSSD
+    double bound_scale_ = 0;
 
     // MSAD: distances by number and the sources that they come from, the caller's; which inner patches have
     // sources below them.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "src/graph/query.h"
 
@@ -25,11 +26,11 @@ float crossing_distance(const GraphIndex& index, uint32_t border_vertex, uint32_
     return index.border_internal_row(leaf, position)[internal_vertex - index.numbering.first_internal(leaf)];
 }
 
-// A lower bound that no table entry undercuts (paper 3.4), which makes the search A*.
-double bound(const GraphIndex& index, uint32_t a, uint32_t b) {
-    return double{index.bound_scale} * straight_distance(index.numbering, a, b);
 }
 
+// A lower bound that no table entry undercuts (paper 3.4), which makes the search A*.
+double GraphQuery::bound(uint32_t a, uint32_t b) const {
+    return bound_scale_ > 0 ? bound_scale_ * straight_distance(numbering_, a, b) : 0;
 }
 
 float GraphQuery::sssd(uint32_t low, uint32_t high) {
@@ -37,14 +38,21 @@ float GraphQuery::sssd(uint32_t low, uint32_t high) {
     return direct < INFINITE ? direct : static_cast<float>(search(low, high));
 }
 
+// The table's distance of two border vertices that a border has in common, by the first of these; infinity if
+// there is none. Both have their borders in the order of the patches.
+float GraphQuery::common_border_distance(uint32_t low, uint32_t high) const {
+    const auto of_low = numbering_.borders_of(low), of_high = numbering_.borders_of(high);
+    for (size_t i = 0, j = 0; i < of_low.size() && j < of_high.size();) {
+        if (of_low[i].patch == of_high[j].patch)
+            return index_.border_row(of_low[i].patch, of_low[i].position)[of_high[j].position];
+        of_low[i].patch < of_high[j].patch ? ++i : ++j;
+    }
+    return INFINITE;
+}
+
 // The table's distance of two vertices that a leaf or a border has in common; infinity if there is none.
 float GraphQuery::same_leaf_distance(uint32_t low, uint32_t high) const {
-    if (numbering_.is_border(high)) {
-        for (const PatchPosition& a : numbering_.borders_of(low))
-            for (const PatchPosition& b : numbering_.borders_of(high))
-                if (a.patch == b.patch) return index_.border_row(a.patch, a.position)[b.position];
-        return INFINITE;
-    }
+    if (numbering_.is_border(high)) return common_border_distance(low, high);
     if (numbering_.is_border(low)) return crossing_distance(index_, low, high);
     const uint32_t leaf = numbering_.leaf_of(low);
     if (numbering_.leaf_of(high) != leaf) return INFINITE;
@@ -79,7 +87,7 @@ void GraphQuery::open(uint32_t node, double distance, uint32_t target) {
     if (search_epoch_[node] == epoch_ && !(distance < search_distance_[node])) return;
     search_epoch_[node] = epoch_;
     search_distance_[node] = distance;
-    queue_.push(distance + bound(index_, node, target), node);
+    queue_.push(distance + bound(node, target), node);
 }
 
 void GraphQuery::relax_border_vertex(uint32_t node, double distance, uint32_t target) {
@@ -91,7 +99,19 @@ void GraphQuery::relax_border_vertex(uint32_t node, double distance, uint32_t ta
     }
 }
 
+// Led by the bound, the search leaves each border vertex once, but for rounding. In a file whose tables
+// undercut it, that may be without end; the search by distances alone leaves each once whatever the tables
+// hold.
 double GraphQuery::search(uint32_t source, uint32_t target) {
+    bound_scale_ = double{index_.bound_scale};
+    if (const auto distance = search_led(source, target, 4 * uint64_t{numbering_.border_vertex_count()}))
+        return *distance;
+    bound_scale_ = 0;
+    return *search_led(source, target, std::numeric_limits<uint64_t>::max());
+}
+
+// Nothing if more vertices are left than that.
+std::optional<double> GraphQuery::search_led(uint32_t source, uint32_t target, uint64_t most_left) {
     allow_ancestors(source, target);
     queue_.clear();
     if (numbering_.is_border(source)) {
@@ -107,8 +127,9 @@ double GraphQuery::search(uint32_t source, uint32_t target) {
         const auto [key, node] = queue_.pop();
         if (key >= best) break;
         const double d = search_distance_[node];
-        if (key > d + bound(index_, node, target)) continue;
+        if (key > d + bound(node, target)) continue;
         if (node == target) return d;
+        if (most_left-- == 0) return std::nullopt;
         if (!numbering_.is_border(target))
             best = std::min(best, d + double{crossing_distance(index_, node, target)});
         relax_border_vertex(node, d, target);

@@ -106,9 +106,17 @@ struct Numbering {
                 overlay_position.data() + border_begin[patch + 1]};
     }
 
-    // The position of a border vertex in the border of a patch, or NONE if it is not on it.
+    // The position of a border vertex in the border of a patch, or NONE if it is not on it. Few borders are
+    // quicker to go through.
     uint32_t border_position(uint32_t patch, uint32_t border_vertex) const {
-        for (const PatchPosition& at : borders_of(border_vertex))
+        constexpr size_t FEW = 16;
+        auto borders = borders_of(border_vertex);
+        if (borders.size() > FEW) {
+            const auto at = std::ranges::lower_bound(borders, patch, {}, &PatchPosition::patch);
+            borders = borders.subspan(static_cast<size_t>(at - borders.begin()));
+            borders = borders.first(std::min<size_t>(borders.size(), 1));
+        }
+        for (const PatchPosition& at : borders)
             if (at.patch == patch) return at.position;
         return NONE;
     }
