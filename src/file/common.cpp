@@ -125,6 +125,9 @@ std::vector<std::byte> hierarchy_bytes(const StoredIndex& stored) {
     return writer.take();
 }
 
+// Patches have numbers of 32 bits, with room for sums.
+constexpr uint64_t MOST_PATCHES = uint64_t{1} << 31;
+
 // Returns the number of leaves. Refuses more than `patch_room` patches besides the root, since the section
 // BORD has numbers for each of them.
 uint32_t read_hierarchy(const format::Container& container, uint64_t patch_room, StoredIndex& stored) {
@@ -139,7 +142,8 @@ uint32_t read_hierarchy(const format::Container& container, uint64_t patch_room,
         uint64_t of_next_level = 0;
         for (uint64_t p = 0; p < of_level; ++p) {
             const uint32_t children = reader.u32();
-            if (children == 0 || children > patch_room || patches + children > patch_room + 1)
+            if (children == 0 || children > patch_room || patches + children > patch_room + 1 ||
+                patches + children > MOST_PATCHES)
                 refuse_as_corrupt("section HIER: patch " + std::to_string(stored.child_count.size()) +
                                   " has " + std::to_string(children) + " children");
             stored.child_count.push_back(children);

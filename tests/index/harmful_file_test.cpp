@@ -153,10 +153,30 @@ TEST_CASE("harmful file: a vertex that the border around it cannot be reached fr
     }
 }
 
+// Tables up lead from each leaf to the border of its parent, which is the same one.
 TEST_CASE("harmful file: the same border around many leaves, gigabytes from a few thousand bytes") {
+    // Of a closed chain every second vertex is a sample, of vertices without segments each.
+    for (bool is_closed : {false, true}) {
+        const uint32_t border = is_closed ? 1400 : 700, count = is_closed ? 600 : 300;
+        const std::vector<Leaf> leaves(count, {first_numbers(border), 0});
+        check_limit(content_of(border, 2, leaves, is_closed, [](size_t, size_t) { return 1.f; }));
+    }
+}
+
+TEST_CASE("harmful file: the same border around many leaves of the root, which have no tables across") {
     const std::vector<Leaf> leaves(300, {first_numbers(700), 0});
-    for (bool is_closed : {false, true})
-        check_limit(content_of(700, 1, leaves, is_closed, [](size_t, size_t) { return 1.f; }));
+    for (bool is_closed : {false, true}) {
+        const auto file =
+            file_campaign::write_content(content_of(700, 1, leaves, is_closed, [](size_t, size_t) {
+                return 1.f;
+            })).bytes;
+        geoidx_open_options options;
+        geoidx_open_options_init(&options);
+        options.max_memory = uint64_t{64} << 20;
+        geoidx* index = nullptr;
+        require_success(geoidx_open_memory(file.data(), file.size(), &options, &index));
+        CHECK(sssd(IndexHandle(index).get(), 3, 500) == 1);
+    }
 }
 
 TEST_CASE("harmful file: a long border around many vertices gives no labels to it") {

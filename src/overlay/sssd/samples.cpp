@@ -38,8 +38,9 @@ float spacing_of(const OverlayIndex& index, uint32_t patch) {
     for_each_segment(index.rings, patch, [&](uint32_t place, float segment) {
         if (index.rings.is_own[place]) length += double{segment};
     });
-    return static_cast<float>(length /
-                              std::max(1.0, share_of(index, patch) * index.numbering.border_size(patch)));
+    const double spacing =
+        length / std::max(1.0, share_of(index, patch) * index.numbering.border_size(patch));
+    return static_cast<float>(std::min(spacing, double{std::numeric_limits<float>::max()}));
 }
 
 // Chooses the samples of all borders, level by level. A vertex that is a sample of one border is a sample of
@@ -266,9 +267,10 @@ private:
         if (patch == 0) return;
         const uint32_t parent = numbering_.parent[patch];
         const auto from = samples_.of(patch), to = samples_.of(parent);
-        const int longer_by = static_cast<int>(std::min(LONGER_ALONG_BORDER * samples_.spacing[patch] *
-                                                            steps_per_distance(index_.quantum[parent]),
-                                                        float{TableCode::LARGEST}));
+        // Of a file that nobody built this may be no number, which is 0 then.
+        const float longer =
+            LONGER_ALONG_BORDER * samples_.spacing[patch] * steps_per_distance(index_.quantum[parent]);
+        const int longer_by = static_cast<int>(std::min(std::max(0.f, longer), float{TableCode::LARGEST}));
         uint16_t* entry = add_table(from.size(), to.size());
         for (const uint16_t k : from) {
             const uint16_t* const row = index_.row_to_ring(parent, position_in_parent(index_, patch, k));

@@ -60,6 +60,8 @@ void add_bridges(Rings& rings, uint32_t patch, uint32_t slot, uint32_t size,
 }
 
 void end_ring(Rings& rings) {
+    if (rings.position.size() > Rings::MOST_PLACES_OF_ALL)
+        throw Error(GEOIDX_ERROR_LIMIT, "borders have more places than the overlay engine can take");
     const auto end = static_cast<uint32_t>(rings.position.size());
     if (end - rings.begin.back() > Rings::MOST_PLACES)
         throw Error(GEOIDX_ERROR_LIMIT, "the border of patch " + std::to_string(rings.begin.size() - 1) +

@@ -25,7 +25,8 @@ struct Rings {
     // A path over a border vertex is straightened over this many segments on each side of it.
     static constexpr uint32_t REACH = 2;
     static constexpr uint32_t MOST_PLACES = 0x7fff; // the largest size of a ring
-    static constexpr size_t PADDING = 32;           // unused places that follow the last ring
+    static constexpr size_t MOST_PLACES_OF_ALL = size_t{1} << 31;
+    static constexpr size_t PADDING = 32; // unused places that follow the last ring
     // Stands for a length where there is no segment.
     static constexpr float GAP = std::numeric_limits<float>::quiet_NaN();
 
