@@ -82,7 +82,8 @@ enum {
     GEOIDX_ERROR_UNSUPPORTED_VERSION = -7, /* written by a newer format, or with features unknown here */
     GEOIDX_ERROR_MESH_MISMATCH = -8,       /* the index belongs to another mesh than the one given */
     /* A count is over what the format or the library can hold, or an index would take memory out of
-     * proportion to its file: the overlay engine's tables of borders that hundreds of patches share. */
+     * proportion to its file: the overlay engine's tables of borders that hundreds of patches share with the
+     * patch around them. */
     GEOIDX_ERROR_LIMIT = -9,
     /* The allocator or the system has no more memory, or the system not even one thread for a build. Nothing
      * leaks, and the handles that the call was given can be used as before. */
@@ -576,7 +577,8 @@ typedef int32_t (*geoidx_issue_fn)(void* user, const geoidx_issue* issue);
  * the sections hold, the mesh included, which opening does not unpack. Of a file without positions it needs
  * no mesh, and checks all that does not depend on them: not whether they belong to the mesh, and of the
  * tables of GEOIDX_CODEC_PACKED their sizes, but not every entry, so that geoidx_open may still refuse one.
- * Returns GEOIDX_OK when there is none, otherwise the first problem's status. `issue` may be NULL. */
+ * Data that does not begin at a multiple of 8 is copied first. Returns GEOIDX_OK when there is no problem,
+ * otherwise the first one's status. `issue` may be NULL. */
 GEOIDX_API geoidx_status geoidx_verify(const void* data, uint64_t size, geoidx_issue_fn issue, void* user);
 
 /* ---- Points of the surface
@@ -806,7 +808,7 @@ GEOIDX_API geoidx_status geoidx_query_point_sssd(geoidx_query* query, const geoi
  * triangle sees over the triangles around it, 30 or so and up to 126 where edges are long, is no longer than
  * that straight line and, from one source, no shorter than the line in space; a source in a triangle less
  * than a millionth of its longest edge high sees the triangles beside it only. Each call takes 10 KB of
- * scratch a source from the global heap, as do those below. */
+ * scratch a source from the global heap, as does each of the other geoidx_query_point_* below. */
 GEOIDX_API geoidx_status geoidx_query_point_msad(geoidx_query* query, const geoidx_surface* surface,
                                                  const geoidx_surface_point* sources, uint32_t source_count,
                                                  const float* offsets, float* distances,

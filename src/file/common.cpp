@@ -125,7 +125,7 @@ std::vector<std::byte> hierarchy_bytes(const StoredIndex& stored) {
     return writer.take();
 }
 
-// Patches have numbers of 32 bits, with room for sums.
+// Patches have numbers of 32 bits, and so has the sum of two counts of them.
 constexpr uint64_t MOST_PATCHES = uint64_t{1} << 31;
 
 // Returns the number of leaves. Refuses more than `patch_room` patches besides the root, since the section

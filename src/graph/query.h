@@ -56,7 +56,7 @@ private:
     float same_leaf_distance(uint32_t a, uint32_t b) const;
     float common_border_distance(uint32_t low, uint32_t high) const;
     double search(uint32_t source, uint32_t target);
-    std::optional<double> search_led(uint32_t source, uint32_t target, uint64_t most_left);
+    std::optional<double> search_led(uint32_t source, uint32_t target, uint64_t most_steps);
     double bound(uint32_t a, uint32_t b) const;
     void allow_ancestors(uint32_t source, uint32_t target);
     void open(uint32_t node, double distance, uint32_t target);
@@ -65,8 +65,8 @@ private:
     const GraphIndex& index_;
     const Numbering& numbering_;
     uint32_t prepared_ = NONE;
-    ArcQueue queue_; // of SSSD
-    double bound_scale_ = 0;
+    ArcQueue queue_;         // of SSSD
+    double bound_scale_ = 0; // of the index, or 0 for a search by distances alone
 
     // MSAD: distances by number and the sources that they come from, the caller's; which inner patches have
     // sources below them.

@@ -28,7 +28,7 @@ float crossing_distance(const GraphIndex& index, uint32_t border_vertex, uint32_
 
 }
 
-// A lower bound that no table entry undercuts (paper 3.4), which makes the search A*.
+// A lower bound, which makes the search A* (paper 3.4). No entry of a table that was built undercuts it.
 double GraphQuery::bound(uint32_t a, uint32_t b) const {
     return bound_scale_ > 0 ? bound_scale_ * straight_distance(numbering_, a, b) : 0;
 }
@@ -110,8 +110,8 @@ double GraphQuery::search(uint32_t source, uint32_t target) {
     return *search_led(source, target, std::numeric_limits<uint64_t>::max());
 }
 
-// Nothing if more vertices are left than that.
-std::optional<double> GraphQuery::search_led(uint32_t source, uint32_t target, uint64_t most_left) {
+// Nothing if that takes more steps, each from one border vertex to all that its borders lead to.
+std::optional<double> GraphQuery::search_led(uint32_t source, uint32_t target, uint64_t most_steps) {
     allow_ancestors(source, target);
     queue_.clear();
     if (numbering_.is_border(source)) {
@@ -129,7 +129,7 @@ std::optional<double> GraphQuery::search_led(uint32_t source, uint32_t target, u
         const double d = search_distance_[node];
         if (key > d + bound(node, target)) continue;
         if (node == target) return d;
-        if (most_left-- == 0) return std::nullopt;
+        if (most_steps-- == 0) return std::nullopt;
         if (!numbering_.is_border(target))
             best = std::min(best, d + double{crossing_distance(index_, node, target)});
         relax_border_vertex(node, d, target);

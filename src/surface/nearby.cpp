@@ -55,15 +55,16 @@ double least_of_corners(const Surface& surface, const SurfacePoint& a, const Sur
 }
 
 bool share_a_face(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
-    const auto is_inside = [](const SurfacePoint& point) {
-        return std::ranges::find(point.weights, 0) == point.weights.end();
-    };
     if (a.face == b.face) return true;
-    if (is_inside(a)) return point_in_face(surface, b, a.face).has_value();
-    if (is_inside(b)) return point_in_face(surface, a, b.face).has_value();
-    const auto of_a = aliases_of(surface, a);
-    return std::ranges::any_of(aliases_of(surface, b),
-                               [&](const SurfacePoint& alias) { return alias_in(of_a, alias.face); });
+    const auto has_point = [&](uint32_t face, const SurfacePoint& point) {
+        for (size_t k = 0; k < 3; ++k)
+            if (point.weights[k] != 0 && !has_corner(surface, face, surface.faces[point.face][k]))
+                return false;
+        return true;
+    };
+    const auto k = static_cast<size_t>(std::ranges::max_element(a.weights) - a.weights.begin());
+    return std::ranges::any_of(surface.vertex_faces[surface.faces[a.face][k]],
+                               [&](uint32_t face) { return has_point(face, a) && has_point(face, b); });
 }
 
 double straight_between(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {

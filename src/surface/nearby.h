@@ -26,13 +26,11 @@ inline Place place_beside(const Eigen::Vector3d& begin, const Eigen::Vector3d& d
 // Whether any face has both points. A point on an edge or at a vertex is a point of all faces there.
 bool share_a_face(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
 
-// The length of the straight line between two points of the faces that they are given on: of one face, or
-// over an edge that both faces share; infinite if there is none.
+// The length of the straight line between two points as points of those faces only that they are given on: in
+// one face, or over an edge that both faces share; infinite if there is none.
 double straight_between(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
 
-// The length of the straight line between two points of one face, or between two points of faces that share
-// an edge that it crosses when both are unfolded; infinite if there is none. A point on an edge or at a
-// vertex is a point of all faces there.
+// The least of these over all faces that the points lie in; infinite if there is none.
 double straight_nearby(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b);
 
 // The length of the shorter way, in the faces that two points are given on, over a corner that both have;

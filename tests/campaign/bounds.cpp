@@ -13,7 +13,7 @@ namespace {
 constexpr double FLOAT_ROUNDING = 0x1p-24;
 // Two distances of the metric that are the same can differ by so much where faces have no area, and where
 // edges of a plane are flipped (docs/limits.md).
-constexpr double METRIC_DIFFERENCE = 1e-5;
+constexpr double METRIC_DIFFERENCE = 1e-6, FLIPPED_DIFFERENCE = 1e-5;
 // Below this a float has fewer digits, or is 0.
 constexpr double SMALLEST = 1e-36;
 // Faces without area are given one (docs/limits.md), and squares of lengths are lost below their rounding.
@@ -40,7 +40,7 @@ Bounds::Bounds(const BuildInput& input, const geoidx_info& info, double longest)
     for (double length : input.edge_bounds()) longest_edge_ = std::max(longest_edge_, length);
     const double hops = 2 * info.level_count + 1;
     detour_ = 2 * hops * input.options().delta / 100 * info.bounding_box_diagonal;
-    share_ = (hops + 1) * FLOAT_ROUNDING + METRIC_DIFFERENCE;
+    share_ = (hops + 1) * FLOAT_ROUNDING + (may_flip_edges_ ? FLIPPED_DIFFERENCE : METRIC_DIFFERENCE);
     rounding_ = is_graph_ ? 0 : hops * longest / 16384;
 }
 

@@ -1,5 +1,7 @@
 #include "tests/campaign/oracle.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <numeric>
 #include <queue>
@@ -44,7 +46,7 @@ uint32_t Surface::welded_vertex_count() const {
 bool Surface::has_flat_edges(const test::Soup& soup) const {
     constexpr double FLAT = 1e-2;                                                 // radians
     std::vector<Eigen::Vector3d> normals(edges_.size(), Eigen::Vector3d::Zero()); // of one triangle at each
-    std::vector<uint8_t> count(edges_.size(), 0);
+    std::vector<uint8_t> has_normal(edges_.size(), 0);
     for (const Triangle& triangle : triangles_) {
         const auto& v = triangle.vertices;
         const auto side = [&](size_t k) -> Eigen::Vector3d {
@@ -55,8 +57,9 @@ bool Surface::has_flat_edges(const test::Soup& soup) const {
         for (size_t k = 0; k < 3; ++k) {
             const Edge edge{std::min(v[k], v[(k + 1) % 3]), std::max(v[k], v[(k + 1) % 3])};
             const auto e = static_cast<size_t>(std::ranges::lower_bound(edges_, edge) - edges_.begin());
-            if (count[e]++ > 0 && normals[e].cross(normal).norm() < FLAT) return true;
+            if (has_normal[e] && normals[e].cross(normal).norm() < FLAT) return true;
             normals[e] = normal;
+            has_normal[e] = 1;
         }
     }
     return false;

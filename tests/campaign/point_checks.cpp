@@ -134,10 +134,12 @@ private:
         const auto is_within = [&](float d) { return d <= radius && d < static_cast<float>(FAR); };
         expect(count == std::ranges::count_if(field, is_within), "point_within is point_msad",
                "%u within %.9g", count, double{radius});
-        for (uint32_t k = 0; k < count; ++k)
+        for (uint32_t k = 0; k < count; ++k) {
+            expect(vertices[k] < field.size(), "point_within names vertices", "%u", vertices[k]);
             expect(same_bits(distances[k], field[vertices[k]]) &&
                        (k == 0 || distances[k - 1] <= distances[k]),
                    "point_within distances", "%u: %.9g", vertices[k], double{distances[k]});
+        }
     }
 
     // With offsets, of which the least is 0 or not.

@@ -155,7 +155,8 @@ TEST_CASE("harmful file: a vertex that the border around it cannot be reached fr
 
 // Tables up lead from each leaf to the border of its parent, which is the same one.
 TEST_CASE("harmful file: the same border around many leaves, gigabytes from a few thousand bytes") {
-    // Of a closed chain every second vertex is a sample, of vertices without segments each.
+    // Of a closed chain every second vertex is a sample, so that it takes more of them to be out of
+    // proportion than of vertices without segments, which are samples one and all.
     for (bool is_closed : {false, true}) {
         const uint32_t border = is_closed ? 1400 : 700, count = is_closed ? 600 : 300;
         const std::vector<Leaf> leaves(count, {first_numbers(border), 0});

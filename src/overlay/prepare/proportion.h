@@ -9,7 +9,7 @@ namespace geodesic {
 // of long rows, the tables of samples, and labels.
 // It may derive MOST_DERIVED_EACH of them for each stored table entry, slot and vertex, and ALWAYS_DERIVED
 // more. Meshes take 1 to 12 for each, or up to 33 where nothing unfolds, because every border vertex is then
-// a chain by itself; only meshes whose triangles join vertices at random take more. What exceeds the limit is
+// a chain by itself. What exceeds the limit, as hundreds of patches inside of one whose border they share, is
 // refused before any memory is taken.
 constexpr uint64_t MOST_DERIVED_EACH = 128, ALWAYS_DERIVED = uint64_t{1} << 22;
 

@@ -88,12 +88,7 @@ BorderPart part_near(const OverlayIndex& index, uint32_t patch, const WaysNearSa
     // In the ring's order; so is a sample without one before it, whose number is NONE.
     const bool is_around_an_end = beside.previous > sample || beside.next < sample;
     if (!is_around_an_end && before + after < INFINITE && before + after > 0) {
-        // Of the largest floats it may be no number, which is no place: the sample's own then.
-        const float in_parabola = 0.5f * ((before - after) / (before + after));
-        const float share = in_parabola >= -0.5f && in_parabola <= 0.5f ? in_parabola
-                            : in_parabola > 0.5f                        ? 0.5f
-                            : in_parabola < -0.5f                       ? -0.5f
-                                                                        : 0;
+        const float share = std::clamp(0.5f * ((before - after) / (before + after)), -0.5f, 0.5f);
         place += share * static_cast<float>(share > 0 ? places[beside.next] - places[sample]
                                                       : places[sample] - places[beside.previous]);
     }

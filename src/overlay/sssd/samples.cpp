@@ -147,7 +147,7 @@ uint32_t longest_border_of_child(const OverlayIndex& index, uint32_t patch) {
 // Of tables across, the children of a patch may have so many codes together for each entry of the patch's
 // overlay table, in which all these distances lie. Where thousands of children share a few hundred vertices,
 // rows for the samples of each would be out of all proportion, and none has a table. Meshes take up to 8.
-constexpr uint64_t MOST_ACROSS_EACH = 32;
+constexpr double MOST_ACROSS_EACH = 32;
 
 // Calls use(child) for each child of a patch that has a table across: to which a hop from the longest border
 // of its siblings is not made as a whole. begin[p] is the first sample of patch p.
@@ -160,8 +160,8 @@ void for_each_table_across(const OverlayIndex& index, std::span<const uint32_t> 
     uint64_t columns = 0;
     for (uint32_t child = first; child < end; ++child)
         if (has_table(child)) columns += begin[child + 1] - begin[child];
-    const uint64_t vertices = index.numbering.overlay_size(patch);
-    if (columns * (begin[end] - begin[first]) > MOST_ACROSS_EACH * vertices * vertices / 2) return;
+    const double vertices = index.numbering.overlay_size(patch), rows = begin[end] - begin[first];
+    if (static_cast<double>(columns) * rows > MOST_ACROSS_EACH * vertices * vertices / 2) return;
     for (uint32_t child = first; child < end; ++child)
         if (has_table(child)) use(child);
 }

@@ -9,8 +9,8 @@
 #include "src/overlay/tables/half_table.h"
 #include "src/overlay/tables/hop_tables.h"
 #include "src/overlay/tables/measured_pairs.h"
-#include "src/overlay/tables/pair_tables.h"
 #include "src/overlay/tables/rings.h"
+#include "src/overlay/tables/samples_and_labels.h"
 #include "src/overlay/tables/steep_edges.h"
 
 namespace geodesic {

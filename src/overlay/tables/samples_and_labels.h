@@ -25,11 +25,11 @@ namespace geodesic {
 // Up: for each patch whose parent has a border, rows for the samples of the patch, each with one code for
 // every sample of the parent. Across: for each patch with a long border, or with one beside it, rows for the
 // samples of all children of its parent, in the order of their numbers, each with one code for every sample
-// of the patch. Hops across that have no table read that of the parent's overlay: few of them, but on a mesh
-// of many patches that share few vertices. A sample and
-// itself are at distance 0. Where a hop up leads to a sample that lies on the border below, too, its distance
-// is known there: other ways to it are made longer, by half of what samples are apart. From a sample that
-// lies on both borders of a hop across, there is no path to others.
+// of the patch. There are none where they would be out of proportion to the table of the parent's overlay, as
+// where many patches share few vertices. A hop across for which there is no table reads that of the overlay.
+// A sample and itself are at distance 0. Where a hop up leads to a sample that lies on the border below, too,
+// its distance is known there: other ways to it are made longer, by half of what samples are apart. From a
+// sample that lies on both borders of a hop across, there is no path to others.
 struct Samples {
     explicit Samples(std::pmr::memory_resource* memory)
         : begin(memory), place(memory), spacing(memory), excess(memory), long_begin(memory),
