@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/campaign/finding.h"
+#include "tests/support/surface_options.h"
 
 namespace geodesic::campaign {
 
@@ -162,15 +163,7 @@ geoidx_status BuildInput::answer(void* user, uint32_t source, const uint32_t* ta
 }
 
 SurfaceHandle BuildInput::make_surface() const {
-    geoidx_surface_options options;
-    geoidx_surface_options_init(&options);
-    options.weld_tolerance = options_.weld_tolerance;
-    options.edge_cost_vertices = options_.edge_cost_vertices;
-    options.edge_costs = options_.edge_costs;
-    options.edge_cost_count = options_.edge_cost_count;
-    options.face_costs = options_.face_costs;
-    options.face_cost_count = options_.face_cost_count;
-    options.points_per_edge = options_.points_per_edge;
+    const geoidx_surface_options options = test::surface_options(options_);
     geoidx_surface* made = nullptr;
     succeed(geoidx_surface_create(&mesh_, &options, &made), "geoidx_surface_create");
     return SurfaceHandle(made);

@@ -130,13 +130,9 @@ std::string bits_of_surface(const BuildInput& input, const geoidx_surface* surfa
 
 // The surface of the mesh that the files keep is that of the mesh that they were built from.
 void check_kept_mesh(const BuildInput& input, const std::vector<std::vector<std::byte>>& files) {
-    geoidx_surface_options options;
-    geoidx_surface_options_init(&options);
-    options.weld_tolerance = input.options().weld_tolerance;
-    geoidx_surface* made = nullptr;
-    succeed(geoidx_surface_create(&input.mesh(), &options, &made), "geoidx_surface_create");
-    const std::string own = bits_of_surface(input, SurfaceHandle(made).get());
+    const std::string own = bits_of_surface(input, input.make_surface().get());
     for (const auto& file : files) {
+        geoidx_surface* made = nullptr;
         succeed(geoidx_surface_of_index(opened(input, file).get(), nullptr, &made),
                 "geoidx_surface_of_index");
         expect(bits_of_surface(input, SurfaceHandle(made).get()) == own, "the kept mesh is the mesh",

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "tests/campaign/surface_points.h"
-
 namespace geodesic::campaign {
 
 namespace {
@@ -25,8 +23,8 @@ Eigen::Vector3d position_of(const geoidx_path_point& point) {
 
 class PathChecks {
 public:
-    PathChecks(const Subject& subject, geoidx_solver* solver)
-        : subject_(subject), input_(subject.input()), solver_(solver), points_(subject.input()),
+    PathChecks(const Subject& subject, const SurfacePoints& points, geoidx_solver* solver)
+        : subject_(subject), input_(subject.input()), solver_(solver), points_(points),
           rounding_(POSITION_ROUNDING * points_.extent()) {}
 
     void check(Dice& dice) {
@@ -179,16 +177,16 @@ private:
     const Subject& subject_;
     const BuildInput& input_;
     geoidx_solver* solver_;
-    SurfacePoints points_;
+    const SurfacePoints& points_;
     const double rounding_;
     std::string at_; // the pair that is looked at
 };
 
 }
 
-void check_paths(const Subject& subject, geoidx_solver* solver, Dice& dice) {
+void check_paths(const Subject& subject, const SurfacePoints& points, geoidx_solver* solver, Dice& dice) {
     if (subject.input().options().edge_lengths) return;
-    PathChecks(subject, solver).check(dice);
+    PathChecks(subject, points, solver).check(dice);
 }
 
 }

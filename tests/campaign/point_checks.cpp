@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/campaign/surface_points.h"
-
 namespace geodesic::campaign {
 
 namespace {
@@ -13,8 +11,8 @@ constexpr size_t POINTS = 5;
 
 class PointChecks {
 public:
-    PointChecks(const Subject& subject, geoidx_solver* solver, Dice& dice)
-        : subject_(subject), input_(subject.input()), solver_(solver), on_(subject.input()), dice_(dice) {
+    PointChecks(const Subject& subject, const SurfacePoints& on, geoidx_solver* solver, Dice& dice)
+        : subject_(subject), input_(subject.input()), solver_(solver), on_(on), dice_(dice) {
         for (size_t i = 0; i < POINTS; ++i) points_.push_back(on_.random_point(dice, dice.chance(0.2)));
     }
 
@@ -206,7 +204,7 @@ private:
     const Subject& subject_;
     const BuildInput& input_;
     geoidx_solver* solver_;
-    SurfacePoints on_;
+    const SurfacePoints& on_;
     Dice& dice_;
     std::vector<geoidx_surface_point> points_;
     std::vector<Floats> fields_; // of each point
@@ -214,11 +212,11 @@ private:
 
 }
 
-void check_points(const Subject& subject, geoidx_solver* solver, Dice& dice) {
+void check_points(const Subject& subject, const SurfacePoints& points, geoidx_solver* solver, Dice& dice) {
     const geoidx_build_options& options = subject.input().options();
     const bool is_served = (options.metric == GEOIDX_METRIC_EXACT && !options.edge_lengths) ||
                            (options.metric == GEOIDX_METRIC_EDGES && !options.edge_costs);
-    if (is_served) PointChecks(subject, solver, dice).check();
+    if (is_served) PointChecks(subject, points, solver, dice).check();
 }
 
 }

@@ -213,8 +213,9 @@ void check_queries(const Subject& subject, geoidx_solver* solver, std::span<cons
     const Floats field = subject.msad(one.sources);
     check_radius(subject, one.sources, field, dice);
     check_threads(subject, one.sources, field, dice);
-    check_points(subject, solver, dice);
-    check_paths(subject, solver, dice);
+    const SurfacePoints points(subject.input());
+    check_points(subject, points, solver, dice);
+    check_paths(subject, points, solver, dice);
     if (dice.chance(0.2)) check_at_once(subject, truths, dice.bits());
 }
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include "tests/campaign/finding.h"
+#include "tests/support/triangle_distance.h"
 
 namespace geodesic::campaign {
 
@@ -56,14 +55,10 @@ Eigen::Vector3d SurfacePoints::corner(uint32_t triangle, size_t k) const {
         input_.surface().representative(input_.mesh().triangles[3 * size_t{triangle} + k]));
 }
 
-Eigen::Vector3d SurfacePoints::position(uint32_t triangle, std::span<const double, 3> weights) const {
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    for (size_t k = 0; k < 3; ++k) at += weights[k] * corner(triangle, k);
-    return at;
-}
-
 Eigen::Vector3d SurfacePoints::position(const geoidx_surface_point& point) const {
-    return position(point.triangle, std::span<const double, 3>(point.weights));
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    for (size_t k = 0; k < 3; ++k) at += point.weights[k] * corner(point.triangle, k);
+    return at;
 }
 
 bool SurfacePoints::are_joined(const geoidx_surface_point& a, const geoidx_surface_point& b) const {
@@ -109,19 +104,7 @@ double SurfacePoints::along_edges(const geoidx_surface_point& a, const geoidx_su
 }
 
 double SurfacePoints::distance_from_triangle(uint32_t triangle, const Eigen::Vector3d& at) const {
-    const Eigen::Vector3d normal =
-        (corner(triangle, 1) - corner(triangle, 0)).cross(corner(triangle, 2) - corner(triangle, 0));
-    double least = FAR;
-    bool is_inside = true;
-    for (size_t k = 0; k < 3; ++k) {
-        const Eigen::Vector3d from = corner(triangle, k), side = corner(triangle, (k + 1) % 3) - from;
-        const double square = side.squaredNorm();
-        const double share = square > 0 ? std::clamp((at - from).dot(side) / square, 0.0, 1.0) : 0;
-        least = std::min(least, (at - from - share * side).norm());
-        is_inside = is_inside && side.cross(at - from).dot(normal) > 0;
-    }
-    if (!is_inside) return least;
-    return std::min(least, std::abs((at - corner(triangle, 0)).dot(normal)) / normal.norm());
+    return test::distance_from_triangle({corner(triangle, 0), corner(triangle, 1), corner(triangle, 2)}, at);
 }
 
 bool SurfacePoints::has_point(uint32_t triangle, const geoidx_surface_point& point) const {

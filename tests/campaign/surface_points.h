@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -28,7 +27,6 @@ public:
     // Of the corners of its triangle.
     std::array<uint32_t, 3> vertices(const geoidx_surface_point& point) const;
     Eigen::Vector3d position(const geoidx_surface_point& point) const;
-    Eigen::Vector3d position(uint32_t triangle, std::span<const double, 3> weights) const;
     bool are_joined(const geoidx_surface_point& a, const geoidx_surface_point& b) const;
 
     // Of a point: how far every vertex is straight to a corner and along edges from there, as
@@ -44,7 +42,7 @@ public:
     // What a straight piece between two points of a triangle costs for each unit of its length: that of the
     // cheapest triangle that has both, along an edge and where triangles are duplicates.
     double cost_of_piece(const geoidx_surface_point& a, const geoidx_surface_point& b) const;
-    // The largest coordinate or length that positions are rounded by.
+    // The largest coordinate, by which positions are rounded.
     double extent() const { return extent_; }
 
 private:

@@ -11,6 +11,7 @@
 #include "tests/support/handles.h"
 #include "tests/support/meshes.h"
 #include "tests/support/stress_meshes.h"
+#include "tests/support/surface_options.h"
 
 // An index, a surface, a solver and a query of one mesh.
 namespace geodesic::test {
@@ -21,20 +22,6 @@ inline geoidx_build_options path_options(uint32_t engine = GEOIDX_ENGINE_OVERLAY
     geoidx_build_options_init(&options);
     options.engine = engine;
     options.metric = metric;
-    return options;
-}
-
-// With the same costs, which must outlive both.
-inline geoidx_surface_options surface_options(const geoidx_build_options& build) {
-    geoidx_surface_options options;
-    geoidx_surface_options_init(&options);
-    options.weld_tolerance = build.weld_tolerance;
-    options.edge_cost_count = build.edge_cost_count;
-    options.edge_cost_vertices = build.edge_cost_vertices;
-    options.edge_costs = build.edge_costs;
-    options.face_costs = build.face_costs;
-    options.face_cost_count = build.face_cost_count;
-    options.points_per_edge = build.points_per_edge;
     return options;
 }
 

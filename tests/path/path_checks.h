@@ -9,6 +9,7 @@
 
 #include "tests/capi/refusals.h"
 #include "tests/path/path_cases.h"
+#include "tests/support/triangle_distance.h"
 
 // What holds of every path.
 namespace geodesic::test {
@@ -19,22 +20,6 @@ inline std::vector<geoidx_path_point> points_of(const PathCase& on) {
     std::vector<geoidx_path_point> points(count);
     REQUIRE(geoidx_query_path_points(on.query.get(), points.data(), count, &count) == GEOIDX_OK);
     return points;
-}
-
-// How far a position is from a triangle, be it a needle: from a side, or from the plane beside its inside.
-inline double distance_from_triangle(const Soup& soup, uint32_t triangle, const Eigen::Vector3d& at) {
-    std::array<Eigen::Vector3d, 3> corners;
-    for (size_t k = 0; k < 3; ++k) corners[k] = soup.positions[soup.triangles[triangle][k]];
-    const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    double least = INFINITY;
-    bool is_inside = true;
-    for (size_t k = 0; k < 3; ++k) {
-        const Eigen::Vector3d side = corners[(k + 1) % 3] - corners[k], to = at - corners[k];
-        const double share = std::clamp(to.dot(side) / side.squaredNorm(), 0.0, 1.0);
-        least = std::min(least, (to - share * side).norm());
-        is_inside = is_inside && side.cross(to).dot(normal) > 0;
-    }
-    return is_inside ? std::min(least, std::abs((at - corners[0]).dot(normal)) / normal.norm()) : least;
 }
 
 // Whether a point lies in a triangle by its weights: at corners of it, as those that lie at one place are.
@@ -71,7 +56,10 @@ inline void check_path(const PathCase& on, const geoidx_surface_point& from, con
         CHECK(weights == doctest::Approx(1).epsilon(1e-12));
         CHECK((on.position(points[i].point) - at(i)).norm() < CLOSE);
         if (i + 1 == points.size()) break;
-        CHECK(distance_from_triangle(on.soup, points[i].point.triangle, at(i + 1)) < 1e-8);
+        const auto& corners = on.soup.triangles[points[i].point.triangle];
+        const auto& positions = on.soup.positions;
+        CHECK(distance_from_triangle({positions[corners[0]], positions[corners[1]], positions[corners[2]]},
+                                     at(i + 1)) < 1e-8);
         CHECK(is_in_triangle(on.soup, points[i + 1].point, points[i].point.triangle));
         sum += (cost.empty() ? 1 : cost[points[i].point.triangle]) * (at(i + 1) - at(i)).norm();
     }
